@@ -137,7 +137,7 @@ TEST(Journey, AHundredThousandShortLinesEndExactly) {
     }
     program += "G0 X0 Y0\nM2\n";
     JobSettings settings = settings_of(program);
-    settings.most_samples = 1000;
+    settings.max_samples = 1000;
     Running running(router(), settings);
     const JobOutcome outcome = running.job.run();
     ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();

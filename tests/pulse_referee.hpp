@@ -33,7 +33,7 @@ class PulseLog final : public sim::EdgeListener {
     std::size_t size() const { return at_.size(); }
 
     /// The greatest jump, `window` s before and after each pulse. `accel`: pulses/s2.
-    SpeedJump greatest_jump(double window, double accel) const {
+    SpeedJump max_jump(double window, double accel) const {
         SpeedJump worst;
         std::size_t before = 0, after = 0;
         for (std::size_t i = 0; i < at_.size(); ++i) {
@@ -80,7 +80,7 @@ class PulseReferee {
             rack_.axes()[i].turned_by().deliver_edges();
             const double pulses = axis.pulses_per_unit();
             for (const double window : {0.002, 0.004}) {
-                SpeedJump jump = logs_[i].greatest_jump(window, accel_parts * axis.max_accel * pulses);
+                SpeedJump jump = logs_[i].max_jump(window, accel_parts * axis.max_accel * pulses);
                 jump.speed /= pulses;
                 const double parts = jump.speed / axis.max_velocity_step;
                 if (parts > worst.parts) worst = {parts, static_cast<int>(i), jump};

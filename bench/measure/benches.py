@@ -21,7 +21,7 @@ KEPT = (
     "p999_us",
     "p99.9_us",
     "max_us",
-    "most_us",
+    "peak_us",
     "lost",
     "dropped",
     "snapshot_bytes",

@@ -104,9 +104,9 @@ def _below(program: Program, measured: dict[str, dict]) -> list[str]:
         )
     if program.name == "curve":
         rows = [
-            (f"`{name}`", f"{row['p99.9_us']:,.1f} us", f"{row['most_us']:,.0f} us")
+            (f"`{name}`", f"{row['p99.9_us']:,.1f} us", f"{row['peak_us']:,.0f} us")
             for name, row in measured.items()
-            if "most_us" in row
+            if "peak_us" in row
         ]
         return ["", *table(("a block", "999 of 1,000 within", "the slowest"), rows)] if rows else []
     return []

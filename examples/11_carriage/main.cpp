@@ -39,11 +39,11 @@ class Carriage {
 
     Result<void> run() {
         MOTIONRACK_CHECK(driver_.connect());
-        MOTIONRACK_CHECK(leg("A-C", c, 100'000, most_rate));
+        MOTIONRACK_CHECK(leg("A-C", c, 100'000, max_rate));
         MOTIONRACK_CHECK(driver_.set_deviation(25));
         MOTIONRACK_CHECK(driver_.lock());
         port().pass(whole_seconds(1));
-        MOTIONRACK_CHECK(leg("C-B", b, 30'000, most_rate));
+        MOTIONRACK_CHECK(leg("C-B", b, 30'000, max_rate));
         port().pass(milliseconds(500));
         return leg("B-A", a, 100'000, scale_.rate_for(10'000));
     }
@@ -60,7 +60,7 @@ class Carriage {
     const Record& record() const { return record_; }
 
   private:
-    static constexpr int most_rate = db::most_rate;
+    static constexpr int max_rate = db::max_rate;
 
     sim::VirtualBytePort& port() { return *rack_.card("board")->byte_port(); }
 

@@ -18,7 +18,7 @@
 namespace howto {
 
 using namespace motionrack;
-using databoard4002::design_slope, databoard4002::motion_of, databoard4002::most_rate;
+using databoard4002::design_slope, databoard4002::motion_of, databoard4002::max_rate;
 using databoard4002::SlopeDemand, databoard4002::SlopeMotion, databoard4002::SlopeTable, databoard4002::SpeedScale;
 
 inline constexpr double counts_per_mm = 100;

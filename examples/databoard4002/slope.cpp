@@ -33,12 +33,12 @@ Result<std::string> slope() {
     demand.acceleration = 100'000, demand.deceleration = 60'000;
     demand.creep_speed = 800, demand.lag_s = 0.01;  // the last step, and how late the motor follows
     MOTIONRACK_TRY(const SlopeTable gentle, design_slope(demand, scale));
-    MOTIONRACK_TRY(const SlopeMotion empty, motion_of(gentle, 150'000, most_rate, scale));
+    MOTIONRACK_TRY(const SlopeMotion empty, motion_of(gentle, 150'000, max_rate, scale));
     print("empty ", empty);
 
     demand.load = 1;  // as much inertia again: both ramps become twice as long
     MOTIONRACK_TRY(const SlopeTable table, design_slope(demand, scale));
-    MOTIONRACK_TRY(const SlopeMotion loaded, motion_of(table, 150'000, most_rate, scale));
+    MOTIONRACK_TRY(const SlopeMotion loaded, motion_of(table, 150'000, max_rate, scale));
     print("loaded", loaded);
     for (std::size_t i : {0u, 1u, 22u, 23u, 24u, 45u, 46u}) {
         const auto& leg = loaded.legs[i];

@@ -52,7 +52,7 @@ bool Authenticator::has(std::string_view name) const {
 AuthResult<Authenticator::Paired> Authenticator::admit(std::string_view name, Role role, WallTime now) {
     std::vector<Token> before = tokens_;
     std::erase_if(tokens_, [&](const Token& token) { return token.identity.expires <= now; });
-    if (tokens_.size() >= settings_.most_tokens) {
+    if (tokens_.size() >= settings_.max_tokens) {
         const std::size_t there = tokens_.size();
         tokens_ = std::move(before);
         return deny(AuthError::Why::failed,
@@ -115,7 +115,7 @@ Result<std::string> Authenticator::invite(Role role, Timestamps now) {
     if (role == Role::none)
         return fail(ErrorKind::invalid_input, "Nobody was invited: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
-    if (invitations_.size() >= settings_.most_invitations)
+    if (invitations_.size() >= settings_.max_invitations)
         return fail(
             ErrorKind::refused,
             fmt::format("Nobody was invited: {} codes are open, which is the most. Wait until some are used or over.",

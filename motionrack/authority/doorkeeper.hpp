@@ -35,7 +35,7 @@ struct AuthSettings {
     std::filesystem::path users_file = {};  ///< empty: kept in memory only
     std::chrono::minutes invitation_life{10};
     std::chrono::hours token_life{90 * 24};
-    std::size_t most_tokens = 500, most_invitations = 50;
+    std::size_t max_tokens = 500, max_invitations = 50;
     double failed_burst = 5, wrong_per_second = 0.1;          ///< wrong codes of one address
     double all_wrong_at_once = 60, all_wrong_per_second = 1;  ///< and of all together
     /// Gets the code that lets the first person in, at once and each time that it was used; empty: there is none.

@@ -13,12 +13,12 @@ RateLimit::Bucket& RateLimit::bucket(std::string_view key, Time now) {
         }
     };
     auto found = buckets_.find(key);
-    if (found == buckets_.end() && buckets_.size() >= most_keys_) {
+    if (found == buckets_.end() && buckets_.size() >= max_keys_) {
         for (auto it = buckets_.begin(); it != buckets_.end();) {
             fill(it->second);
             it = it->second.left >= at_once_ ? buckets_.erase(it) : std::next(it);
         }
-        if (buckets_.size() >= most_keys_) key = "", found = buckets_.find(key);
+        if (buckets_.size() >= max_keys_) key = "", found = buckets_.find(key);
     }
     if (found == buckets_.end()) found = buckets_.emplace(std::string(key), Bucket{at_once_, now}).first;
     fill(found->second);

@@ -9,14 +9,14 @@
 
 namespace motionrack::authority {
 
-/// A bucket of tries a key, which fills again with time. Keeps at most `most_keys`: full buckets are forgotten, and
+/// A bucket of tries a key, which fills again with time. Keeps at most `max_keys`: full buckets are forgotten, and
 /// while there are none, keys that are not known share one bucket.
 class RateLimit {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    RateLimit(double at_once, double per_second, std::size_t most_keys = 10'000)
-        : at_once_(at_once), per_second_(per_second), most_keys_(most_keys) {}
+    RateLimit(double at_once, double per_second, std::size_t max_keys = 10'000)
+        : at_once_(at_once), per_second_(per_second), max_keys_(max_keys) {}
 
     /// Takes one try. False: there is none.
     bool take(std::string_view key, Time now);
@@ -32,7 +32,7 @@ class RateLimit {
     Bucket& bucket(std::string_view key, Time now);
 
     double at_once_, per_second_;
-    std::size_t most_keys_;
+    std::size_t max_keys_;
     std::map<std::string, Bucket, std::less<>> buckets_;
 };
 

@@ -8,7 +8,7 @@ namespace motionrack {
 
 namespace {
 
-constexpr double most_squared = 1e6;
+constexpr double max_squared = 1e6;
 constexpr double root_half_of_power = 0x1.6a09e667f3bcdp-1;
 
 /// high + low, where low is below half an ulp of high.
@@ -103,7 +103,7 @@ double power(double x, double y) {
         const bool grows = (x > 1) == (y > 0);
         return x == 1 ? 1 : grows ? std::numeric_limits<double>::infinity() : 0;
     }
-    if (whole && std::fabs(y) <= most_squared) return whole_power(x, y);
+    if (whole && std::fabs(y) <= max_squared) return whole_power(x, y);
     const Pair exponent = logarithm(std::fabs(x)) * Pair{y, 0};
     const double size = exponential(exponent.high);
     const bool odd = whole && std::fmod(y, 2) != 0;

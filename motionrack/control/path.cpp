@@ -29,7 +29,7 @@ LookAheadPlanner::LookAheadPlanner(const MachineLimits& limits, const Point& sta
     mask_ = size - 1;
     slots_.resize(size);
     nodes_.resize(size);
-    if (drive_ != nullptr) least_seconds_ = drive_->least_seconds(), late_seconds_ = drive_->late_seconds();
+    if (drive_ != nullptr) min_seconds_ = drive_->min_seconds(), late_seconds_ = drive_->late_seconds();
     for (std::size_t i = 0; i < limits.size(); ++i)
         half_pulse_[i] = limits[i].pulses_per_unit > 0 ? 0.5 / limits[i].pulses_per_unit : 1e9;
 }
@@ -61,7 +61,7 @@ Result<void> LookAheadPlanner::push(const Move& move) {
 /// As fast as the hardware can be given such moves, at most.
 AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
     AlongPathLimits along = limits_.along(path, move);
-    if (least_seconds_ > 0) along.speed = std::min(along.speed, path.length / least_seconds_);
+    if (min_seconds_ > 0) along.speed = std::min(along.speed, path.length / min_seconds_);
     return along;
 }
 
@@ -77,11 +77,11 @@ double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, c
 /// Along a curve in short lines the hardware's rate stands for more and more speed, or less and less: of what it can
 /// slow down a part goes into that. At corners the speed is low, and lines have room for it.
 double LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
-    constexpr double least_cosine = 0.98;
+    constexpr double min_cosine = 0.98;
     if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
-    if (cosine < least_cosine) return 1;
+    if (cosine < min_cosine) return 1;
     const double ratio = drive_->speed_ratio(before.path, path);
     return std::max(1.0, ratio * ratio);
 }
@@ -100,7 +100,7 @@ double LookAheadPlanner::braked(const Node& node, double exit) {
 }
 
 /// Square of the least speed at the end of a move that begins with the square `entry`.
-double LookAheadPlanner::slowest_exit(const Node& node, double entry) {
+double LookAheadPlanner::min_exit(const Node& node, double entry) {
     return node.lag == 0 ? entry - node.reach : entry - std::max(0.0, node.reach - 2 * node.lag * std::sqrt(entry));
 }
 
@@ -145,9 +145,9 @@ bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) 
 
 /// A straight move of this length takes the hardware's least time at its speed, and most of it can be used for changing
 /// the speed.
-double LookAheadPlanner::least_length(const Geometry& path, const Move& move) const {
+double LookAheadPlanner::min_length(const Geometry& path, const Move& move) const {
     constexpr double spent_lengths = 12;
-    return std::max(limits_.along(path, move).speed * least_seconds_,
+    return std::max(limits_.along(path, move).speed * min_seconds_,
                     spent_lengths * drive_->constant_velocity_length(path));
 }
 
@@ -155,11 +155,11 @@ double LookAheadPlanner::least_length(const Geometry& path, const Move& move) co
 /// entry speed that is final depends on it.
 bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     constexpr double part_of_tolerance = 0.25;
-    if (least_seconds_ <= 0 || tail_ == ready_ || between_size_ == most_between) return false;
+    if (min_seconds_ <= 0 || tail_ == ready_ || between_size_ == max_between) return false;
     const std::uint64_t index = tail_ - 1;
     PlannedMove& last = slot(index);
     if (!are_alike(last.move, move) || (index == ready_ ? committed_ != 0 : index <= settled_)) return false;
-    if (last_.path.length >= least_length(last_.path, last.move)) return false;
+    if (last_.path.length >= min_length(last_.path, last.move)) return false;
     if (join_corner(last_, path, along_of(path, move)) <= 0) return false;
     Move whole = last.move;
     whole.end = move.end;
@@ -243,7 +243,7 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
         // After change_feeds() a joint may want to be slower than can be braked to.
-        if (const double slowest = slowest_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
+        if (const double slowest = min_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
         double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         // From rest to rest over what the hardware spends on its changes of speed: a pulse or two.
         if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);

@@ -8,7 +8,7 @@
 // every push but when a quarter more than the window is open; it ends where nothing can change any more, which is where
 // an entry speed is limited by its joint and not by braking. So a push costs the same for any window.
 //
-// Hardware asks for moves that take their time (DriveConstraints::least_seconds). Straight moves that are shorter go
+// Hardware asks for moves that take their time (DriveConstraints::min_seconds). Straight moves that are shorter go
 // into one line with those behind them, as far as the tolerance lets them; what is left short is driven slowly.
 #pragma once
 
@@ -85,14 +85,14 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     void append_dwell(const Move& move);
     void append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint);
     bool merge(const Move& move, const Geometry& path);
-    double least_length(const Geometry& path, const Move& move) const;
+    double min_length(const Geometry& path, const Move& move) const;
     bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
     AlongPathLimits along_of(const Geometry& path, const Move& move) const;
     double join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
     double gain_of(const Last& before, const Geometry& path) const;
     Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, double gain) const;
     static double braked(const Node& node, double exit);
-    static double slowest_exit(const Node& node, double entry);
+    static double min_exit(const Node& node, double entry);
     void backward();
     void forward(std::uint64_t until);
 
@@ -111,11 +111,11 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     std::int64_t pushed_ = 0;    ///< moves that are planned or were
     Point position_;
     Last last_, before_last_;  ///< open moves
-    double least_seconds_ = 0, late_seconds_ = 0;
+    double min_seconds_ = 0, late_seconds_ = 0;
     std::array<double, axis_count> half_pulse_ = {};
     bool apart_ = false;
-    static constexpr std::size_t most_between = 31;
-    std::array<Point, most_between> between_ = {};  ///< where the moves meet that the last one is made of
+    static constexpr std::size_t max_between = 31;
+    std::array<Point, max_between> between_ = {};  ///< where the moves meet that the last one is made of
     std::size_t between_size_ = 0;
 };
 

@@ -16,7 +16,7 @@ constexpr double share_along_arc = 0.4;
 constexpr double no_limit_left = 1e200;
 
 /// Joints slower than this (units a second, squared) are stops.
-constexpr double slowest_joint_squared = 1e-18;
+constexpr double min_junction_velocity2 = 1e-18;
 
 double reciprocal(double limit) {
     return limit > 0 ? 1 / limit : no_limit_left;
@@ -131,7 +131,7 @@ double PathLimits::max_junction_velocity2(const Geometry& before, double speed_b
         const double mean_length = 0.5 * (before.length + after.length);
         limit = std::min(limit, max_corner_velocity2(before.tangent_out, after.tangent_in, mean_length, tolerance_mm));
     }
-    return limit < slowest_joint_squared ? 0 : limit;
+    return limit < min_junction_velocity2 ? 0 : limit;
 }
 
 }  // namespace motionrack::control

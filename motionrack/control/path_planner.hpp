@@ -26,7 +26,7 @@ class DriveConstraints {
         return 1;
     }
     /// A move that takes less, s, may be over before the hardware has the next one.
-    virtual double least_seconds() const { return 0; }
+    virtual double min_seconds() const { return 0; }
     /// A new speed counts so long after the joint of two moves, s: until then the old one goes on.
     virtual double late_seconds() const { return 0; }
 };

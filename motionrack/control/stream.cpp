@@ -15,9 +15,9 @@ using gcode::CanonCall;
 using gcode::CanonCallKind;
 
 /// Pieces of an arc are short enough to tell from a place where on it the machine is.
-constexpr double most_sweep = 2 * pi / 3;
+constexpr double max_sweep = 2 * pi / 3;
 /// And all pieces long enough that their ends on whole pulses do not matter.
-constexpr double least_pulses = 200;
+constexpr double min_pulses = 200;
 
 }  // namespace
 
@@ -110,11 +110,11 @@ void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
     double pulses = 0;  // of the fastest axis for a unit of length
     for (std::size_t i = 0; i < worst.size(); ++i)
         pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
-    const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
+    const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / min_pulses);
     // Axes that position one by one would come to rest at the end of each.
     if (!ride_ && !settings_.gcode.point_to_point)
         cut.pieces = static_cast<int>(
-            std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
+            std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / max_sweep), 1e9))));
     cutting_ = cut;
     ++moves_;
 }

@@ -18,7 +18,7 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
     InterpolatorSettings settings;
-    settings.most_seconds = max_line_seconds;
+    settings.max_seconds = max_line_seconds;
     settings.cut_dwells = true;
     return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
 }

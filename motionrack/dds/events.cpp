@@ -94,7 +94,7 @@ std::string sentence(const Event& e) {
 
 bool EventQueue::open(EventKind kind, Instant now) const {
     const auto at = static_cast<std::size_t>(kind);
-    return !told_[at] || now - last_[at] >= least_distance;
+    return !told_[at] || now - last_[at] >= min_distance;
 }
 
 void EventQueue::put(const Event& event) {

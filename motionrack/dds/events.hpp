@@ -44,7 +44,7 @@ std::string sentence(const Event& event);
 /// Holds events until someone reads them; one a second of each kind, for a thousand bad frames are one report.
 class EventQueue {
   public:
-    static constexpr Duration least_distance = whole_seconds(1);
+    static constexpr Duration min_distance = whole_seconds(1);
 
     /// Whether an event of this kind may be put.
     bool open(EventKind kind, Instant now) const;

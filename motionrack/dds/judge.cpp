@@ -39,7 +39,7 @@ bool good_name(const Source& source) {
 }
 
 bool in_range(std::int64_t ticks) {
-    return ticks >= shortest_period.count() && ticks <= longest_period.count();
+    return ticks >= shortest_period.count() && ticks <= max_period.count();
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ bool FrameValidator::in_conflict() const {
 /// What can be said of a sample by itself.
 Validation FrameValidator::check(const Sample& sample) const {
     if (sample.format != wire_format) return Validation::foreign;
-    if (sample.frame.words < 1 || sample.frame.words > grating_bus::most_scales) return Validation::malformed;
+    if (sample.frame.words < 1 || sample.frame.words > grating_bus::max_scales) return Validation::malformed;
     if (sample.check != check_of(sample) || !sound(sample.frame)) return Validation::wrong_crc;
     if (!in_range(sample.period) || !in_range(sample.pace) || sample.frame.time < 0 || !good_name(sample.source))
         return Validation::malformed;
@@ -214,7 +214,7 @@ void FrameValidator::note_other(const Source& source, Instant now) {
     const auto end = others_.begin() + static_cast<std::ptrdiff_t>(other_count_);
     auto at = std::find_if(others_.begin(), end, [&](const OtherSource& other) { return other.source == source; });
     if (at == end) {
-        if (other_count_ == most_others) return;
+        if (other_count_ == max_others) return;
         ++other_count_;
         *at = OtherSource{source, 0, now, false};
     }

@@ -57,7 +57,7 @@ struct OtherSource {
 
 class FrameValidator {
   public:
-    static constexpr std::size_t most_others = 8;
+    static constexpr std::size_t max_others = 8;
 
     explicit FrameValidator(const ValidatorSettings& settings = {}) : settings_(settings) {}
 
@@ -108,7 +108,7 @@ class FrameValidator {
     SequenceWindow window_;
     bool doubtful_ = false;  ///< `doubt_` jumped; a frame that goes on from it begins the sequence anew
     Frame doubt_;
-    std::array<OtherSource, most_others> others_;
+    std::array<OtherSource, max_others> others_;
     std::size_t other_count_ = 0;
     EventQueue events_;
 };

@@ -19,7 +19,7 @@ Instant FramePacer::due(Instant frame, Instant now) {
     const Duration behind = now - due;
     worst_ = std::max(worst_, behind);
     if (behind > pace_) ++late_;
-    if (behind <= most_behind) return due;
+    if (behind <= max_behind) return due;
     ++slips_;
     first_frame_ = frame;
     first_due_ = now;

@@ -9,14 +9,14 @@ namespace motionrack::dds {
 
 class FramePacer {
   public:
-    static constexpr Duration most_behind = whole_seconds(1);
+    static constexpr Duration max_behind = whole_seconds(1);
 
     /// `speed`: bus time that passes in a unit of real time, above 0; `pace`: real time between two frames.
     FramePacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
 
     /// When the frame of bus time `frame` is due, asked at `now`. The first frame is due at once. What is due in the
     /// past is published at once and counted as late if it is by more than a pace; who is behind by more than
-    /// `most_behind` does not catch up: the schedule begins anew, which is a slip.
+    /// `max_behind` does not catch up: the schedule begins anew, which is a slip.
     Instant due(Instant frame, Instant now);
 
     std::uint64_t late() const { return late_; }

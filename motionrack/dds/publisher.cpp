@@ -11,11 +11,10 @@ namespace motionrack::dds {
 namespace {
 
 Result<void> check_time(const char* what, Duration time) {
-    if (time >= shortest_period && time <= longest_period) return {};
-    return fail(
-        ErrorKind::invalid_input,
-        fmt::format("The {} of the frames is {:g} us, but must be {:g} us to {:g} s. Nothing was published.", what,
-                    to_seconds(time) * 1e6, to_seconds(shortest_period) * 1e6, to_seconds(longest_period)));
+    if (time >= shortest_period && time <= max_period) return {};
+    return fail(ErrorKind::invalid_input,
+                fmt::format("The {} of the frames is {:g} us, but must be {:g} us to {:g} s. Nothing was published.",
+                            what, to_seconds(time) * 1e6, to_seconds(shortest_period) * 1e6, to_seconds(max_period)));
 }
 
 class NetworkPublisher final : public Publisher {

@@ -48,7 +48,7 @@ struct Sample {
 };
 
 inline constexpr Duration shortest_period = microseconds(1);
-inline constexpr Duration longest_period = whole_seconds(60);  ///< of the bus and in real time
+inline constexpr Duration max_period = whole_seconds(60);  ///< of the bus and in real time
 
 std::uint32_t check_of(const Sample& sample);
 

@@ -8,7 +8,7 @@
 namespace motionrack::dds {
 
 void WireBuffer::put(const Sample& sample) {
-    MOTIONRACK_ASSERT(sample.frame.words <= grating_bus::most_scales);
+    MOTIONRACK_ASSERT(sample.frame.words <= grating_bus::max_scales);
     wire_.format = sample.format;
     std::copy(sample.source.id.begin(), sample.source.id.end(), wire_.source);
     std::transform(sample.source.host.begin(), sample.source.host.end(), wire_.host,
@@ -38,7 +38,7 @@ void WireBuffer::get(Sample& sample) const {
     sample.frame.sequence = wire_.sequence_number;
     // The engine refuses longer sequences; a shorter copy, or one with too few addresses, would only be a wrong CRC.
     sample.frame.words =
-        std::min({wire_.counts._length, wire_.addresses._length, static_cast<std::uint32_t>(grating_bus::most_scales)});
+        std::min({wire_.counts._length, wire_.addresses._length, static_cast<std::uint32_t>(grating_bus::max_scales)});
     std::copy_n(wire_.counts._buffer, sample.frame.words, sample.frame.counts.begin());
     std::copy_n(wire_.addresses._buffer, sample.frame.words, sample.frame.addresses.begin());
     sample.frame.crc = wire_.crc;

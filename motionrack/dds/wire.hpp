@@ -15,10 +15,10 @@ inline constexpr const char* topic_name = "motionrack_grating_frames";
 class WireBuffer {
   public:
     WireBuffer() {
-        wire_.counts._maximum = grating_bus::most_scales;
+        wire_.counts._maximum = grating_bus::max_scales;
         wire_.counts._buffer = counts_.data();
         wire_.counts._release = false;
-        wire_.addresses._maximum = grating_bus::most_scales;
+        wire_.addresses._maximum = grating_bus::max_scales;
         wire_.addresses._buffer = addresses_.data();
         wire_.addresses._release = false;
     }
@@ -32,8 +32,8 @@ class WireBuffer {
 
   private:
     motionrack_dds_WireSample wire_{};
-    std::array<std::uint32_t, grating_bus::most_scales> counts_{};
-    std::array<std::uint8_t, grating_bus::most_scales> addresses_{};
+    std::array<std::uint32_t, grating_bus::max_scales> counts_{};
+    std::array<std::uint8_t, grating_bus::max_scales> addresses_{};
 };
 
 /// An engine's handle, given back when it goes.

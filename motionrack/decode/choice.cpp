@@ -10,8 +10,8 @@ namespace motionrack::decode {
 
 namespace {
 
-constexpr std::size_t most_named = 24;
-constexpr std::size_t most_channels = 64;
+constexpr std::size_t max_named = 24;
+constexpr std::size_t max_channels = 64;
 
 /// "X.Enc A" and "x_enc_a" are one name.
 std::string plain(std::string_view name) {
@@ -30,8 +30,8 @@ bool ends_with_name(const std::string& name, const std::string& end) {
 
 std::string listed(const std::vector<std::string>& signals) {
     std::string out;
-    for (std::size_t i = 0; i < signals.size() && i < most_named; ++i) out += (i == 0 ? "" : ", ") + signals[i];
-    if (signals.size() > most_named) out += fmt::format(" and {} more", signals.size() - most_named);
+    for (std::size_t i = 0; i < signals.size() && i < max_named; ++i) out += (i == 0 ? "" : ", ") + signals[i];
+    if (signals.size() > max_named) out += fmt::format(" and {} more", signals.size() - max_named);
     return out;
 }
 
@@ -138,12 +138,12 @@ Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::str
                                 "X.enc_z). Nothing was decoded; say which they "
                                 "are with --channel X=A,B,Z. The lines are: {}.",
                                 listed(signals)));
-    if (out.size() > most_channels)
+    if (out.size() > max_channels)
         return fail(
             ErrorKind::refused,
             fmt::format(
                 "{} channels: up to {} can be decoded at once. Nothing was decoded; choose some with --channel.",
-                out.size(), most_channels));
+                out.size(), max_channels));
     return out;
 }
 

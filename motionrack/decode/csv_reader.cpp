@@ -17,9 +17,9 @@ namespace motionrack::decode {
 namespace {
 
 constexpr double tick = 1e-12;  ///< of times: a picosecond
-constexpr double longest_s = 4e6;
+constexpr double max_duration_s = 4e6;
 constexpr std::size_t rows_looked_at = 8;
-constexpr std::size_t most_columns = 4096;
+constexpr std::size_t max_columns = 4096;
 
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t' || text.front() == '"')) text.remove_prefix(1);
@@ -141,7 +141,7 @@ bool CsvCapture::next_row(Row& row) {
 
 void CsvCapture::split(std::string_view text) {
     cells_.clear();
-    for (std::size_t at = 0; at <= text.size() && cells_.size() <= most_columns;) {
+    for (std::size_t at = 0; at <= text.size() && cells_.size() <= max_columns;) {
         const std::size_t end = std::min(text.find(separator_, at), text.size());
         cells_.push_back(trimmed(text.substr(at, end - at)));
         at = end + 1;
@@ -160,8 +160,8 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     }
     split(rows[0].text);
     width_ = cells_.size();
-    if (width_ > most_columns)
-        return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", most_columns), rows[0].place);
+    if (width_ > max_columns)
+        return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", max_columns), rows[0].place);
     const bool head = std::any_of(cells_.begin(), cells_.end(), [](std::string_view cell) {
         return level_of(cell) == 0 && cell.find_first_not_of("0123456789+-.,eE") != std::string_view::npos;
     });
@@ -226,11 +226,11 @@ Result<std::int64_t> CsvCapture::time_of(std::string_view cell, Place place) con
     const auto [end, bad] = std::from_chars(first, text.data() + text.size(), time);
     const double seconds = time * unit_s_;
     if (bad != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) ||
-        std::fabs(seconds) > longest_s)
+        std::fabs(seconds) > max_duration_s)
         return refuse(
             fmt::format(
                 "'{}' is no time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.",
-                text.substr(0, 40), longest_s),
+                text.substr(0, 40), max_duration_s),
             place);
     return std::llround(seconds / tick);
 }

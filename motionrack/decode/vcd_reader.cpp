@@ -11,7 +11,7 @@ namespace motionrack::decode {
 
 namespace {
 
-constexpr std::size_t most_signals = 100'000;
+constexpr std::size_t max_signals = 100'000;
 constexpr int widest = 4096;
 constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its lines
 
@@ -179,8 +179,8 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
             places_.push_back({at->second, bit});
         }
     }
-    if (signals_.size() > most_signals)
-        return refuse(fmt::format("The file declares more than {} lines. Nothing was decoded.", most_signals),
+    if (signals_.size() > max_signals)
+        return refuse(fmt::format("The file declares more than {} lines. Nothing was decoded.", max_signals),
                       text_.place());
     return {};
 }

@@ -34,7 +34,7 @@ constexpr std::array<OverrideStep, 13> override_steps = {{
     {Realtime::spindle_plus_1, &GrblSession::Overrides::spindle, false, 1},
     {Realtime::spindle_minus_1, &GrblSession::Overrides::spindle, false, -1},
 }};
-constexpr int least_override = 10, greatest_override = 200;
+constexpr int min_override = 10, max_override = 200;
 
 }  // namespace
 
@@ -89,7 +89,7 @@ void GrblSession::override_by(Realtime what) {
     if (step == override_steps.end() || !control()) return;
     Overrides now = overrides();
     int& value = now.*step->which;
-    value = std::clamp(step->absolute ? step->percent : value + step->percent, least_override, greatest_override);
+    value = std::clamp(step->absolute ? step->percent : value + step->percent, min_override, max_override);
     spindle_override_ = now.spindle;
     machine_.set_overrides(now.feed / 100.0, now.rapid / 100.0);
 }

@@ -141,7 +141,7 @@ GrblSession::Overrides GrblSession::overrides() const {
 double GrblSession::spindle_rpm() const {
     const operate::Status& status = machine_.status();
     if (status.spindle == control::gcode::Spindle::off || spindle_stopped_ || status.spindle_rpm == 0) return 0;
-    return std::max(own_.least_rpm, std::min(own_.most_rpm, status.spindle_rpm * spindle_override_ / 100));
+    return std::max(own_.min_rpm, std::min(own_.max_rpm, status.spindle_rpm * spindle_override_ / 100));
 }
 
 std::string GrblSession::modes_text() const {

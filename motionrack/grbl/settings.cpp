@@ -96,8 +96,8 @@ constexpr std::array<Setting, 22> table = {{
          return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.clearance; });
      },
      nullptr},
-    {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::most_rpm, 1e6},
-    {31, 0, "least spindle speed, rpm", nullptr, &SessionSettingValues::least_rpm, 1e6},
+    {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::max_rpm, 1e6},
+    {31, 0, "least spindle speed, rpm", nullptr, &SessionSettingValues::min_rpm, 1e6},
     {32, 0, "laser mode", nullptr, &SessionSettingValues::laser, 1},
 }};
 

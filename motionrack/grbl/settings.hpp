@@ -11,11 +11,11 @@ namespace motionrack::grbl {
 
 /// Settings that a sender may change; they last until the program ends.
 struct SessionSettingValues {
-    double report = 1;       ///< $10: bit 0 machine positions, else work positions; bit 1 free blocks and bytes
-    double inches = 0;       ///< $13: reports in inches
-    double most_rpm = 1000;  ///< $30
-    double least_rpm = 0;    ///< $31
-    double laser = 0;        ///< $32: changes of S do not wait for the motion before them
+    double report = 1;      ///< $10: bit 0 machine positions, else work positions; bit 1 free blocks and bytes
+    double inches = 0;      ///< $13: reports in inches
+    double max_rpm = 1000;  ///< $30
+    double min_rpm = 0;     ///< $31
+    double laser = 0;       ///< $32: changes of S do not wait for the motion before them
 };
 
 /// Exactly one of `rack` and `own` is there.

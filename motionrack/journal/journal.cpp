@@ -175,19 +175,19 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
     {
         const std::lock_guard<std::mutex> guard(alone_);
         closed = quit_;
-        room = waiting_.size() < most_waiting && !closed;
+        room = waiting_.size() < max_waiting && !closed;
         if (room)
             waiting_.push_back(
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
-    if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", most_waiting));
+    if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", max_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
     done(fail(
         ErrorKind::io,
         closed ? "It was not written to the journal, which is closed."
                : fmt::format("It was not written to the journal: {} entries wait for the disk, and no more are taken.",
-                             most_waiting)));
+                             max_waiting)));
 }
 
 void Journal::keep(std::string key, std::string value) {

@@ -108,7 +108,7 @@ class Journal {
     /// The newest entries, whose chain is checked when a run begins: a tenth of a second. check() reads all.
     static constexpr std::int64_t checked_at_start = 20'000;
     /// More than these waiting are refused: the disk does not follow.
-    static constexpr std::size_t most_waiting = 100'000;
+    static constexpr std::size_t max_waiting = 100'000;
 
   private:
     struct Waiting {

@@ -30,12 +30,12 @@ bool Affine::keeps_circles() const {
     return std::fabs(first - second) <= 1e-9 * first && std::fabs(mixed) <= 1e-9 * first;
 }
 
-double Affine::greatest_scale() const {
+double Affine::max_scale() const {
     return std::sqrt(a * a + b * b + c * c + d * d);
 }
 
 void Pen::add(const Element& element) {
-    if (++elements_ > most_elements) return;
+    if (++elements_ > max_elements) return;
     if (!down_) drawing_.strokes.push_back({to_mm_(begin_), {}});
     down_ = true;
     drawing_.strokes.back().elements.push_back(element);
@@ -83,7 +83,7 @@ void Pen::ellipse_to(Spot centre, double rx, double ry, double turn, double begi
         return;
     }
     const SinCos axis = sin_cos(turn);
-    const int n = chords(sweep, std::max(rx, ry) * to_mm_.greatest_scale(), tolerance_);
+    const int n = chords(sweep, std::max(rx, ry) * to_mm_.max_scale(), tolerance_);
     for (int i = 1; i < n && complete(); ++i) {
         const SinCos angle = sin_cos(begin + sweep * i / n);
         const double u = rx * angle.cos, v = ry * angle.sin;

@@ -37,11 +37,11 @@ struct Affine {
     /// Circles stay circles.
     bool keeps_circles() const;
     /// The greatest factor by which a length grows, or a little more.
-    double greatest_scale() const;
+    double max_scale() const;
 };
 
 inline constexpr double default_tolerance_mm = 0.001;
-inline constexpr std::size_t most_elements = 1'000'000;
+inline constexpr std::size_t max_elements = 1'000'000;
 
 /// Draws: takes figures in their own coordinates and adds them to a drawing in mm. Curves that are no circular arcs
 /// become lines within the tolerance.
@@ -60,8 +60,8 @@ class Pen {
     /// Back to the begin of the stroke.
     void close();
     Spot at() const { return at_; }
-    /// False: the drawing has more than `most_elements` and the rest was left out.
-    bool complete() const { return elements_ <= most_elements; }
+    /// False: the drawing has more than `max_elements` and the rest was left out.
+    bool complete() const { return elements_ <= max_elements; }
 
   private:
     void add(const Element& element);

@@ -14,18 +14,18 @@ namespace motionrack::mark {
 
 namespace {
 
-constexpr std::size_t most_segments = 5'000'000;
-constexpr double greatest_mm = 1e5;
+constexpr std::size_t max_segments = 5'000'000;
+constexpr double max_mm = 1e5;
 
 Result<void> check_size(const Drawing& drawing, const std::string& file) {
-    if (element_count(drawing) > most_elements || segment_count(drawing) > most_segments)
+    if (element_count(drawing) > max_elements || segment_count(drawing) > max_segments)
         return fail(
             ErrorKind::invalid_input,
             fmt::format(
                 "The drawing has more than {} lines and arcs, or more than {} with arcs as lines. Nothing was marked.",
-                most_elements, most_segments),
+                max_elements, max_segments),
             {}, file);
-    const auto near = [](Spot p) { return std::fabs(p.x) <= greatest_mm && std::fabs(p.y) <= greatest_mm; };
+    const auto near = [](Spot p) { return std::fabs(p.x) <= max_mm && std::fabs(p.y) <= max_mm; };
     for (const Stroke& stroke : drawing.strokes) {
         bool good = near(stroke.from);
         for (const Element& e : stroke.elements) good &= near(e.to) && near(e.centre);
@@ -33,7 +33,7 @@ Result<void> check_size(const Drawing& drawing, const std::string& file) {
             return fail(ErrorKind::invalid_input,
                         fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the "
                                     "field's middle. Nothing was marked; make it smaller.",
-                                    greatest_mm),
+                                    max_mm),
                         {}, file);
     }
     return {};

@@ -58,9 +58,9 @@ Result<Drawing> read_gcode(std::string_view text, const std::string& file) {
                 return fail(ErrorKind::invalid_input,
                             "An arc outside the XY plane cannot be marked. Nothing was marked; use G17.",
                             {move.line, 0}, file);
-            if (++count > most_elements)
+            if (++count > max_elements)
                 return fail(ErrorKind::invalid_input,
-                            fmt::format("More than {} lines and arcs. Nothing was marked.", most_elements),
+                            fmt::format("More than {} lines and arcs. Nothing was marked.", max_elements),
                             {move.line, 0}, file);
             if (is_arc || to.x != at.x || to.y != at.y) {
                 if (!down) out.strokes.push_back({at, {}});

@@ -14,7 +14,7 @@ using rtc5::StartFate;
 
 constexpr std::int64_t slice = 50'000;    // ticks between two looks at progress and stop
 constexpr std::int64_t host_ticks = 100;  // between two looks of the host at the card
-constexpr auto greatest_ticks = static_cast<std::int64_t>(greatest_seconds * 1e5);
+constexpr auto max_ticks = static_cast<std::int64_t>(max_seconds * 1e5);
 
 bool takes_turns(const MarkingJob& job, const Prepared& prepared) {
     return job.parts && job.parts->size() > 1 &&
@@ -106,7 +106,7 @@ Result<void> MarkingHost::arm() {
     MOTIONRACK_TRY(const std::vector<rtc5::Command> commands, arming_list_of(job_, prepared_, following_));
     MOTIONRACK_CHECK(put_all(card_, 1, commands));
     MOTIONRACK_CHECK(card_.execute_list(1));
-    if (!card_.run_to_rest(greatest_ticks))
+    if (!card_.run_to_rest(max_ticks))
         return fail(
             ErrorKind::refused,
             "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
@@ -137,13 +137,13 @@ Result<void> MarkingHost::find_edges() {
     std::int64_t low = 0;
     for (std::size_t i = 0; i < (parts.start == PartStart::equidistant ? 1 : parts.size()); ++i) {
         const double way = parts.way(i) - parts.track_delay;
-        std::int64_t high = greatest_ticks;
+        std::int64_t high = max_ticks;
         if (gone(high) < way)
             return fail(ErrorKind::refused,
                         fmt::format("Part {} does not come to the sensor within {:g} s: the belt goes {:.6g} until "
                                     "then, the part is {:.6g} away. Nothing was marked; "
                                     "take fewer parts or a faster belt.",
-                                    i + 1, greatest_seconds, gone(high), way));
+                                    i + 1, max_seconds, gone(high), way));
         std::int64_t least = low;
         while (least < high) {
             const std::int64_t middle = least + (high - least) / 2;
@@ -231,11 +231,11 @@ Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::in
         if (card_.tick() - looked < slice) continue;
         looked = card_.tick();
         if (watch.stop && watch.stop()) return fail(ErrorKind::stopped, "Stopped; nothing was written.");
-        if (looked - begin_ > greatest_ticks)
+        if (looked - begin_ > max_ticks)
             return fail(
                 ErrorKind::refused,
                 fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.",
-                            greatest_seconds));
+                            max_seconds));
         if (done) done(looked - begin_);
     }
 }

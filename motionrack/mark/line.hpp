@@ -22,7 +22,7 @@ struct Watch {
     std::function<bool()> stop;                 ///< true: give up
 };
 
-inline constexpr double greatest_seconds = 1000;  ///< of virtual time
+inline constexpr double max_seconds = 1000;  ///< of virtual time
 
 /// Loads list 1 or 2 of a card from its begin. Errors: refused, it has not so many places; nothing was loaded then.
 Result<void> put_all(rtc5::Engine& card, int list, const std::vector<rtc5::Command>& commands);
@@ -61,7 +61,7 @@ class MarkingHost final : rtc5::ListListener {
                                                      const ConveyorTracking& following);
 
     /// Until all parts are through and the card rests. `done` is told the belt's tick now and then.
-    /// Errors: refused: more than greatest_seconds; stopped.
+    /// Errors: refused: more than max_seconds; stopped.
     Result<void> run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch);
 
     rtc5::Engine& card() { return card_; }

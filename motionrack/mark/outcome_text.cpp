@@ -65,13 +65,13 @@ FieldMargin room_of(const MarkingOutcome& out, const Marked& marked) {
 std::vector<std::string> warnings_of(const MarkingOutcome& out) {
     std::vector<std::string> warnings;
     const FieldMargin room = room_of(out, out.on);
-    const double wanted = least_room_part * (out.field.high.x - out.field.low.x);
+    const double wanted = min_room_part * (out.field.high.x - out.field.low.x);
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(
             fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its "
                         "width): a little more speed or a start a "
                         "little later and the correction overflows",
-                        room.mm, room.edge, wanted, least_room_part * 100));
+                        room.mm, room.edge, wanted, min_room_part * 100));
     if (!out.in_field())
         warnings.push_back(
             "some of the drawing is outside the field, and was marked on its edge; move the drawing or make it "

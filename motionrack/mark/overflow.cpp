@@ -33,8 +33,7 @@ void OverflowLog::block(const rtc5::Samples& s) {
     if (s.corrected_x.empty()) return any_open ? finish(s.first) : void();
     const rtc5::Extent e = rtc5::kernels::extent(s.corrected_x.data(), s.corrected_y.data(), s.corrected_x.size());
     const bool inside = std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) {
-        return edge.beyond(edge.upper ? rtc5::Point{e.greatest_x, e.greatest_y} : rtc5::Point{e.least_x, e.least_y}) <=
-               0;
+        return edge.beyond(edge.upper ? rtc5::Point{e.max_x, e.max_y} : rtc5::Point{e.min_x, e.min_y}) <= 0;
     });
     if (inside) return any_open ? finish(s.first) : void();
     for (std::size_t i = 0; i < s.corrected_x.size(); ++i)

@@ -8,7 +8,7 @@ namespace motionrack::mark {
 
 namespace {
 
-constexpr std::size_t most_rows = 40;
+constexpr std::size_t max_rows = 40;
 
 std::string lost_text(const PartMarked& part, std::size_t number) {
     switch (part.fate) {
@@ -41,7 +41,7 @@ std::string parts_text(const MarkingJob& job, const Marked& marked) {
     std::size_t rows = 0, hidden = 0;
     for (std::size_t i = 0; i < all; ++i) {
         const PartMarked& part = marked.parts[i];
-        if (++rows > most_rows && i + 1 < all) {
+        if (++rows > max_rows && i + 1 < all) {
             ++hidden;
         } else if (part.fate == PartOutcome::marked) {
             fmt::format_to(to, "{:>6} {:>8} {:>11.5f} {:>11.5f} {:>10.4f} {:>10.4f} {:>10.3f}\n", i + 1, part.number,

@@ -62,12 +62,12 @@ Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
     return best;
 }
 
-constexpr std::size_t most_parts = 24;  ///< in one picture
+constexpr std::size_t max_parts = 24;  ///< in one picture
 
 /// Parts side by side, or around their table.
 std::vector<Node> side_by_side(const Marked& marked, const auto& nodes_of_part) {
     std::vector<Node> out;
-    for (std::size_t i = 0; i < std::min(marked.parts.size(), most_parts); ++i)
+    for (std::size_t i = 0; i < std::min(marked.parts.size(), max_parts); ++i)
         for (const Node& node : nodes_of_part(marked.parts[i]))
             out.push_back({marked.parts[i].shown(node.at), node.first});
     return out;
@@ -142,7 +142,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
         if (parts > 1)
             part.words.push_back(
                 fmt::format("on each of {} parts{}", parts,
-                            parts > most_parts ? fmt::format(", of which {} are shown", most_parts) : ""));
+                            parts > max_parts ? fmt::format(", of which {} are shown", max_parts) : ""));
         part.body += plot.strokes(scene.drawing, "drawn");
     } else {
         const parts::Deviation& d = marked->deviation;
@@ -154,7 +154,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
         part.body +=
             crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
         const std::size_t worst = worst_part(*marked);
-        if (d.worst_mm > 0 && worst < most_parts) part.body += plot.ring(marked->parts[worst].shown(d.worst_at));
+        if (d.worst_mm > 0 && worst < max_parts) part.body += plot.ring(marked->parts[worst].shown(d.worst_at));
     }
     part.body += plot.scale_bar();
     return part;

@@ -99,9 +99,9 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     const Spot centre = following.track.centre_mm;
     list.put(Op::set_rot_center_list, {list.bits(centre.x), list.bits(centre.y)});
     const double resolution = 360 * unit / job.fly.scale_factor;
-    if (std::fabs(resolution) < rtc5::least_resolution)
+    if (std::fabs(resolution) < rtc5::min_resolution)
         list.refuse(fmt::format("{:g} counts a turn; under {:g} the card's rotary correction is off", resolution,
-                                rtc5::least_resolution));
+                                rtc5::min_resolution));
     list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
 }
 
@@ -237,11 +237,11 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
         MOTIONRACK_TRY(part.drawing, drawing_of(job, load, parts.number(i)));
         part.segments = segments_of(part.drawing);
         elements += part.segments.size();
-        if (elements > most_elements)
+        if (elements > max_elements)
             return fail(ErrorKind::invalid_input,
                         fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was "
                                     "marked; mark fewer parts at once.",
-                                    different, most_elements),
+                                    different, max_elements),
                         {}, job.file);
         if (i == 0)
             static_cast<PartDrawing&>(out) = std::move(part);

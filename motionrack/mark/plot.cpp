@@ -14,9 +14,9 @@ namespace {
 
 using trace::coordinate;
 
-constexpr double eye_px = 0.12;             // what is not seen
-constexpr std::size_t most_nodes = 40'000;  // of one row of strokes: about 12 bytes each
-constexpr double least_width_mm = 1e-4;
+constexpr double eye_px = 0.12;            // what is not seen
+constexpr std::size_t max_nodes = 40'000;  // of one row of strokes: about 12 bytes each
+constexpr double min_width_mm = 1e-4;
 
 /// The part of a -> b in the box; false: none. Liang and Barsky.
 bool clip(const Box& box, Spot& a, Spot& b) {
@@ -76,8 +76,8 @@ std::string shown_length(double mm) {
 }
 
 Plot::Plot(const Box& box, int width, int height, double margin) : width_(width), height_(height) {
-    const double wide = std::max(box.high.x - box.low.x, least_width_mm),
-                 high = std::max(box.high.y - box.low.y, least_width_mm);
+    const double wide = std::max(box.high.x - box.low.x, min_width_mm),
+                 high = std::max(box.high.y - box.low.y, min_width_mm);
     scale_ = std::min((width - 2 * margin) / wide, (height - 2 * margin) / high);
     low_ = {(box.low.x + box.high.x) / 2 - width / scale_ / 2, (box.low.y + box.high.y) / 2 - height / scale_ / 2};
 }
@@ -106,7 +106,7 @@ std::string Plot::strokes(std::span<const Node> nodes, const char* look) const {
         points.push_back({x(seen[i].at.x), y(seen[i].at.y), 0, 0});
         ends.push_back(seen[i].first || i + 1 == seen.size() || seen[i + 1].first);
     }
-    const trace::DecimatedPath path = trace::thin_path(points, ends, eye_px, most_nodes);
+    const trace::DecimatedPath path = trace::thin_path(points, ends, eye_px, max_nodes);
     std::string data;
     std::size_t before = 0;
     for (const std::size_t i : path.kept) {

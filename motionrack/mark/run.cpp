@@ -58,8 +58,8 @@ Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double 
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
     const rtc5::Extent& e = line->card().extent();
     if (!e.empty())
-        out.beyond_mm = std::max({rtc5::field_least - e.least_x, rtc5::field_least - e.least_y,
-                                  e.greatest_x - rtc5::field_greatest, e.greatest_y - rtc5::field_greatest}) /
+        out.beyond_mm = std::max({rtc5::field_least - e.min_x, rtc5::field_least - e.min_y,
+                                  e.max_x - rtc5::field_greatest, e.max_y - rtc5::field_greatest}) /
                         prepared.bits_per_mm;
     return out;
 }
@@ -74,8 +74,8 @@ class FitSearch {
         : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, MarkingOutcome& out) {
-        const double greatest = std::min(1000.0, parts::greatest_track_speed / top_speed());
-        const double least = std::max(1e-3, now.ticks * 1e-5 / greatest_seconds);
+        const double greatest = std::min(1000.0, parts::max_track_speed / top_speed());
+        const double least = std::max(1e-3, now.ticks * 1e-5 / max_seconds);
         double low = 1, high = 1;
         out.starts_limit = now.beyond_mm <= 0;
         if (!now.fits() && !out.drawing_in_field) return out.fits_factor = 0, Result<void>{};
@@ -137,7 +137,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
     Engine& card = line->card();
     OverflowLog overflows(prepared.bits_per_mm, station.track());
     StationSink sink(station, overflows, line->begin(),
-                     static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
+                     static_cast<std::int64_t>(expected_ticks) / max_field_samples + 1);
     MOTIONRACK_CHECK(line->run(
         &sink,
         [&](std::int64_t tick) {
@@ -163,8 +163,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
     out.energy_j = station.workpiece().energy_j();
     const rtc5::Extent& e = card.extent();
     const double k = prepared.bits_per_mm;
-    out.reach = e.empty() ? box_of(prepared.drawing)
-                          : Box{{e.least_x / k, e.least_y / k}, {e.greatest_x / k, e.greatest_y / k}};
+    out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.min_x / k, e.min_y / k}, {e.max_x / k, e.max_y / k}};
     out.course = sink.take_course();
     out.overflows = overflows.all();
     out.lost_overflows = overflows.lost();

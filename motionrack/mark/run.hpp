@@ -18,7 +18,7 @@ struct FieldSample {
     Spot at;  ///< mm in the field, of mirrors without delay
     double gate = 0;
 };
-inline constexpr std::int64_t most_field_samples = 10'000;
+inline constexpr std::int64_t max_field_samples = 10'000;
 
 enum class PartOutcome : std::uint8_t {
     marked,
@@ -63,7 +63,7 @@ struct Marked {
     double duty = 0;     ///< part of it with the gate open
     double marked_mm = 0, energy_j = 0;
     Box reach;  ///< mm in the field: how far the list went with its correction, were there no edge
-    std::vector<FieldSample> course;  ///< in even steps, about most_field_samples
+    std::vector<FieldSample> course;  ///< in even steps, about max_field_samples
     std::vector<Overflow>
         overflows;  ///< every stretch in which the corrected position was outside the field, in the order of their ends
     std::uint64_t lost_overflows = 0;  ///< more than OverflowLog::most

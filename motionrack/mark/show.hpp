@@ -19,7 +19,7 @@ struct FieldMargin {
     const char* edge = "";  ///< "left", "right", "lower" or "upper"
 };
 FieldMargin room_of(const MarkingOutcome& outcome, const Marked& marked);
-inline constexpr double least_room_part = 0.05;  ///< of the field's width: less than that is told as a warning
+inline constexpr double min_room_part = 0.05;  ///< of the field's width: less than that is told as a warning
 /// Sentences about what nearly went wrong.
 std::vector<std::string> warnings_of(const MarkingOutcome& outcome);
 

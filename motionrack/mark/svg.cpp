@@ -16,7 +16,7 @@ namespace motionrack::mark {
 namespace {
 
 constexpr int deepest = 64;
-constexpr double greatest_scale = 1e9;
+constexpr double max_scale = 1e9;
 constexpr std::array<std::string_view, 13> passed_over = {
     "title",   "desc",   "metadata",       "defs",           "symbol", "clipPath", "mask",
     "pattern", "marker", "linearGradient", "radialGradient", "filter", "script"};
@@ -34,10 +34,10 @@ class SvgReader {
         : text_(text), file_(file), pen_(drawing, tolerance) {}
 
     Result<void> read() {
-        if (text_.size() > most_svg_bytes)
+        if (text_.size() > max_svg_bytes)
             return fail(
                 ErrorKind::invalid_input,
-                fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), most_svg_bytes), {},
+                fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), max_svg_bytes), {},
                 file_);
         pugi::xml_document document;
         const pugi::xml_parse_result parsed =
@@ -198,8 +198,7 @@ class SvgReader {
             const auto own = read_transform(transform.value());
             if (!own) return wrong_in(node, "transform", own.error());
             to_mm = to_mm.after(*own);
-            if (!(to_mm.greatest_scale() <= greatest_scale && std::fabs(to_mm.e) <= greatest_scale &&
-                  std::fabs(to_mm.f) <= greatest_scale))
+            if (!(to_mm.max_scale() <= max_scale && std::fabs(to_mm.e) <= max_scale && std::fabs(to_mm.f) <= max_scale))
                 return wrong_in(node, "transform", {0, "this and the groups around it make the drawing too large"});
         }
         if (name == "g" || name == "a") {
@@ -211,7 +210,7 @@ class SvgReader {
         pen_.use(to_mm);
         MOTIONRACK_CHECK(shape(node, name));
         if (!pen_.complete())
-            return wrong(offset(node), fmt::format("the drawing has more than {} lines and arcs", most_elements));
+            return wrong(offset(node), fmt::format("the drawing has more than {} lines and arcs", max_elements));
         return {};
     }
 

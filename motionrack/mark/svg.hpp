@@ -13,7 +13,7 @@
 
 namespace motionrack::mark {
 
-inline constexpr std::size_t most_svg_bytes = 50'000'000;
+inline constexpr std::size_t max_svg_bytes = 50'000'000;
 
 /// Errors: bad_input, with line and column of the element or of the character in its data.
 Result<Drawing> read_svg(std::string_view text, const std::string& file, double tolerance_mm = default_tolerance_mm);

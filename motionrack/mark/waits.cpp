@@ -147,10 +147,10 @@ Result<std::vector<WaitBatch>> batches_of(const Drawing& drawing, const Box& fie
             cut(stroke, movement, all.high, cell, strokes);
         else
             strokes.push_back(stroke);
-        if (strokes.size() > most_elements)
+        if (strokes.size() > max_elements)
             return fail(ErrorKind::refused,
                         fmt::format("The drawing needs more than {} pieces to come into the field. Nothing was marked.",
-                                    most_elements));
+                                    max_elements));
     }
     std::vector<Piece> pieces;
     for (Stroke& stroke : strokes) {

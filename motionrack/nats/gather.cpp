@@ -11,7 +11,7 @@ namespace motionrack::nats {
 namespace {
 
 using GatherClock = std::chrono::steady_clock;
-constexpr auto least_patience = std::chrono::seconds(10);
+constexpr auto min_patience = std::chrono::seconds(10);
 
 class Gatherer {
   public:
@@ -38,12 +38,12 @@ class Gatherer {
         }
         MOTIONRACK_CHECK(offer());
         GatherClock::time_point heard = GatherClock::now();
-        auto patience = least_patience;
+        auto patience = min_patience;
         while (!done() && !stop_) {
             // Short waits, so that Ctrl-C is heard.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
-            if (some) heard = GatherClock::now(), patience = least_patience;
+            if (some) heard = GatherClock::now(), patience = min_patience;
             if (!some && GatherClock::now() - heard > patience) {
                 if (waits_) waits_(patience.count());
                 patience *= 2;

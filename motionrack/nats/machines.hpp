@@ -24,7 +24,7 @@ Result<void> gather(const sweep::Sweep& sweep, sweep::Results& results, const st
 
 struct WorkerSettings {
     std::string url;
-    int jobs = 1;       ///< points at the same time, 1 .. sweep::most_jobs
+    int jobs = 1;       ///< points at the same time, 1 .. sweep::max_jobs
     double idle_s = 0;  ///< ends when there was nothing to do for so long; 0: never
 };
 
@@ -36,7 +36,7 @@ Result<void> work(const WorkerSettings& settings, const std::atomic<bool>& stop,
 
 /// A worker answers a point that was given to so many workers before, and run by none to its end, with a trouble
 /// instead of trying it.
-inline constexpr std::uint64_t most_times = 5;
+inline constexpr std::uint64_t max_times = 5;
 
 /// A row, or a sentence about why there is none, as a message; and back. Errors: bad_input, it is no such message;
 /// refused, it is a sentence.

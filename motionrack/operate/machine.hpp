@@ -52,7 +52,7 @@ struct MachineSettings {
     std::vector<LivePlace> live = {};             ///< cards for which real ones stand, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
-    std::size_t most_alarms = 100;      ///< those that are over and acknowledged go, then the oldest
+    std::size_t max_alarms = 100;       ///< those that are over and acknowledged go, then the oldest
 };
 
 class Machine {

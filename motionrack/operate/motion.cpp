@@ -333,7 +333,7 @@ void Machine::raise(std::string source, std::string text, char axis) {
     alarms.erase(std::remove_if(alarms.begin(), alarms.end(),
                                 [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
                  alarms.end());
-    if (alarms.size() >= settings_.most_alarms) alarms.erase(alarms.begin());
+    if (alarms.size() >= settings_.max_alarms) alarms.erase(alarms.begin());
     alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
     alarms.back().axis = axis;
 }

@@ -8,7 +8,7 @@ namespace motionrack::operate {
 
 namespace {
 
-constexpr Duration longest_wait = milliseconds(5);
+constexpr Duration max_wait = milliseconds(5);
 
 }  // namespace
 
@@ -46,10 +46,10 @@ ClockPacer::ClockPacer(live::Clock& clock, ClockMode mode, double factor)
     : clock_(clock), mode_(mode), factor_(factor) {}
 
 Result<void> ClockPacer::set(ClockMode mode, double factor) {
-    if (!(factor >= least_factor && factor <= greatest_factor))
+    if (!(factor >= min_factor && factor <= max_factor))
         return fail(ErrorKind::invalid_input,
                     fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
-                                least_factor, greatest_factor));
+                                min_factor, max_factor));
     mode_ = mode;
     factor_ = factor;
     step_end_ = last_;
@@ -85,13 +85,13 @@ bool ClockPacer::pace(Instant now) {
     if (mode_ == ClockMode::free) return true;
     if (mode_ == ClockMode::paused) {
         if (now < step_end_) return true;
-        clock_.sleep(longest_wait);
+        clock_.sleep(max_wait);
         return false;
     }
     if (!begun_) begin_here(now);
     const Duration early = due(now) - clock_.now();
-    if (early > Duration{0}) clock_.sleep(std::min(early, longest_wait));
-    if (early > longest_wait) return false;
+    if (early > Duration{0}) clock_.sleep(std::min(early, max_wait));
+    if (early > max_wait) return false;
     const Duration late = clock_.now() - due(now);
     lateness_.add(late);
     if (late > given_up) {

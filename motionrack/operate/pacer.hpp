@@ -63,7 +63,7 @@ class ClockPacer {
     /// Real time by which the rack fell behind for good.
     Duration lost() const { return lost_; }
 
-    static constexpr double least_factor = 0.001, greatest_factor = 1000;
+    static constexpr double min_factor = 0.001, max_factor = 1000;
     static constexpr Duration given_up = milliseconds(250);
 
   private:

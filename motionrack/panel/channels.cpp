@@ -131,10 +131,10 @@ const Channel* ChannelRegistry::find(std::string_view name) const {
 }
 
 Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<std::string>& names) {
-    if (names.size() > Panel::most_channels)
+    if (names.size() > Panel::max_channels)
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.",
-                                names.size(), Panel::most_channels));
+                                names.size(), Panel::max_channels));
     Held held;
     for (const std::string& name : names) {
         const Channel* channel = find(name);

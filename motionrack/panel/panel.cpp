@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// Characters of a call's arguments in the journal: those of each function fit.
-constexpr std::size_t longest_arguments = 400;
+constexpr std::size_t max_argument_bytes = 400;
 
 }  // namespace
 
@@ -152,7 +152,7 @@ class Panel::Inside {
         std::string out = fmt::format("{}: {}", caller.user.empty() ? "somebody" : caller.user, row.name);
         for (const auto& [name, value] : fields.items()) {
             std::string shown = text_of(value);
-            if (shown.size() > (value.is_object() ? longest_arguments : 60U))
+            if (shown.size() > (value.is_object() ? max_argument_bytes : 60U))
                 shown = fmt::format("({} characters)", shown.size());
             out += fmt::format(" {}={}", name, shown);
         }

@@ -62,7 +62,7 @@ std::string session_mark(std::string_view session);
 
 class Panel {
   public:
-    static constexpr std::size_t most_channels = 64;
+    static constexpr std::size_t max_channels = 64;
 
     /// Before Machine::run; machine and lease must outlive it, and it the run.
     Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings);
@@ -78,7 +78,7 @@ class Panel {
     /// The connection of this session has ended, and with it what goes on only while it is asked for.
     void left(std::string session);
     /// The set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors:
-    /// bad_input, unknown names or more than most_channels.
+    /// bad_input, unknown names or more than max_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);
     /// The newest picture of the machine; never nullptr.
     std::shared_ptr<const StatusSnapshot> picture() const { return std::atomic_load(&picture_); }

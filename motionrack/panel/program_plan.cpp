@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_points = 20'000, max_problems = 100;
+constexpr std::size_t max_points = 20'000, max_problems = 100;
 constexpr double radians_a_chord = 0.15;
 
 void add_move(Polyline& line, const control::PlannedMove& planned) {
@@ -33,7 +33,7 @@ std::size_t axis_of(char letter) {
 class Sums {
   public:
     Sums(ProgramPlan& plan, const control::gcode::Settings& settings, const control::MachineLimits& limits)
-        : plan_(plan), planner_(limits, settings.start), line_(most_points) {
+        : plan_(plan), planner_(limits, settings.start), line_(max_points) {
         line_.add({settings.start, 0, false});
     }
     bool push(const control::Move& move) {

@@ -50,9 +50,9 @@ Scope::~Scope() {
 }
 
 Result<void> Scope::arm(const ScopeSettings& settings) {
-    if (settings.channels.empty() || settings.channels.size() > most_channels)
+    if (settings.channels.empty() || settings.channels.size() > max_channels)
         return fail(ErrorKind::invalid_input, fmt::format("{} channels cannot be looked at; 1 to {} can.",
-                                                          settings.channels.size(), most_channels));
+                                                          settings.channels.size(), max_channels));
     if (settings.length <= Duration{0} || settings.pre < Duration{0} || settings.pre > settings.length)
         return fail(ErrorKind::invalid_input,
                     "The part before the trigger must lie within the length, which must be above 0.");
@@ -74,11 +74,11 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
         return fail(ErrorKind::invalid_input,
                     fmt::format("The trigger {} is none of the channels.", rack::in_quotes(settings.trigger)));
     if (!numbers.empty() &&
-        (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(most_samples)))
+        (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(max_samples)))
         return fail(ErrorKind::refused,
                     fmt::format("{:.6g} s at {:.6g} us are more than {} samples; choose a shorter length or a longer "
                                 "period. Nothing was armed.",
-                                to_seconds(settings.length), to_seconds(settings.period) * 1e6, most_samples));
+                                to_seconds(settings.length), to_seconds(settings.period) * 1e6, max_samples));
     detach();
     settings_ = settings;
     numbers_ = std::move(numbers);
@@ -163,7 +163,7 @@ void Scope::look_at(Instant at, double before, double value) {
 void Scope::see(Instant at, std::size_t channel, double value) {
     if (channel == trigger_place_ && state_ == ScopeState::armed)
         look_at(at, last_value_.value_or(base_[channel]), value);
-    if (edges_.size() >= most_edges) {
+    if (edges_.size() >= max_edges) {
         if (state_ == ScopeState::triggered) {
             full_ = true;
             return;

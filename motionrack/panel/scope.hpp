@@ -26,7 +26,7 @@ enum class ScopeState : std::uint8_t { idle, armed, triggered, done };
 std::string_view name_of(ScopeState state);
 
 struct ScopeSettings {
-    std::vector<std::string> channels;  ///< 1 .. most_channels
+    std::vector<std::string> channels;  ///< 1 .. max_channels
     std::string trigger;                ///< one of them; empty: at once
     TriggerEdge edge = TriggerEdge::rise;
     double level = 0.5;
@@ -56,7 +56,7 @@ nlohmann::json to_json(const Capture& capture);
 
 class Scope {
   public:
-    static constexpr std::size_t most_channels = 16, most_samples = 20'000, most_edges = 100'000;
+    static constexpr std::size_t max_channels = 16, max_samples = 20'000, max_edges = 100'000;
 
     Scope(operate::Machine& machine, ChannelRegistry& channels);
     ~Scope();

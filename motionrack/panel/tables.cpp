@@ -9,7 +9,7 @@ namespace {
 
 using authority::Role;
 
-constexpr double far = 1e6, longest_text = 8 << 20;
+constexpr double far = 1e6, max_text_bytes = 8 << 20;
 
 constexpr FieldSpec number(std::string_view name, double least, double greatest, std::string_view unit,
                            std::string_view text, bool required = true) {
@@ -59,7 +59,7 @@ constexpr std::array work_zero_fields = {
     axis,
     number("value", -far, far, "mm or degrees", "what the present place is called in work coordinates (G10 L20)")};
 constexpr std::array begin_fields = {text("name", 200, "of the program, for people"),
-                                     text("text", longest_text, "the program, G-code")};
+                                     text("text", max_text_bytes, "the program, G-code")};
 constexpr std::array line_fields = {text("text", 1024, "one line of G-code")};
 constexpr std::array override_fields = {
     number("feed", 0, 2, "", "part of the programmed feed; below 0.01 it is 0.01", false),
@@ -91,7 +91,7 @@ constexpr std::array read_fields = {card_name, integer("bits", 8, 32, "width of 
 constexpr std::array service_fields = {card_name, flag("on", "false: its axes stop, and the controller has it again")};
 constexpr std::array call_fields = {card_name, text("function", 40, "name of a function of its library"),
                                     numbers("arguments", 20, "as the query library declares them", false)};
-constexpr std::array check_fields_ = {text("text", longest_text, "the program, G-code"),
+constexpr std::array check_fields_ = {text("text", max_text_bytes, "the program, G-code"),
                                       text("name", 200, "for the answer", false)};
 constexpr std::array arm_fields = {
     texts("channels", 16, "1 to 16 of the query channels"),
@@ -104,7 +104,7 @@ constexpr std::array arm_fields = {
     choice("mode", "single|run", "stops after a capture, or is armed again", false)};
 constexpr std::array mark_fields = {
     card_name, text("job", 1 << 20, "a marking job (TOML); optics and belt are the rack's"),
-    text("drawing", longest_text, "the text of the SVG or G-code file that the job names", false),
+    text("drawing", max_text_bytes, "the text of the SVG or G-code file that the job names", false),
     choice("start", "now|parts", "at once, or at each part's edge at the card's start input", false)};
 constexpr std::array mark_stop_fields = {card_name};
 constexpr std::array start_part_fields = {text("part", 32, "a belt, a table or a stage of the rack")};

@@ -11,7 +11,7 @@ namespace motionrack::panel {
 
 class BackgroundWorker {
   public:
-    static constexpr std::size_t most_waiting = 32;
+    static constexpr std::size_t max_waiting = 32;
 
     BackgroundWorker() : thread_([this] { work(); }) {}
     /// What waits is dropped.
@@ -30,7 +30,7 @@ class BackgroundWorker {
     bool post(std::function<void()> work) {
         {
             const std::lock_guard<std::mutex> alone(lock_);
-            if (waiting_.size() >= most_waiting) return false;
+            if (waiting_.size() >= max_waiting) return false;
             waiting_.push_back(std::move(work));
         }
         news_.notify_one();

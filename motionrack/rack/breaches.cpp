@@ -12,8 +12,8 @@ namespace motionrack::rack {
 namespace {
 
 // A window is so long that the start speed makes some pulses in it.
-constexpr double least_window = 1e-3, pulses_of_start = 2;
-constexpr Duration longest_period = milliseconds(2);
+constexpr double min_window = 1e-3, pulses_of_start = 2;
+constexpr Duration max_period = milliseconds(2);
 // Pulses by which the counts at three instants may be off together: they are whole, and so are the ends of pieces.
 constexpr double count_rounding = 3;
 // The start speed is kept but for whole speed units and whole pulses: by so much where arcs are drawn with short lines.
@@ -75,8 +75,8 @@ std::string sentence_of(const Breach& breach) {
 }
 
 JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
-    if (period <= Duration{} || period > longest_period || start_hz <= 0) return;
-    const double window = std::clamp(pulses_of_start / start_hz, least_window, to_seconds(longest_window));
+    if (period <= Duration{} || period > max_period || start_hz <= 0) return;
+    const double window = std::clamp(pulses_of_start / start_hz, min_window, to_seconds(max_window));
     looks = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
     seconds = static_cast<double>(looks) * to_seconds(period);
     explained_ = accel_hz * seconds * seconds;

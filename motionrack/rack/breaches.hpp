@@ -56,7 +56,7 @@ struct JumpLaw {
     /// `start_hz`, `accel_hz`: what the axis may be changed by at once, pulses/s, and pulses/s2. `period`: between two
     /// looks; with one above 2 ms nothing is found.
     JumpLaw(double start_hz, double accel_hz, Duration period);
-    static constexpr Duration longest_window = milliseconds(8);
+    static constexpr Duration max_window = milliseconds(8);
 
     std::size_t looks = 0;  ///< of a window; 0: nothing is looked for
     double seconds = 0;     ///< of a window

@@ -149,7 +149,7 @@ constexpr auto rtc5_pins = [] {
 }();
 
 constexpr std::array<Field, 1> rtc5_settings = {
-    field<&Rtc5Settings::list_memory>("list_memory", rtc5::least_list_memory, rtc5::greatest_list_memory, "",
+    field<&Rtc5Settings::list_memory>("list_memory", rtc5::min_list_memory, rtc5::max_list_memory, "",
                                       "positions for list commands; a copy of the rack copies them all"),
 };
 

@@ -68,13 +68,13 @@ struct CardType {
     std::span<const PinType> channel_pins;
     std::span<const PinType> chip_pins;
     std::span<const DefaultWire> default_wires;
-    std::string_view estop_pin;                  ///< the chip pin that the emergency stop drives; empty: none
-    std::span<const Field> settings;             ///< keys of [card.NAME] that only this type has
-    void* (*settings_of)(RackCard& card);        ///< the object that `settings` are read into
-    double (*max_pulse_hz)(const RackCard&);     ///< fastest pulse output
-    double (*max_accel_hz_s)(const RackCard&);   ///< fastest change of the pulse rate
-    double (*max_encoder_hz)(const RackCard&);   ///< most counts a second that an encoder input can follow
-    std::int64_t most_position = 2'147'483'647;  ///< counts or pulses that its position counters hold
+    std::string_view estop_pin;                 ///< the chip pin that the emergency stop drives; empty: none
+    std::span<const Field> settings;            ///< keys of [card.NAME] that only this type has
+    void* (*settings_of)(RackCard& card);       ///< the object that `settings` are read into
+    double (*max_pulse_hz)(const RackCard&);    ///< fastest pulse output
+    double (*max_accel_hz_s)(const RackCard&);  ///< fastest change of the pulse rate
+    double (*max_encoder_hz)(const RackCard&);  ///< most counts a second that an encoder input can follow
+    std::int64_t max_position = 2'147'483'647;  ///< counts or pulses that its position counters hold
     std::span<const std::string_view> home_pins =
         {};  ///< a channel's inputs for a home switch; their places are its numbers
     std::span<const std::string_view> index_pins = {};  ///< and for an encoder's index

@@ -237,7 +237,7 @@ struct RackScale {
     std::int64_t interpolation = 4096;  ///< 4 .. 65,536, a multiple of 4: counts of a pitch
     bool reversed = false;              ///< counts down where the stage goes up
     double zero_mm = 0;                 ///< where it shows 0
-    double fastest_mhz = 20;            ///< 0.001 .. 1000 million counts a second
+    double max_count_rate_mhz = 20;     ///< 0.001 .. 1000 million counts a second
     std::optional<double> index_mm;     ///< where the reference mark is
     double dirt_at_mm = 0;              ///< where the dirt of the fault scale.dirt begins
 };

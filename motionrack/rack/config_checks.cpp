@@ -331,7 +331,7 @@ class AxisCheck {
     /// Positions must fit the card's counters.
     void counter_range(const CardType& type) {
         if (!source_.sound({"min_{u}", "max_{u}"})) return;
-        const auto most = static_cast<double>(type.most_position);
+        const auto most = static_cast<double>(type.max_position);
         const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
         for (const auto& [key, position] :
              {std::pair{"min_{u}", axis_.min_position}, std::pair{"max_{u}", axis_.max_position}}) {

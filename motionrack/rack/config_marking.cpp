@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::array<std::string_view, 3> track_tables = {"profile", "sender", "parts"};
 constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "laser"};
-constexpr std::size_t most_profile_points = 10'000;
+constexpr std::size_t max_profile_points = 10'000;
 
 constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
     field<&RackConveyor::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
-    field<&RackConveyor::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s",
+    field<&RackConveyor::speed>("speed_{u}_s", -parts::max_track_speed, parts::max_track_speed, "{u}/s",
                                 "how fast it goes"),
     field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
                                        "how it brakes when a stop ends its motion"),
@@ -168,10 +168,9 @@ class MarkingReader {
             problems_.error(place, fmt::format("{}: {}", what_, text));
             return false;
         };
-        if (profile.type != TomlType::array || profile.children.empty() ||
-            profile.children.size() > most_profile_points)
+        if (profile.type != TomlType::array || profile.children.empty() || profile.children.size() > max_profile_points)
             return bad(profile.value_place,
-                       fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", most_profile_points));
+                       fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", max_profile_points));
         for (const TomlNode& pair : profile.children) {
             if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
                 !is_number(pair.children[1]))
@@ -209,8 +208,7 @@ class MarkingReader {
                    fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
                                "{3:.0f} counts a second, or "
                                "more than {4:.0f} parts a second would come.",
-                               number_text(fastest), unit_, track.greatest_speed(), greatest_track_counts,
-                               greatest_parts));
+                               number_text(fastest), unit_, track.greatest_speed(), max_track_counts, max_parts));
     }
 
     /// Two tracks at one pin would drive against each other.
@@ -234,7 +232,7 @@ class MarkingReader {
         const TomlNode& table = *node_->find("sender");
         if (s.bits_per_mm == 0)
             return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
-        const double most = static_cast<double>(parts::SerialWordSource::most_under_way - 1) * s.period_us;
+        const double most = static_cast<double>(parts::SerialWordSource::max_under_way - 1) * s.period_us;
         if (!(s.delay_us < most))
             return refuse(
                 table, "delay_us",

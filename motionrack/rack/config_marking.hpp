@@ -44,7 +44,7 @@ struct RackConveyor {
 };
 
 /// What the encoder of a track can show, counts a second; what can pass a sensor, parts a second.
-inline constexpr double greatest_track_counts = 1e7, greatest_parts = 1e5;
+inline constexpr double max_track_counts = 1e7, max_parts = 1e5;
 
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {

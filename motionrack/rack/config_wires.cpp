@@ -249,14 +249,14 @@ class WireResolver {
     }
 
     /// As many listeners as a wire of the kernel has, less one for a recording.
-    static constexpr int most_inputs = 31;
+    static constexpr int max_inputs = 31;
 
     void too_many_inputs() {
         std::map<std::string, int> inputs;
         for (const auto& input : wires_) {
             const WireEnd& output = input.second.from;
             const std::string from = config_.end_name(output);
-            if (++inputs[from] != most_inputs + 1) continue;
+            if (++inputs[from] != max_inputs + 1) continue;
             // An input that the file names: the default rule alone wires fewer.
             const auto named = std::find_if(named_.begin(), named_.end(), [&](const auto& each) {
                 const auto its = wires_.find(each.first);
@@ -265,7 +265,7 @@ class WireResolver {
             error(
                 named != named_.end() ? named->second->key_place : Place{},
                 fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.",
-                            from, most_inputs));
+                            from, max_inputs));
         }
     }
 

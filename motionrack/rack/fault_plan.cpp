@@ -20,7 +20,7 @@ Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& t
                 fmt::format(
                     "The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
                     "X.encoder.broken_a@20ms. Nothing was moved.",
-                    in_quotes(text), most_planned_seconds));
+                    in_quotes(text), max_planned_seconds));
         faults.push_back(std::move(*timed));
     }
     return faults;

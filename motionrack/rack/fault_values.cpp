@@ -42,18 +42,18 @@ double track_profile_limit(const FaultyPart& part) {
 }
 /// Less than half a period, in steps of 0.1 ns.
 double frame_jitter_limit(const FaultyPart& part) {
-    return std::min(part.card->grating_bus.period_us * 500 - 0.1, greatest_push);
+    return std::min(part.card->grating_bus.period_us * 500 - 0.1, max_push);
 }
 
 constexpr FaultRow stepper_faults[] = {
     {"motor.stall", 0, 1, "", "1: the axle is held fast; 0 releases it"},
-    {"motor.lose_steps", -greatest_push, greatest_push, "pulses",
+    {"motor.lose_steps", -max_push, max_push, "pulses",
      "the rotor falls back by about so many, in whole electrical cycles"},
-    {"motor.push", -greatest_push, greatest_push, "microsteps", "the rotor is moved by about so many"},
+    {"motor.push", -max_push, max_push, "microsteps", "the rotor is moved by about so many"},
 };
 constexpr FaultRow servo_faults[] = {
     {"motor.stall", 0, 1, "", "1: the axle is held fast; 0 releases it"},
-    {"motor.push", -greatest_push, greatest_push, "microsteps", "the rotor is moved by about so many"},
+    {"motor.push", -max_push, max_push, "microsteps", "the rotor is moved by about so many"},
     {"motor.load", 0, max_factor, "", "the load becomes so many times the motor's own inertia"},
 };
 constexpr FaultRow axis_faults[] = {
@@ -65,8 +65,7 @@ constexpr FaultRow axis_faults[] = {
     {"encoder.noise", 0, max_levels, "levels", "so many wrong levels of half a microsecond to ten from now on"},
     {"encoder.jitter", 0, max_delay_s, "s", "edges come up to so much late"},
     {"encoder.dirt", 0, 0, "lines", "so many lines of the disc cannot be seen", dirty_lines},
-    {"encoder.overspeed", 0, greatest_push, "1/s",
-     "above so many edges a second (1 at least) lines are lost; 0 mends it"},
+    {"encoder.overspeed", 0, max_push, "1/s", "above so many edges a second (1 at least) lines are lost; 0 mends it"},
     {"encoder.eccentricity", 0, 0, "counts", "the disc is off its centre by so much", off_centre},
     {"limit_minus.stuck_open", 0, 1, "", "1: the switch never acts; 0 mends it"},
     {"limit_minus.stuck_closed", 0, 1, "", "1: the switch always acts; 0 mends it"},
@@ -77,11 +76,11 @@ constexpr FaultRow axis_faults[] = {
 };
 constexpr FaultRow stage_faults_table[] = {
     {"motor.stall", 0, 1, "", "1: the stage is held fast; 0 releases it"},
-    {"motor.push", -greatest_push, greatest_push, "nm", "the stage is moved by so much, at most to its ends"},
+    {"motor.push", -max_push, max_push, "nm", "the stage is moved by so much, at most to its ends"},
     {"motor.friction", 0, max_factor, "m/s2", "what rubs brakes by so much"},
     {"motor.load", 0, max_factor, "", "the mass on the stage is so many times its own"},
-    {"scale.lose", -greatest_push, greatest_push, "counts", "so many counts are lost at once"},
-    {"scale.dirt", 0, greatest_push, "nm", "so much of the grating cannot be seen"},
+    {"scale.lose", -max_push, max_push, "counts", "so many counts are lost at once"},
+    {"scale.dirt", 0, max_push, "nm", "so much of the grating cannot be seen"},
     {"scale.swapped", 0, 1, "", "1: the lines are swapped, it counts backwards; 0 mends it"},
     {"scale.expansion", -max_ppm, max_ppm, "ppm", "the grating is so much longer"},
 };
@@ -106,8 +105,8 @@ constexpr FaultRow card_faults[] = {
     {"ref.broken", 0, 1, "", "1: the wire of the reference switch is broken; 0 mends it"},
     {"off", 0, 1, "", "1: the card has no power; 0: it comes back, reset"},
     {"reset", 0, 1, "", "1: the card is reset"},
-    {"late", 0, greatest_push, "ns", "the slave begins its frames so much too late"},
-    {"miss_edge", 0, greatest_push, "edges", "the slave misses the next so many edges of HOLD"},
+    {"late", 0, max_push, "ns", "the slave begins its frames so much too late"},
+    {"miss_edge", 0, max_push, "edges", "the slave misses the next so many edges of HOLD"},
     {"jitter", 0, 0, "ns", "the host's frames begin up to so much late", frame_jitter_limit},
     {"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 mends it"},
 };

@@ -12,8 +12,6 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr double max_push = greatest_push;
-
 /// Faults of the encoder's tracks where they are wires; what else an encoder can have is the machine's.
 constexpr std::array<std::string_view, 7> line_faults = {
     "encoder.inverted_a", "encoder.inverted_b", "encoder.noise",       "encoder.jitter",

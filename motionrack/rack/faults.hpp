@@ -21,7 +21,7 @@ Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view t
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target);
 
 /// The greatest number of a fault, in microsteps: how far a motor can be pushed at once.
-inline constexpr double greatest_push = 1e7;
+inline constexpr double max_push = 1e7;
 
 /// Names of the faults that an axis can have, whatever turns it.
 std::vector<std::string_view> fault_names();

@@ -42,7 +42,7 @@ class FrameMonitor final : private grating_bus::FrameListener {
         const grating_bus::Card* card = nullptr;
         std::string name;
         std::uint64_t frames = 0, untrue = 0, unlike = 0;
-        std::array<std::uint32_t, grating_bus::most_scales> truth{};  ///< of all scales, when its frame began
+        std::array<std::uint32_t, grating_bus::max_scales> truth{};  ///< of all scales, when its frame began
     };
     Watched& watched(const grating_bus::Card& card);
     static bool untrue(const Watched& own, const grating_bus::Frame& frame);

@@ -126,7 +126,7 @@ std::optional<CardFlaw> grating_decoder_flaw(const RackCard& card, std::span<con
 }
 
 std::size_t grating_decoder_pin_count(const RackCard& card) {
-    return 2 * static_cast<std::size_t>(std::clamp<std::int64_t>(card.grating_decoder.scales, 1, gb::most_scales));
+    return 2 * static_cast<std::size_t>(std::clamp<std::int64_t>(card.grating_decoder.scales, 1, gb::max_scales));
 }
 
 }  // namespace motionrack::rack

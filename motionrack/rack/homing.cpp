@@ -11,7 +11,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr Duration sample_period = milliseconds(1);
-constexpr std::size_t most_samples = 200'000;
+constexpr std::size_t max_samples = 200'000;
 
 /// The number of the input among `pins` of the axis' channel that `end` of the axis is wired to; -1 if none is.
 int input_of(const RackConfig& config, const RackAxis& axis, std::string_view end,
@@ -214,10 +214,10 @@ class Homing {
         if (work.skipped++ % work.every != 0) return;
         const Instant now = rack_.kernel().now();
         HomingSamples& s = work.samples;
-        if (s.seconds.size() >= most_samples) {
+        if (s.seconds.size() >= max_samples) {
             for (std::size_t i = 0; i < s.seconds.size() / 2; ++i)
                 s.seconds[i] = s.seconds[2 * i], s.position[i] = s.position[2 * i], s.speed[i] = s.speed[2 * i];
-            s.seconds.resize(most_samples / 2), s.position.resize(most_samples / 2), s.speed.resize(most_samples / 2);
+            s.seconds.resize(max_samples / 2), s.position.resize(max_samples / 2), s.speed.resize(max_samples / 2);
             work.every *= 2;
         }
         s.seconds.push_back(to_seconds(now - work.at));

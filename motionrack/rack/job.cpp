@@ -71,7 +71,7 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
 
 Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)), reference_(rack) {
     monitor_ =
-        std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
+        std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.max_samples);
     monitor_->on_sample(settings_.on_sample);
     monitor_->set_allowed_deviation(allowed_deviation(rack_.config()));
 }
@@ -86,7 +86,7 @@ void Job::programmed(const control::Move& move, const control::Point& start, Job
 
 void Job::planned(std::int64_t block, const control::PlannedMove& move) {
     monitor_->planned(block, move);
-    if (planned_.size() < most_planned) planned_.push_back(move);
+    if (planned_.size() < max_planned) planned_.push_back(move);
 }
 
 void Job::listen(const std::vector<control::MoveStart>& starts) {

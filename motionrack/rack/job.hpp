@@ -30,7 +30,7 @@ struct JobSettings {
     /// How it is read; none: reader_settings() of the rack.
     std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
-    std::size_t most_samples = 200'000;
+    std::size_t max_samples = 200'000;
     const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; not used if there are orders
     CommandSchedule* orders = nullptr;                      ///< planned orders, and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
@@ -113,9 +113,9 @@ class Job {
         told_ = other.told_;
     }
     const Monitor& monitor() const { return *monitor_; }
-    /// Every planned move as it was handed out, at most `most_planned`.
+    /// Every planned move as it was handed out, at most `max_planned`.
     const std::vector<control::PlannedMove>& planned() const { return planned_; }
-    static constexpr std::size_t most_planned = 20'000;
+    static constexpr std::size_t max_planned = 20'000;
 
   private:
     /// What moves of some lines were driven with instead, and what that costs at most.

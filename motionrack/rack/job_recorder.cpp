@@ -9,8 +9,8 @@ namespace motionrack::rack {
 namespace {
 
 // What a killed program loses: the last tenth of the job's time, or so many events.
-constexpr std::uint64_t most_unflushed = 1'000'000;
-constexpr Duration least_flush_period = whole_seconds(1);
+constexpr std::uint64_t max_unflushed = 1'000'000;
+constexpr Duration min_flush_period = whole_seconds(1);
 
 std::string lower_letter(char letter) {
     return std::string(1, static_cast<char>(letter - 'A' + 'a'));
@@ -60,7 +60,7 @@ Result<std::unique_ptr<JobRecorder>> JobRecorder::create(Rack& rack, const std::
     out->add_wires();
     out->add_counters();
     out->began_ = rack.kernel().now();
-    out->next_flush_ = out->began_ + least_flush_period;
+    out->next_flush_ = out->began_ + min_flush_period;
     MOTIONRACK_TRY(out->writer_, trace::RecordingWriter::create(path, out->head_, out->began_));
     out->id_ = rack.kernel().add(*out, sim::Phase::observers, "recorder");
     out->listen();
@@ -172,10 +172,10 @@ void JobRecorder::drain() {
     for (const Event& event : buffer_) writer_.event(event.signal, event.at, event.value);
     buffer_.clear();
     const Instant now = rack_.kernel().now();
-    if (now < next_flush_ && writer_.events() - flushed_events_ < most_unflushed) return;
+    if (now < next_flush_ && writer_.events() - flushed_events_ < max_unflushed) return;
     writer_.flush(now);
     flushed_events_ = writer_.events();
-    next_flush_ = now + std::max(least_flush_period, (now - began_) / 10);
+    next_flush_ = now + std::max(min_flush_period, (now - began_) / 10);
 }
 
 namespace {

@@ -13,7 +13,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t most_segments = 20'000;
+constexpr std::size_t max_segments = 20'000;
 
 const char* kind_text(control::MoveKind kind) {
     switch (kind) {
@@ -129,7 +129,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     for (const double off : job.monitor().deviations()) data.deviation_mm.push_back(static_cast<float>(off));
     data.tolerance_mm = outcome.tolerance_mm;
     for (const control::PlannedMove& planned : job.planned())
-        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell)
+        if (data.planned.size() < max_segments && planned.move.kind != control::MoveKind::dwell)
             data.planned.push_back(path_segment(planned.move, planned.start));
     if (outcome.worst.mm > 0)
         data.worst = trace::ReportMaxDeviation{outcome.worst.mm, to_seconds(outcome.worst.at - began),

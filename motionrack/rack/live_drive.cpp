@@ -10,7 +10,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t most_probes = 2000;   // that are told of
+constexpr std::size_t max_probes = 2000;    // that are told of
 constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
 
 }  // namespace
@@ -101,7 +101,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
         const Result<ExecutionState> driven = stream.drive(feeder.more());
         if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
             probes = probe.count;
-            if (run.probes.size() < most_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
+            if (run.probes.size() < max_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
         }
         if (!driven) return tl::unexpected<Error>(driven.error());
         switch (*driven) {

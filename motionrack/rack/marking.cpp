@@ -41,9 +41,9 @@ parts::ConveyorSettings RackConveyor::settings() const {
 }
 
 double RackConveyor::greatest_speed() const {
-    double out = parts::greatest_track_speed;
-    if (has_encoder()) out = std::min(out, greatest_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
-    if (passing) out = std::min(out, greatest_parts * passing->every);
+    double out = parts::max_track_speed;
+    if (has_encoder()) out = std::min(out, max_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
+    if (passing) out = std::min(out, max_parts * passing->every);
     return out;
 }
 
@@ -88,7 +88,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
         out.drive->add(*out.counts);
         parts::LineEncoderSettings lines;
         lines.index = false;
-        lines.fastest = from_seconds(1 / greatest_track_counts);
+        lines.fastest = from_seconds(1 / max_track_counts);
         out.encoder = std::make_unique<parts::LineEncoder>(kernel, config.name + ".encoder", *out.counts, lines);
         if (config.jitter_us > 0) out.encoder->fault("jitter", config.jitter_us * 1e-6, Instant{0});
     }

@@ -7,9 +7,9 @@
 namespace motionrack::rack {
 
 namespace {
-constexpr std::size_t most_blocks = 20'000;
+constexpr std::size_t max_blocks = 20'000;
 // Pulses: a piece begins and ends at whole pulses of its own axis and of the one that leads it.
-constexpr double most_rounding = 2;
+constexpr double max_rounding = 2;
 // The acceleration of an axis is kept but for a speed step of the card more or less within the time that it is taken
 // over.
 constexpr double accel_reserve = 1.03;
@@ -40,7 +40,7 @@ void Monitor::Observer::rate_changed(double before, double rate, Instant now) {
     if (!ramp) {
         ++jumps;
         const double piece = std::max(to_seconds(now - piece_since), 1e-9);
-        rounding = std::max(pending ? rounding : 0, most_rounding / piece);
+        rounding = std::max(pending ? rounding : 0, max_rounding / piece);
         piece_since = now;
     }
     present = rate;
@@ -72,8 +72,8 @@ void Monitor::Observer::restart(const TopSpeed& fresh, double rate, Instant now)
     jumps = 0;
 }
 
-Monitor::Seen::Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t most_samples)
-    : kept(most_samples) {
+Monitor::Seen::Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t max_samples)
+    : kept(max_samples) {
     for (const WatchedAxis& axis : axes) {
         // A servo follows a voltage in steps; a card that has none of these limits is not held to them.
         const bool watched = axis.servo == nullptr && axis.start_hz > 0;
@@ -81,13 +81,13 @@ Monitor::Seen::Seen(const std::vector<WatchedAxis>& axes, Duration period, std::
     }
 }
 
-Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples)
+Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t max_samples)
     : kernel_(kernel),
       id_(kernel.add(*this, sim::Phase::observers, "monitor")),
       axes_(std::move(axes)),
       period_(period),
-      most_samples_(most_samples),
-      seen_(axes_, period, most_samples) {
+      max_samples_(max_samples),
+      seen_(axes_, period, max_samples) {
     ears_.reserve(axes_.size());  // they are listened with
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_.emplace_back(axes_[i].jump_hz, period);
@@ -99,7 +99,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
 
 void Monitor::restart(std::vector<WatchedAxis> axes) {
     axes_ = std::move(axes);
-    seen_ = Seen(axes_, period_, most_samples_);
+    seen_ = Seen(axes_, period_, max_samples_);
     const Instant now = kernel_.now();
     for (std::size_t i = 0; i < axes_.size(); ++i)
         ears_[i].restart(TopSpeed(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
@@ -168,7 +168,7 @@ void Monitor::drain() {
 
 void Monitor::close_block(Instant end) {
     seen_.open_block.end = end;
-    if (seen_.blocks.size() < most_blocks)
+    if (seen_.blocks.size() < max_blocks)
         seen_.blocks.push_back(seen_.open_block);
     else
         ++seen_.blocks_left_out;

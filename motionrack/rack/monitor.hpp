@@ -79,9 +79,9 @@ class Monitor final : public sim::Device {
   public:
     static constexpr std::size_t ring_size = 1 << 14;
 
-    /// `period`: between samples; doubled whenever more than `most_samples` are kept (every second one is then
+    /// `period`: between samples; doubled whenever more than `max_samples` are kept (every second one is then
     /// dropped).
-    Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples);
+    Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t max_samples);
 
     /// Another program: forgets what it saw of the one before. Nothing moves; `axes` are those that it was made with,
     /// wherever their counts begin now.
@@ -159,7 +159,7 @@ class Monitor final : public sim::Device {
     };
     /// Of one program.
     struct Seen {
-        Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t most_samples);
+        Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t max_samples);
         std::size_t ring_begin = 0;
         std::size_t ring_end = 0;
         std::int64_t ring_lost = 0;
@@ -201,7 +201,7 @@ class Monitor final : public sim::Device {
     std::vector<WatchedAxis> axes_;
     std::vector<Observer> ears_;
     Duration period_;
-    std::size_t most_samples_;
+    std::size_t max_samples_;
     std::vector<RawSample> ring_;
     Seen seen_;
     bool running_ = false;

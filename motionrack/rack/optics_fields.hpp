@@ -27,8 +27,7 @@ inline constexpr std::array<Field, 6> lens_keys = {
 
 inline constexpr std::array<Field, 5> galvo_keys = {
     field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
-    field<&parts::GalvoSettings::dead_us>("dead_us", 0, parts::greatest_dead_us, "us",
-                                          "dead time, rounded down to 10 us"),
+    field<&parts::GalvoSettings::dead_us>("dead_us", 0, parts::max_dead_us, "us", "dead time, rounded down to 10 us"),
     field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
     field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
     field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),

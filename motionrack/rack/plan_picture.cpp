@@ -15,9 +15,9 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr int width = 720, least_path_height = 160, most_path_height = 460, heading_height = 28, chart_height = 120;
+constexpr int width = 720, min_path_height = 160, max_path_height = 460, heading_height = 28, chart_height = 120;
 /// Looks at the whole plan, and at each of its stretches at least.
-constexpr double looks = 8000, least_looks = 24;
+constexpr double looks = 8000, min_looks = 24;
 
 /// Values over time.
 struct Track {
@@ -80,7 +80,7 @@ class Looks {
         while (!path.seconds.empty() && path.seconds.back() > begin_) drop();
         if (!stretch.curve.empty()) {
             control::SectionSampler view(stretch);
-            const auto count = static_cast<int>(std::max(least_looks, looks * stretch.seconds / seconds_));
+            const auto count = static_cast<int>(std::max(min_looks, looks * stretch.seconds / seconds_));
             for (int i = 0; i <= count; ++i) {
                 const double time = stretch.seconds * i / count;
                 add(begin_ + time, view.at(time));
@@ -207,8 +207,8 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
     // As wide as it can be, with some room for the marks and the scale.
     const double wide = extent.high[0] - extent.low[0], high = extent.high[1] - extent.low[1];
     const int height =
-        std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : most_path_height,
-                   least_path_height, most_path_height);
+        std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : max_path_height,
+                   min_path_height, max_path_height);
     const double most = static_cast<double>(*std::max_element(plan.path.speed.begin(), plan.path.speed.end()));
     return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false},
                             {plan.path.speed, most, "mm/s"}),

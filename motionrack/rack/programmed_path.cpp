@@ -48,7 +48,7 @@ ProgrammedPath::Moves::const_iterator ProgrammedPath::skip(const Moves::const_it
 }
 
 ProgramDistance ProgrammedPath::distance(const ProgramPart& part, double x, double y, double z) const {
-    double nearest = std::numeric_limits<double>::infinity(), least_beside = nearest;
+    double nearest = std::numeric_limits<double>::infinity(), min_beside = nearest;
     ProgramDistance out;
     const auto first = std::lower_bound(moves_.begin(), moves_.end(), part.first,
                                         [](const Programmed& one, std::int64_t index) { return one.index < index; });
@@ -58,15 +58,15 @@ ProgramDistance ProgrammedPath::distance(const ProgramPart& part, double x, doub
         const double dx = x - move->path.start[0], dy = y - move->path.start[1], dz = z - move->path.start[2];
         const double from_start = std::sqrt(dx * dx + dy * dy + dz * dz);
         // Nearer than this is no point of the path before it has gone on for the rest.
-        const double enough = std::max(nearest, least_beside + max_tolerance_mm_);
+        const double enough = std::max(nearest, min_beside + max_tolerance_mm_);
         if (from_start - move->length_mm > enough) {
             move = skip(move, from_start - enough);
             continue;
         }
         const double off = move->length_mm > 0 ? control::distance_to(move->path, x, y, z) : from_start;
         nearest = std::min(nearest, off);
-        if (off - move->tolerance_mm < least_beside) {
-            least_beside = off - move->tolerance_mm;
+        if (off - move->tolerance_mm < min_beside) {
+            min_beside = off - move->tolerance_mm;
             out.judged_mm = off;
             out.tolerance_mm = move->tolerance_mm;
         }

@@ -153,11 +153,11 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
                     fmt::format("{} cannot become {}: that is no number. Nothing was done.", name, value));
     parts::AxisMechanics& machine = *axis.machine;
     const double push = row->push(axis, value, rack.kernel().now());
-    if (!(std::fabs(push) <= greatest_push))
+    if (!(std::fabs(push) <= max_push))
         return fail(ErrorKind::refused,
                     fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; {:.0f} are the most "
                                 "at once. Nothing was done.",
-                                name, value, push, greatest_push));
+                                name, value, push, max_push));
     // A rotor in step springs back unless it is brought past the middle of an electrical cycle.
     const double least =
         machine.in_step() && !axis.servo ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
@@ -169,7 +169,7 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
 template <class Part>
 void bound_by_push(QuantityRange& out, const QuantityRow<Part>& row, Part& part, Instant now) {
     const double here = row.get(part, now), microsteps = row.push(part, here + 1, now);
-    const double farthest = std::fabs(greatest_push / microsteps);
+    const double farthest = std::fabs(max_push / microsteps);
     out.can_set = true;
     out.min = here - farthest;
     out.max = here + farthest;

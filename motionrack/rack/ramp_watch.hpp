@@ -42,7 +42,7 @@ class RampWatch final : public sim::Device {
 
   private:
     static constexpr Duration period = milliseconds(1);
-    static constexpr std::size_t counts_kept = 2 * (JumpLaw::longest_window / period) + 1;
+    static constexpr std::size_t counts_kept = 2 * (JumpLaw::max_window / period) + 1;
     /// An axis that pulses move, with a start speed.
     struct Watched {
         std::size_t axis = 0;  ///< of Rack::axes()

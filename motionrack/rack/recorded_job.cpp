@@ -43,7 +43,7 @@ Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& t
         if (!timed)
             return fail(ErrorKind::invalid_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
                                                               "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
-                                                              in_quotes(text), most_planned_seconds));
+                                                              in_quotes(text), max_planned_seconds));
         out.push_back(std::move(*timed));
     }
     return out;

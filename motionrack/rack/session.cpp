@@ -45,11 +45,11 @@ Result<void> refuse_time_beyond_end(Instant now) {
 /// `ns` as a time that the rack has left.
 Result<Duration> Session::time_of(std::uint64_t ns) const {
     MOTIONRACK_CHECK(check_free());
-    if (ns > most_ns)
+    if (ns > max_ns)
         return fail(ErrorKind::refused,
                     fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
                                 "several times.",
-                                ns, most_ns));
+                                ns, max_ns));
     const Duration time = nanoseconds(static_cast<std::int64_t>(ns));
     MOTIONRACK_CHECK(room_for(time));
     return time;

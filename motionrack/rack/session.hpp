@@ -59,11 +59,11 @@ class Session {
     Rack& rack() { return rack_; }
 
     // ---- time
-    /// Lets the world run for `ns` nanoseconds, 0 .. most_ns. Errors: refused beyond that, beyond latest, and by
+    /// Lets the world run for `ns` nanoseconds, 0 .. max_ns. Errors: refused beyond that, beyond latest, and by
     /// check_free.
     Result<void> advance(std::uint64_t ns);
     std::uint64_t now_ns() const { return static_cast<std::uint64_t>(now().count()) / 10; }
-    static constexpr std::uint64_t most_ns = 1'000'000'000'000'000;
+    static constexpr std::uint64_t max_ns = 1'000'000'000'000'000;
     static constexpr Instant latest{never.count() / 2};
 
     // ---- the bus

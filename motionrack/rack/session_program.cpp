@@ -20,7 +20,7 @@ constexpr std::size_t max_problems = 20;
 constexpr std::size_t max_warnings = 12;
 constexpr Duration homing_slice = milliseconds(50);
 /// Longer than any program of a day and any homing of all axes.
-constexpr Duration longest_drive = whole_seconds(86'400);
+constexpr Duration max_drive_time = whole_seconds(86'400);
 
 /// A problem a line, and how many there are.
 std::string problems_text(const control::gcode::ProgramCheck& check, const std::string& name) {
@@ -76,7 +76,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
         return fail(ErrorKind::refused,
                     "The rack has no axes, so no program can run on it. Nothing was moved; give it "
                     "some in its rack file.");
-    MOTIONRACK_CHECK(room_for(longest_drive));
+    MOTIONRACK_CHECK(room_for(max_drive_time));
     MOTIONRACK_TRY(const control::Point start, job_->start());
     std::string name;
     MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
@@ -118,7 +118,7 @@ ProgramReport Session::run_program(const ProgramOrder& order) {
 HomingOutcome Session::home(std::string_view axes) {
     HomingOutcome out;
     out.ended = check_free();
-    if (out.ended) out.ended = room_for(longest_drive);
+    if (out.ended) out.ended = room_for(max_drive_time);
     if (!out.ended) return out;
     HomingSettings settings;
     for (const char c : axes)

@@ -78,7 +78,7 @@ parts::LinearScaleSettings scale_settings(const RackStage& stage) {
     out.interpolation = s.interpolation;
     out.reversed = s.reversed;
     out.zero_nm = s.zero_mm * nm_per_mm;
-    out.fastest = s.fastest_mhz * 1e6;
+    out.fastest = s.max_count_rate_mhz * 1e6;
     if (s.index_mm) out.index_nm = *s.index_mm * nm_per_mm;
     out.dirt_at_nm = s.dirt_at_mm * nm_per_mm;
     return out;

@@ -25,7 +25,7 @@ std::optional<ScheduledText> read_timed_text(std::string_view text) {
     const std::size_t at = text.rfind('@');
     if (at == std::string_view::npos) return std::nullopt;
     const double time = seconds(text.substr(at + 1));
-    if (!(time >= 0 && time <= most_planned_seconds)) return std::nullopt;
+    if (!(time >= 0 && time <= max_planned_seconds)) return std::nullopt;
     return ScheduledText{from_seconds(time), std::string(text.substr(0, at)), std::string(text)};
 }
 

@@ -14,9 +14,9 @@ struct ScheduledText {
     std::string text;    ///< all of it, as its user wrote it
 };
 
-inline constexpr double most_planned_seconds = 1e6;
+inline constexpr double max_planned_seconds = 1e6;
 
-/// TIME is a number with s, ms or us, 0 .. most_planned_seconds. Nothing: it has no such time.
+/// TIME is a number with s, ms or us, 0 .. max_planned_seconds. Nothing: it has no such time.
 std::optional<ScheduledText> read_timed_text(std::string_view text);
 
 }  // namespace motionrack::rack

@@ -30,10 +30,10 @@ bool matches(std::string_view pattern, std::string_view text) {
     return p == pattern.size();
 }
 
-constexpr Duration longest_pulse = microseconds(5);
+constexpr Duration max_pulse_width = microseconds(5);
 /// The end of a pulse is recorded when the next one comes, or when there was time for two; and so is each of the counts
 /// of an encoder that it makes.
-constexpr Duration recorded_within = 2 * longest_pulse;
+constexpr Duration recorded_within = 2 * max_pulse_width;
 constexpr Duration direction_lead = nanoseconds(250);
 
 }  // namespace
@@ -46,7 +46,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
     void edges(const sim::EdgeBatch& batch) override {
         for (std::uint32_t i = 0; i < batch.size; ++i) {
             const Instant at = batch.origin + batch.at[i] * batch.tick;
-            if (high_) recorder_.push(std::min(last_ + (at - last_) / 2, last_ + longest_pulse), step_, 0);
+            if (high_) recorder_.push(std::min(last_ + (at - last_) / 2, last_ + max_pulse_width), step_, 0);
             if (batch.step != sense_) {
                 sense_ = batch.step;
                 recorder_.push(std::max(high_ ? last_ + (at - last_) / 2 : Instant{0}, at - direction_lead), direction_,
@@ -60,7 +60,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
     /// No pulse has come for long enough: the last one is over.
     void settle(Instant now) {
         if (!high_ || now - last_ < recorded_within) return;
-        recorder_.push(last_ + longest_pulse, step_, 0);
+        recorder_.push(last_ + max_pulse_width, step_, 0);
         high_ = false;
     }
 

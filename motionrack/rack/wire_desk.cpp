@@ -9,7 +9,7 @@
 namespace motionrack::rack {
 
 namespace {
-constexpr double most_volts = 15;  // of an analog input
+constexpr double max_volts = 15;  // of an analog input
 }
 
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
@@ -181,10 +181,10 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
     if (!wire->refused.empty()) return fail(ErrorKind::refused, wire->refused + ". Nothing was done.");
     if (std::isnan(value)) return {};
     if (wire->unit != 1) {
-        if (std::fabs(value) <= most_volts) return {};
+        if (std::fabs(value) <= max_volts) return {};
         return fail(ErrorKind::refused,
                     fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
-                                most_volts, most_volts));
+                                max_volts, max_volts));
     }
     if (wire->bits > 1) {
         const double greatest = std::ldexp(1.0, wire->bits - 1);

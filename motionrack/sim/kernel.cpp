@@ -8,7 +8,7 @@ namespace motionrack::sim {
 
 namespace {
 constexpr std::size_t queue_capacity = 4096;
-constexpr std::size_t most_changes = 20'000;  // of wires at one event
+constexpr std::size_t max_changes = 20'000;  // of wires at one event
 }  // namespace
 
 DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
@@ -123,7 +123,7 @@ void Kernel::change(WireId wire, int level) {
         w.level = level;  // how the world begins is no change
         return;
     }
-    if (queue_size_ - queue_head_ >= queue_capacity || queue_size_ >= most_changes) {
+    if (queue_size_ - queue_head_ >= queue_capacity || queue_size_ >= max_changes) {
         if (!unsettled_)
             report(no_device, wires_never_settle, static_cast<std::int64_t>(index(wire)),
                    static_cast<std::int64_t>(queue_size_));

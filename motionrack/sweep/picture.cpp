@@ -17,8 +17,8 @@ namespace motionrack::sweep {
 namespace {
 
 constexpr int width = 760, chart_height = 210, map_height = 300, heading_height = 22;
-constexpr std::size_t most_lines = 6, most_maps = 12;
-constexpr std::array<const char*, most_lines> looks = {"z", "x", "y", "a", "b", "c"};
+constexpr std::size_t max_lines = 6, max_maps = 12;
+constexpr std::array<const char*, max_lines> looks = {"z", "x", "y", "a", "b", "c"};
 
 /// Something that is varied, with more than one value.
 struct Varied {
@@ -48,9 +48,9 @@ class Picture {
         std::vector<const Varied*> numbers, rest;
         for (const Varied& one : varied_) (one.number ? numbers : rest).push_back(&one);
         group(rest);
-        if (numbers.size() == 1 && groups_.size() <= most_lines)
+        if (numbers.size() == 1 && groups_.size() <= max_lines)
             draw_lines(*numbers[0]);
-        else if (numbers.size() == 2 && groups_.size() <= most_maps)
+        else if (numbers.size() == 2 && groups_.size() <= max_maps)
             draw_maps(*numbers[0], *numbers[1]);
         else
             draw_each();
@@ -111,7 +111,7 @@ class Picture {
                 std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group.first == name; });
             if (found == groups_.end()) found = groups_.insert(groups_.end(), {name, {}});
             found->second.push_back(i);
-            if (groups_.size() > most_maps) return;
+            if (groups_.size() > max_maps) return;
         }
     }
 
@@ -129,7 +129,7 @@ class Picture {
     trace::SvgScatter scatter(const Measure& measure, const Varied& x, bool joined) const {
         trace::SvgScatter out{measure.title, x.name, {}, {}};
         for (const std::string& name : x.names) out.x_names.push_back(shown(name));
-        const bool grouped = x.number && groups_.size() <= most_lines;
+        const bool grouped = x.number && groups_.size() <= max_lines;
         for (std::size_t g = 0; grouped && g < groups_.size(); ++g) {
             trace::SvgDots dots{groups_[g].first, looks[g], {}, joined};
             for (const std::size_t i : groups_[g].second) dots.dots.push_back(dot(measure, x, i));

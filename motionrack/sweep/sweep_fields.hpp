@@ -20,7 +20,7 @@ inline constexpr std::array<rack::Field, 7> sweep_fields = {
     rack::with_choices(rack::field<&SweepSettings::order>("order", 0, 0, "",
                                                           "all combinations of the values, or points drawn by chance"),
                        order_names),
-    rack::absent_means(rack::field<&SweepSettings::points>("points", 1, static_cast<double>(most_points), "",
+    rack::absent_means(rack::field<&SweepSettings::points>("points", 1, static_cast<double>(max_points), "",
                                                            "how many points are drawn"),
                        "required with random, else none"),
     rack::field<&SweepSettings::seed>(
@@ -37,7 +37,7 @@ struct RangeSettings {
 inline constexpr std::array<rack::Field, 4> range_fields = {
     rack::required(rack::field<&RangeSettings::from>("from", -1e15, 1e15, "", "the first number"), "required"),
     rack::required(rack::field<&RangeSettings::to>("to", -1e15, 1e15, "", "the last one"), "required"),
-    rack::absent_means(rack::field<&RangeSettings::steps>("steps", 2, static_cast<double>(most_steps), "",
+    rack::absent_means(rack::field<&RangeSettings::steps>("steps", 2, static_cast<double>(max_steps), "",
                                                           "how many numbers, at equal distances, both ends among them"),
                        "required with grid; with random any number between"),
     rack::field<&RangeSettings::whole>("whole", 0, 0, "", "rounded to whole numbers"),

@@ -87,18 +87,18 @@ class Reader {
         if (vary.children.empty())
             problems_.error(vary.key_place,
                             "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
-        if (file_.parameters.size() > most_parameters)
-            problems_.error(file_.parameters[most_parameters].place,
+        if (file_.parameters.size() > max_parameters)
+            problems_.error(file_.parameters[max_parameters].place,
                             fmt::format("{} things are varied; at most {} can be. Leave some out.",
-                                        file_.parameters.size(), most_parameters));
+                                        file_.parameters.size(), max_parameters));
         if (problems_.any_errors()) return;
-        if (const std::int64_t points = file_.points(); points > most_points)
+        if (const std::int64_t points = file_.points(); points > max_points)
             problems_.error(vary.key_place,
                             fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or "
                                         "order = \"random\" with points.",
                                         points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18"
                                                                                            : std::to_string(points),
-                                        most_points));
+                                        max_points));
     }
 
     void descend(const TomlNode& node, const std::vector<std::string>& path) {
@@ -146,9 +146,9 @@ class Reader {
         else
             return wrong(node.value_place, fmt::format("is {}", rack::type_name(node.type)));
         if (parameter.values.empty()) return wrong(node.value_place, "has no values");
-        if (static_cast<std::int64_t>(parameter.values.size()) > most_steps)
+        if (static_cast<std::int64_t>(parameter.values.size()) > max_steps)
             return wrong(node.value_place,
-                         fmt::format("has {} values, more than {}", parameter.values.size(), most_steps));
+                         fmt::format("has {} values, more than {}", parameter.values.size(), max_steps));
         bool good = true;
         for (const TomlNode& value : parameter.values)
             good = (is_scalar(value)

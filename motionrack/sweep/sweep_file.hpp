@@ -17,9 +17,9 @@
 
 namespace motionrack::sweep {
 
-inline constexpr std::int64_t most_points = 100'000;
-inline constexpr std::size_t most_parameters = 16;
-inline constexpr std::int64_t most_steps = 10'000;
+inline constexpr std::int64_t max_points = 100'000;
+inline constexpr std::size_t max_parameters = 16;
+inline constexpr std::int64_t max_steps = 10'000;
 
 enum class Order : std::uint8_t { grid, random };
 

@@ -30,7 +30,7 @@ std::string sweep_file_reference() {
         "# The sweep file\nTOML, for [`motionrack sweep`](../howto/sweep.md). Unknown keys, wrong types, values out of "
         "range, racks and programs that would be refused are told all at once, with line and column, "
         "before anything runs. A sweep has at most {} points and {} things that are varied.\n\n",
-        most_points, most_parameters);
+        max_points, max_parameters);
     out += "## [sweep]\n" + rack::fields_table(sweep_fields, &settings, &settings);
     out += fmt::format("## [vary]\n{}", vary_doc) + rack::fields_table(range_fields, &range, &range);
     out +=

@@ -10,7 +10,7 @@
 
 namespace motionrack::sweep {
 
-inline constexpr int most_jobs = 256;
+inline constexpr int max_jobs = 256;
 
 struct WorkProgress {
     std::int64_t done = 0;    ///< points that have a row
@@ -31,7 +31,7 @@ class WorkClock {
     std::int64_t before_, began_ms_;
 };
 
-/// Every point runs on a rack of its own, in the order of the points, `jobs` (1 .. most_jobs) of them at the same time.
+/// Every point runs on a rack of its own, in the order of the points, `jobs` (1 .. max_jobs) of them at the same time.
 /// `stop` ends them between two instants of their racks; `progress` is called by any of the threads, one at a time.
 /// Errors: stopped; io, as Results::add; those of run_point. Rows that were added before stay.
 Result<void> run_here(const Sweep& sweep, Results& results, int jobs, const std::atomic<bool>& stop,

@@ -10,7 +10,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t most_word = 1 << 16, most_signals = 1'000'000, most_depth = 1000;
+constexpr std::size_t max_word = 1 << 16, max_signals = 1'000'000, max_depth = 1000;
 constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its signals
 
 class VcdChanges final : public ChangeSource {
@@ -51,7 +51,7 @@ bool VcdChanges::word() {
         c = bytes_.get();
     }
     for (; c >= 0 && c != ' ' && c != '\t' && c != '\r' && c != '\n'; c = bytes_.get())
-        if (word_.size() < most_word) word_ += static_cast<char>(c);
+        if (word_.size() < max_word) word_ += static_cast<char>(c);
     line_ += c == '\n';
     cut_ = c < 0 && !word_.empty();
     return !word_.empty();
@@ -87,7 +87,7 @@ Result<void> VcdChanges::timescale() {
 Result<void> VcdChanges::variable(const std::string& scope) {
     std::vector<std::string> words;
     while (word() && word_ != "$end" && words.size() < 8) words.push_back(word_);
-    if (words.size() < 4 || codes_.size() >= most_signals)
+    if (words.size() < 4 || codes_.size() >= max_signals)
         return refuse("A variable is declared by its type, width, code and name.");
     if (scope.size() + words[3].size() > max_name)
         return refuse(fmt::format("The name of a signal has more than {} bytes, its scopes included.", max_name));
@@ -107,7 +107,7 @@ Result<void> VcdChanges::read_head() {
         if (word_ == "$timescale") {
             MOTIONRACK_CHECK(timescale());
         } else if (word_ == "$scope") {
-            if (!word() || !word() || scopes.size() >= most_depth) return refuse("A scope has a type and a name.");
+            if (!word() || !word() || scopes.size() >= max_depth) return refuse("A scope has a type and a name.");
             const std::size_t around = scopes.empty() ? 0 : scopes.back().size();
             if (around + word_.size() >= max_name)
                 return refuse(

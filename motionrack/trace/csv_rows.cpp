@@ -7,7 +7,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t most_field = 1 << 20, most_fields = 4096;
+constexpr std::size_t max_field = 1 << 20, max_fields = 4096;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ Result<bool> CsvRows::read(std::vector<std::string>& fields) {
         } else {
             fields.back() += static_cast<char>(c);
         }
-        if (fields.back().size() > most_field || fields.size() > most_fields)
+        if (fields.back().size() > max_field || fields.size() > max_fields)
             return refuse("The row is longer than a row of a recording can be; is this a CSV file?");
     }
 }

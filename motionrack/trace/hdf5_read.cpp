@@ -11,10 +11,10 @@ namespace motionrack::trace::hdf5 {
 namespace {
 
 /// No compression of zlib's makes more out of a byte.
-constexpr std::uint64_t most_growth = 1100;
+constexpr std::uint64_t max_growth = 1100;
 /// A text this long is no text of ours.
-constexpr std::size_t most_attribute = 1 << 16;
-constexpr std::size_t most_text = std::size_t{1} << 30;
+constexpr std::size_t max_attribute = 1 << 16;
+constexpr std::size_t max_text = std::size_t{1} << 30;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
     const Handle type(H5Dget_type(set_.get()), H5Tclose);
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
     if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
-        bytes > most_text || at >= size_)
+        bytes > max_text || at >= size_)
         return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} is no text.", path_), {},
                     file_);
     const hsize_t begin = at, one = 1;
@@ -73,10 +73,10 @@ Result<Reader> File::column(const std::string& path) const {
     if ((kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING) || element == 0 ||
         (kind != H5T_STRING && element > 8))
         return refuse("is no column of numbers or texts");
-    if (kind == H5T_STRING && element > most_text)
+    if (kind == H5T_STRING && element > max_text)
         return refuse(fmt::format("says that its texts have {} bytes", element));
     const std::uint64_t stored = H5Dget_storage_size(out.set_.get());
-    if (size > (std::uint64_t{1} << 62) / element || size * element / most_growth > stored)
+    if (size > (std::uint64_t{1} << 62) / element || size * element / max_growth > stored)
         return refuse(fmt::format("says that it has {} elements, in {} bytes", size, stored));
     out.size_ = size;
     return out;
@@ -94,7 +94,7 @@ std::string File::attribute_text(const char* name, const std::string& group) con
     const Handle type(attribute ? H5Aget_type(attribute.get()) : -1, H5Tclose);
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
     if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
-        bytes > most_attribute)
+        bytes > max_attribute)
         return {};
     const Handle space(H5Aget_space(attribute.get()), H5Sclose);
     if (!space || H5Sget_simple_extent_npoints(space.get()) != 1) return {};

@@ -91,8 +91,8 @@ struct OutcomeField {
 struct RecordingEnd {
     Instant at{};
     std::vector<OutcomeField> outcome;
-    ReportData report;                   ///< its series are left out: they are made of the samples again
-    std::size_t most_samples = 200'000;  ///< of the report, see DecimatingBuffer
+    ReportData report;                  ///< its series are left out: they are made of the samples again
+    std::size_t max_samples = 200'000;  ///< of the report, see DecimatingBuffer
 };
 
 class RecordingWriter {
@@ -192,7 +192,7 @@ class RecordingReader {
     std::vector<RecordedSeries> series_;
     std::vector<OutcomeField> outcome_;
     std::string report_;
-    std::size_t most_samples_ = 200'000;
+    std::size_t max_samples_ = 200'000;
     bool whole_ = false;
     Instant began_{}, known_to_{};
 };

@@ -13,7 +13,7 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t read_block = 1 << 14;
-constexpr std::uint64_t most_inputs = 1'000'000;
+constexpr std::uint64_t max_inputs = 1'000'000;
 /// The outcome's facts, in the order in which they are told.
 constexpr const char* fact_names[] = {"ended",
                                       "message",
@@ -84,7 +84,7 @@ Result<void> RecordingReader::read_end() {
     whole_ = !file_.unfinished() && ended > 0 && file_.has("run/report");
     if (whole_) {
         known_to_ = Instant{ended};
-        most_samples_ =
+        max_samples_ =
             static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("most_samples"), 16, 10'000'000));
         MOTIONRACK_TRY(report_, file_.text("run/report"));
         for (const char* name : fact_names)
@@ -102,7 +102,7 @@ Result<void> RecordingReader::read_end() {
 Result<void> RecordingReader::read_inputs() {
     MOTIONRACK_TRY(const hdf5::Reader times, file_.column("inputs/time"));
     MOTIONRACK_TRY(const hdf5::Reader texts, file_.column("inputs/text"));
-    const std::uint64_t size = std::min({times.size(), texts.size(), most_inputs});
+    const std::uint64_t size = std::min({times.size(), texts.size(), max_inputs});
     for (std::uint64_t i = 0; i < size; ++i) {
         std::int64_t at = 0;
         MOTIONRACK_CHECK(times.read(i, 1, &at));
@@ -224,7 +224,7 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         if (axis.servo) size = std::min(size, one->volts.size());
         axes.push_back(std::move(one));
     }
-    DecimatingBuffer<Kept> keeper(most_samples_);
+    DecimatingBuffer<Kept> keeper(max_samples_);
     std::vector<std::int64_t> times(read_block);
     std::vector<double> deviations(read_block);
     for (std::uint64_t from = 0; from < size; from += read_block) {

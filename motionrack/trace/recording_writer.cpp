@@ -207,7 +207,7 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     file_.make_group("outcome");
     for (const OutcomeField& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
     file_.write_text("run/report", report_json(end.report));
-    file_.set("/", "most_samples", static_cast<std::int64_t>(end.most_samples));
+    file_.set("/", "most_samples", static_cast<std::int64_t>(end.max_samples));
     file_.set("/", "ended_ticks", end.at.count());  // last: who finds it finds everything
     return file_.close();
 }

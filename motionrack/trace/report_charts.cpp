@@ -13,8 +13,8 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t all_chart_points = 90'000;  ///< of all charts together: about 10 bytes each
-constexpr std::size_t most_driven = 16'000;       ///< points of the driven path: about 25 bytes each
-constexpr std::size_t most_planned = 30'000;      ///< points of the planned path: about 18 bytes each
+constexpr std::size_t max_driven = 16'000;        ///< points of the driven path: about 25 bytes each
+constexpr std::size_t max_planned = 30'000;       ///< points of the planned path: about 18 bytes each
 
 /// A number as JSON; what is not finite becomes 0.
 std::string json_number(double value) {
@@ -96,7 +96,7 @@ std::string driven_json(const ReportData& data, double second) {
         points.push_back({p[0], p[1], p[2], data.seconds[i] * per_second});
     }
     const double tolerance = path_tolerance(data, size);
-    const DecimatedPath path = thin_path(points, {}, tolerance, most_driven);
+    const DecimatedPath path = thin_path(points, {}, tolerance, max_driven);
     std::array<std::vector<double>, 4> columns;
     for (const std::size_t i : path.kept) {
         for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(points[i][c]);
@@ -110,7 +110,7 @@ std::string driven_json(const ReportData& data, double second) {
 
 std::string planned_json(const ReportData& data) {
     const double tolerance = path_tolerance(data, extent_of_path(data).diagonal());
-    const PlannedPath path = thin_planned(data, most_planned, tolerance);
+    const PlannedPath path = thin_planned(data, max_planned, tolerance);
     std::array<std::vector<double>, 3> columns;
     std::vector<double> lines, kinds;
     for (std::size_t i = 0; i < path.points.size(); ++i) {
@@ -199,13 +199,13 @@ std::string chart_html(const PageChart& entry, std::size_t index, int width, int
 std::vector<PageChart> charts_of(const ReportData& data) {
     std::vector<PageChart> charts;
     if (data.seconds.empty()) return charts;
-    for (std::size_t i = 0; i < std::min(data.axes.size(), most_axes); ++i) add_axis(data, i, charts);
+    for (std::size_t i = 0; i < std::min(data.axes.size(), max_axes); ++i) add_axis(data, i, charts);
     if (!data.deviation_mm.empty()) {
         SvgChart out = chart("Deviation from the programmed path, mm", "d", data, data.deviation_mm);
         if (data.tolerance_mm > 0) out.limits = {{data.tolerance_mm, ""}};
         charts.push_back({-1, std::move(out)});
     }
-    for (std::size_t i = 0; i < std::min(data.series.size(), most_axes); ++i) {
+    for (std::size_t i = 0; i < std::min(data.series.size(), max_axes); ++i) {
         const ReportSeries& series = data.series[i];
         if (series.values.empty()) continue;
         SvgChart out = chart(series.title, series.look, data, series.values);
@@ -259,7 +259,7 @@ std::string drawing_json(const ReportData& data, const std::vector<PageChart>& c
                            json_number(data.stop->seconds), data.stop->line);
     }
     out += ",\n\"blocks\":[";
-    for (std::size_t i = 0; i < std::min(data.blocks.size(), most_blocks); ++i) {
+    for (std::size_t i = 0; i < std::min(data.blocks.size(), max_blocks); ++i) {
         const ReportMove& block = data.blocks[i];
         out += fmt::format("{}[{},{},{}]", i > 0 ? "," : "", block.line, json_number(block.start),
                            json_number(block.start + block.duration));

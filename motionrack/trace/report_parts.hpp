@@ -9,15 +9,15 @@
 
 namespace motionrack::trace {
 
-inline constexpr std::size_t most_blocks = 2000;   ///< rows of the table of blocks
-inline constexpr std::size_t most_warnings = 500;  ///< rows of the table of warnings
-inline constexpr std::size_t most_axes = 16;       ///< axes with charts
-inline constexpr std::size_t most_rows = 2000;     ///< of each other table
-inline constexpr std::size_t longest_text = 2000;  ///< bytes of any text of the run that are shown
-inline constexpr std::size_t longest_source = 200'000;
+inline constexpr std::size_t max_blocks = 2000;      ///< rows of the table of blocks
+inline constexpr std::size_t max_warnings = 500;     ///< rows of the table of warnings
+inline constexpr std::size_t max_axes = 16;          ///< axes with charts
+inline constexpr std::size_t max_rows = 2000;        ///< of each other table
+inline constexpr std::size_t max_text_bytes = 2000;  ///< bytes of any text of the run that are shown
+inline constexpr std::size_t max_source_bytes = 200'000;
 
 /// `text` cut to `most` bytes with "..." and escaped.
-std::string shown(const std::string& text, std::size_t most = longest_text);
+std::string shown(const std::string& text, std::size_t most = max_text_bytes);
 
 /// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation and other
 /// series.

@@ -149,7 +149,7 @@ std::string axes_html(const ReportData& data) {
 std::string blocks_html(const ReportData& data) {
     if (data.blocks.empty()) return {};
     std::string rows;
-    const std::size_t count = std::min(data.blocks.size(), most_blocks);
+    const std::size_t count = std::min(data.blocks.size(), max_blocks);
     for (std::size_t i = 0; i < count; ++i) rows += block_row(data.blocks[i], i);
     std::string note;
     if (count < data.blocks.size()) {
@@ -165,7 +165,7 @@ std::string blocks_html(const ReportData& data) {
 std::string warnings_html(const ReportData& data) {
     if (data.warnings.empty()) return {};
     std::string rows;
-    const std::size_t count = std::min(data.warnings.size(), most_warnings);
+    const std::size_t count = std::min(data.warnings.size(), max_warnings);
     for (std::size_t i = 0; i < count; ++i) {
         const ReportWarning& warning = data.warnings[i];
         const bool instant = warning.seconds >= 0 && std::isfinite(warning.seconds);
@@ -206,14 +206,14 @@ std::string tables_html(const ReportData& data) {
         std::vector<std::string> heads;
         for (const std::string& head : t.heads) heads.push_back(shown(head));
         std::string rows;
-        for (std::size_t r = 0; r < std::min(t.rows.size(), most_rows); ++r) {
+        for (std::size_t r = 0; r < std::min(t.rows.size(), max_rows); ++r) {
             rows += "<tr>";
             for (const std::string& text : t.rows[r]) rows += cell(shown(text), "t");
             rows += "</tr>\n";
         }
-        if (t.rows.size() > most_rows)
+        if (t.rows.size() > max_rows)
             rows += fmt::format("<tr><td colspan=\"{}\">and {} more</td></tr>\n", heads.size(),
-                                grouped(static_cast<long long>(t.rows.size() - most_rows)));
+                                grouped(static_cast<long long>(t.rows.size() - max_rows)));
         const std::string id = fmt::format("table-{}", i);
         out += section(id.c_str(), shown(t.title).c_str(),
                        table((id + "-rows").c_str(), shown(t.caption).c_str(), heads, rows));
@@ -224,7 +224,7 @@ std::string tables_html(const ReportData& data) {
 std::string source_html(const ReportData& data) {
     if (!data.source) return {};
     std::string lines;
-    std::istringstream in(cut_text(data.source->text, longest_source));
+    std::istringstream in(cut_text(data.source->text, max_source_bytes));
     in.exceptions(std::ios::badbit);  // else missing memory would look like the end of the text
     for (std::string line; std::getline(in, line);) lines += escaped(line) + "\n";
     return section("source", shown(data.source->title).c_str(), "<pre class=\"card\">" + lines + "</pre>\n");

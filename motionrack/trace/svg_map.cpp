@@ -42,7 +42,7 @@ class Map {
         out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(map_left),
                            escaped(map_.title)) +
                scale();
-        const std::size_t every = cells_ ? 1 : 1 + map_.spots.size() / (most_dots + 1);
+        const std::size_t every = cells_ ? 1 : 1 + map_.spots.size() / (max_dots + 1);
         if (!map_.spots.empty()) out += ticks();
         for (std::size_t i = 0; i < map_.spots.size(); i += every)
             out += cells_ ? cell(map_.spots[i]) : dot(map_.spots[i]);

@@ -14,7 +14,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t most_points = 4000;
+constexpr std::size_t max_points = 4000;
 
 struct Flat {
     double x = 0;
@@ -165,7 +165,7 @@ std::string driven_line(const ReportData& data, const Projection& at) {
     points.reserve(data.driven.size());
     for (const Xyz& p : data.driven) points.push_back({p[0], p[1], p[2], 0});
     std::vector<Flat> flat;
-    for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, most_points).kept) {
+    for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, max_points).kept) {
         flat.push_back(at(data.driven[i]));
     }
     return line_through(flat, "driven") + arrows(flat);
@@ -189,7 +189,7 @@ std::string shaded_line(const ReportData& data, const Projection& at, const SvgS
         const double part = 0.5 * static_cast<double>(shade.values[a] + shade.values[b]) / shade.most;
         return std::clamp(static_cast<int>(part * shade_steps), 0, shade_steps - 1);
     };
-    const std::vector<std::size_t> kept = thin_path(points, {}, size / 3000, most_points).kept;
+    const std::vector<std::size_t> kept = thin_path(points, {}, size / 3000, max_points).kept;
     std::string out = "<g style=\"stroke-width:2.5;stroke-linejoin:round;stroke-linecap:round\">\n";
     for (std::size_t i = 1; i < kept.size();) {
         const int step = step_at(kept[i - 1], kept[i]);
@@ -217,7 +217,7 @@ std::string shade_scale(const SvgShade& shade, const SvgLook& look) {
 }
 
 std::string planned_lines(const ReportData& data, const Projection& at) {
-    const PlannedPath path = thin_planned(data, most_points, extent_of_path(data).diagonal() / 3000);
+    const PlannedPath path = thin_planned(data, max_points, extent_of_path(data).diagonal() / 3000);
     std::string out;
     std::vector<Flat> flat;
     for (std::size_t i = 0; i < path.points.size(); ++i) {

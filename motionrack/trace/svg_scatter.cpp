@@ -134,7 +134,7 @@ class Scatter {
 
     std::string dots(const SvgDots& series) const {
         std::string out;
-        const std::size_t every = 1 + series.dots.size() / (most_dots + 1);
+        const std::size_t every = 1 + series.dots.size() / (max_dots + 1);
         for (std::size_t i = 0; i < series.dots.size(); i += every) {
             const SvgDot& dot = series.dots[i];
             const std::string at = coordinate(x(dot.x)), up = coordinate(y(dot.y));

@@ -30,9 +30,9 @@ struct SvgScatter {
     std::vector<SvgDots> series;
 };
 
-/// Dots with a y that is not finite stand at the bottom. At most `most_dots` of each series are drawn.
+/// Dots with a y that is not finite stand at the bottom. At most `max_dots` of each series are drawn.
 std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look = {});
-inline constexpr std::size_t most_dots = 3000;
+inline constexpr std::size_t max_dots = 3000;
 
 struct SvgSpot {
     double x = 0, y = 0, value = 0;
@@ -44,7 +44,7 @@ struct SvgMap {
     std::vector<SvgSpot> spots;
 };
 
-/// At most `most_dots` spots are drawn, where they are no cells.
+/// At most `max_dots` spots are drawn, where they are no cells.
 std::string svg_map(const SvgMap& map, const SvgLook& look = {});
 
 }  // namespace motionrack::trace

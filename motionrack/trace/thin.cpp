@@ -10,7 +10,7 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t longest_piece = 1024;  ///< bounds the work for paths that resist
+constexpr std::size_t max_piece_elements = 1024;  ///< bounds the work for paths that resist
 
 /// Square of the distance of p from the chord a b.
 double distance_squared(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
@@ -57,7 +57,7 @@ Indices thin_once(const std::vector<PathPoint>& points, const Indices& indices, 
     keep.front() = keep.back() = true;
     for (std::size_t i = 1; i < indices.size(); ++i) {
         const bool ends =
-            i + 1 == indices.size() || (!fixed.empty() && fixed[indices[i]]) || i - first >= longest_piece;
+            i + 1 == indices.size() || (!fixed.empty() && fixed[indices[i]]) || i - first >= max_piece_elements;
         if (!ends) continue;
         keep[i] = true;
         split(points, indices, first, i, tolerance * tolerance, keep);

@@ -13,7 +13,7 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t vcd_buffer_size = 256 * 1024;
-constexpr std::size_t longest_change = 128;  ///< a time and a value: 1 + 19 + 1 + 1 + 64 + 1 + 6 + 1
+constexpr std::size_t max_change_bytes = 128;  ///< a time and a value: 1 + 19 + 1 + 1 + 64 + 1 + 6 + 1
 constexpr std::int64_t low_base = 100'000'000;
 
 constexpr std::array<char, 200> make_pairs() {
@@ -203,7 +203,7 @@ void VcdWriter::end_declarations() {
     scopes_.clear();
     put("$enddefinitions $end\n#0\n$dumpvars\n");
     for (const Variable& variable : variables_) {
-        room(longest_change);
+        room(max_change_bytes);
         put_value(variable);
     }
     put("$end\n");
@@ -220,7 +220,7 @@ void VcdWriter::change(Id id, std::uint64_t value, Instant at) {
     now_ = at;
     if (value == variable.value) return;
     variable.value = value;
-    room(longest_change);
+    room(max_change_bytes);
     advance(at);
     put_value(variable);
 }
@@ -233,7 +233,7 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
     now_ = at;
     if (!std::isfinite(value) || value == std::bit_cast<double>(variable.value)) return;
     variable.value = std::bit_cast<std::uint64_t>(value);
-    room(longest_change);
+    room(max_change_bytes);
     advance(at);
     put_value(variable);
 }
@@ -241,7 +241,7 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
 Result<void> VcdWriter::close(Instant end) {
     if (file_ && !gave_up_) {
         if (declaring_) end_declarations();
-        room(longest_change);
+        room(max_change_bytes);
         if (end >= now_ && end > Instant{0}) advance(end);
         write_out();
         (void)file_.commit();

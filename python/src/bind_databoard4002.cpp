@@ -128,10 +128,10 @@ db::SlopeTable table_of(const std::vector<std::pair<int, Wide>>& entries) {
     db::SlopeTable out;
     for (int i = 0; i < db::SlopeTable::entries; ++i) {
         const auto [rate, position] = entries[static_cast<std::size_t>(i)];
-        if (rate < 0 || rate > db::most_rate || position < 0 || position > 16'777'215)
+        if (rate < 0 || rate > db::max_rate || position < 0 || position > 16'777'215)
             refuse(fmt::format(
                 "Interval {} is ({}, {}); rates are 0 to {}, positions 0 to 16777215 counts. Nothing was made.", i,
-                rate, position, db::most_rate));
+                rate, position, db::max_rate));
         out.set(i, {rate, position});
     }
     return out;
@@ -174,8 +174,8 @@ void bind_slopes(py::module_& m) {
         .def(
             "speed",
             [](const db::SpeedScale& scale, int rate) {
-                if (rate < 0 || rate > db::most_rate)
-                    refuse(fmt::format("The rate is {}; it is 0 to {}.", rate, db::most_rate));
+                if (rate < 0 || rate > db::max_rate)
+                    refuse(fmt::format("The rate is {}; it is 0 to {}.", rate, db::max_rate));
                 return scale.speed(rate);
             },
             py::arg("rate"), "Counts/s at a rate, 0 to 16383.")

@@ -98,7 +98,7 @@ void bind_card(py::module_& m) {
         .def(
             "set_position",
             [](Grating& self, int scale, std::int64_t count) {
-                if (scale < 0 || scale >= static_cast<int>(gb::most_scales))
+                if (scale < 0 || scale >= static_cast<int>(gb::max_scales))
                     refuse("There is no such scale; they are 0 to 127. Nothing was done.");
                 self.driver->set_position(scale, count);
             },

@@ -108,7 +108,7 @@ class Caller {
         if (what == 9) return record(on);
         if (what == 8) return copy(on);
         if (what == 7) return peek(on);
-        if (what < 2) return mr_advance_ns(on, below(8) == 0 ? most_ns + bytes_.word() : 30 * bytes_.word());
+        if (what < 2) return mr_advance_ns(on, below(8) == 0 ? max_ns + bytes_.word() : 30 * bytes_.word());
         const char* const of = name();
         if (what == 6) return look(&mr_part_get, on, of);
         if (what == 5) return look(&mr_wire_get, on, of);

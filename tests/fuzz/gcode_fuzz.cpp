@@ -24,7 +24,7 @@ Settings machine(std::uint8_t choice) {
     settings.block_delete = (choice & 2) != 0;
     settings.start_in_g0 = (choice & 4) != 0;
     settings.probe = (choice & 16) == 0;
-    settings.most_lines = 2'000;
+    settings.max_lines = 2'000;
     settings.tools = *read_tool_table("T1 Z10 D3\nT2 P7 X1 Z20 D6\nT3 D-4\n");
     if ((choice & 8) != 0)
         settings.subprogram = [](const std::string& name) -> motionrack::Result<std::string> {

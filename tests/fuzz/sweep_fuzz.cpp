@@ -86,19 +86,19 @@ void check_parameter(const SweepFile& file, const Parameter& parameter) {
 
 void check_file(const SweepFile& file) {
     require(!file.settings.program.empty() && !file.parameters.empty(), "a sweep has a program and varies something");
-    require(file.parameters.size() <= most_parameters, "not too much is varied");
+    require(file.parameters.size() <= max_parameters, "not too much is varied");
     std::set<std::string> names;
     std::int64_t combinations = 1;
     for (const Parameter& parameter : file.parameters) {
         require(names.insert(parameter.name).second, "nothing is varied twice", parameter.name);
         check_parameter(file, parameter);
-        if (combinations <= most_points) combinations *= static_cast<std::int64_t>(parameter.values.size());
+        if (combinations <= max_points) combinations *= static_cast<std::int64_t>(parameter.values.size());
     }
     const bool is_random = file.settings.order == Order::random;
     require(is_random == file.settings.points.has_value(), "a random sweep alone says how many points it has");
     require(file.points() == (is_random ? *file.settings.points : combinations),
             "there are as many points as the file says");
-    require(file.points() >= 1 && file.points() <= most_points, "there are some points, and not too many");
+    require(file.points() >= 1 && file.points() <= max_points, "there are some points, and not too many");
 }
 
 void check_points(const Sweep& sweep) {

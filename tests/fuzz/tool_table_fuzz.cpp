@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         check_error(table.error(), text);
         return 0;
     }
-    require(table->tools().size() <= most_tools, "a table has at most so many tools");
+    require(table->tools().size() <= max_tools, "a table has at most so many tools");
     std::string written;
     for (const Tool& tool : table->tools()) {
         check_tool(*table, tool);

@@ -241,7 +241,7 @@ TEST_F(ADoorkeeper, ForgetsOneTokenOfAUser) {
 
 TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
     AuthSettings two;
-    two.most_tokens = 2;
+    two.max_tokens = 2;
     open(two);
     ASSERT_TRUE(pair(start_codes.back(), "anna"));
     pass(1h);
@@ -253,7 +253,7 @@ TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
     ASSERT_EQ(door->users().size(), 2u);
     EXPECT_EQ(door->users()[0].user, "bert");
     AuthSettings one;
-    one.most_tokens = 1;
+    one.max_tokens = 1;
     open(one);
     pass(1h);
     EXPECT_FALSE(pair(start_codes.back(), "dora")) << "bert's has expired, carl's is there";
@@ -262,7 +262,7 @@ TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
 
 TEST_F(ADoorkeeper, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
     AuthSettings two;
-    two.most_invitations = 2;
+    two.max_invitations = 2;
     open(two);
     ASSERT_TRUE(door->invite(Role::observe, now));
     pass(1min);

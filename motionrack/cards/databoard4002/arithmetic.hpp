@@ -14,13 +14,13 @@ constexpr std::int64_t signed24(std::int64_t x) {
     return ((x + 0x80'0000) & 0xFF'FFFF) - 0x80'0000;
 }
 /// The longest move, counts.
-inline constexpr std::int64_t longest_move = 0x7F'FFFF;
+inline constexpr std::int64_t max_move_counts = 0x7F'FFFF;
 
 // ---- Rate and frequency
 
 inline constexpr std::int64_t clock_hz = 400'000;
-inline constexpr int most_rate = 0x3FFF;
-inline constexpr int rate_mask = most_rate;
+inline constexpr int max_rate = 0x3FFF;
+inline constexpr int rate_mask = max_rate;
 
 /// The divider of the 400 kHz clock (rate 0 .. 16383).
 constexpr std::int64_t divisor_of(int rate) {
@@ -64,7 +64,7 @@ constexpr bool sound(const Trim& trim) {
     for (int i = 0; i < trim.size; ++i) {
         const TrimRow& row = trim.rows[static_cast<std::size_t>(i)];
         if (row.microvolts <= before.microvolts || row.rate <= before.rate) return false;
-        if (row.microvolts > 10'000'000 || row.rate > most_rate) return false;
+        if (row.microvolts > 10'000'000 || row.rate > max_rate) return false;
         before = row;
     }
     return true;

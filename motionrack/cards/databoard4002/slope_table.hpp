@@ -60,7 +60,7 @@ class SlopeTable {
         for (interval = 0; interval < entries; ++interval) {
             const SlopeEntry here = entry(interval);
             if (here.rate == 0) return SlopeFlaw::speed_zero;
-            if (here.position > longest_move) return SlopeFlaw::too_far;
+            if (here.position > max_move_counts) return SlopeFlaw::too_far;
             if (interval % half != 0 && here.position < entry(interval - 1).position) return SlopeFlaw::descending;
         }
         return SlopeFlaw::none;

@@ -45,7 +45,7 @@ Result<Trim> trim_from_text(std::string_view text) {
         if (words.size() != 2 || !read_whole(words[0], volts) || !read_whole(words[1], rate))
             return refuse("is not two numbers");
         if (!(volts > 0 && volts <= 10)) return refuse("has a voltage outside 0 to 10 V");
-        if (rate < 1 || rate > most_rate) return refuse(fmt::format("has a rate outside 1 to {}", most_rate));
+        if (rate < 1 || rate > max_rate) return refuse(fmt::format("has a rate outside 1 to {}", max_rate));
         if (out.size == static_cast<int>(out.rows.size()))
             return refuse(fmt::format("is one too many: there are at most {}", out.rows.size()));
         const auto microvolts = static_cast<std::int32_t>(std::lround(volts * 1e6));

@@ -17,8 +17,8 @@ std::uint8_t* put(std::uint8_t* at, std::uint64_t value, int bytes) {
 }  // namespace
 
 std::uint32_t crc_of(const Frame& frame) {
-    MOTIONRACK_ASSERT(frame.words <= most_scales);
-    std::array<std::uint8_t, 14 + 5 * most_scales> bytes;
+    MOTIONRACK_ASSERT(frame.words <= max_scales);
+    std::array<std::uint8_t, 14 + 5 * max_scales> bytes;
     std::uint8_t* at = put(bytes.data(), frame.sequence, 4);
     at = put(at, static_cast<std::uint64_t>(frame.time), 8);
     at = put(at, frame.words, 2);
@@ -30,9 +30,9 @@ std::uint32_t crc_of(const Frame& frame) {
 }
 
 bool sound(const Frame& frame) {
-    if (frame.words < 1 || frame.words > most_scales) return false;
+    if (frame.words < 1 || frame.words > max_scales) return false;
     const auto end = frame.addresses.begin() + frame.words;
-    return std::all_of(frame.addresses.begin(), end, [](std::uint8_t address) { return address < most_scales; }) &&
+    return std::all_of(frame.addresses.begin(), end, [](std::uint8_t address) { return address < max_scales; }) &&
            frame.crc == crc_of(frame);
 }
 

@@ -16,7 +16,7 @@
 
 namespace motionrack::grating_bus {
 
-inline constexpr int most_scales = 128;  ///< seven lines of addr
+inline constexpr int max_scales = 128;  ///< seven lines of addr
 
 /// Positions of one instant. Trivially copyable; counts and addresses beyond `words` mean nothing.
 struct Frame {
@@ -25,8 +25,8 @@ struct Frame {
     std::uint32_t crc = 0;       ///< as the card computed it
     std::uint32_t words = 0;     ///< N, 1 .. 128
     std::uint32_t reserved = 0;  ///< always 0: there is no padding
-    std::array<std::uint32_t, most_scales> counts{};
-    std::array<std::uint8_t, most_scales> addresses{};  ///< of the scale that each word is of, 0 .. 127
+    std::array<std::uint32_t, max_scales> counts{};
+    std::array<std::uint8_t, max_scales> addresses{};  ///< of the scale that each word is of, 0 .. 127
 
     Instant instant() const { return Instant{time}; }
     std::span<const std::uint32_t> positions() const { return {counts.data(), words}; }

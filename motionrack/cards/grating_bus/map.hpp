@@ -185,9 +185,9 @@ struct PinName {
                               : std::string_view(text, 4);
     }
 };
-consteval std::array<PinName, 2 * most_scales> scale_pin_names() {
-    std::array<PinName, 2 * most_scales> out;
-    for (int i = 0; i < 2 * most_scales; ++i) {
+consteval std::array<PinName, 2 * max_scales> scale_pin_names() {
+    std::array<PinName, 2 * max_scales> out;
+    for (int i = 0; i < 2 * max_scales; ++i) {
         const int n = i / 2;
         char* at = out[static_cast<std::size_t>(i)].text;
         *at++ = i % 2 == 0 ? 'a' : 'b';
@@ -196,7 +196,7 @@ consteval std::array<PinName, 2 * most_scales> scale_pin_names() {
     }
     return out;
 }
-inline constexpr std::array<PinName, 2 * most_scales> scale_pins = scale_pin_names();
+inline constexpr std::array<PinName, 2 * max_scales> scale_pins = scale_pin_names();
 /// Of each scale.
 inline constexpr PinInfo decoder_pins[] = {
     {"a*", PinDirection::input, false, "scale n, line A"},

@@ -10,8 +10,8 @@ namespace motionrack::ioflex02 {
 
 namespace {
 
-constexpr std::size_t name_at = 8, most_name = 16, ident_at = 24, length_at = 28, crc_at = 32;
-constexpr std::size_t most_image = image_header + most_payload;
+constexpr std::size_t name_at = 8, max_name = 16, ident_at = 24, length_at = 28, crc_at = 32;
+constexpr std::size_t max_image = image_header + max_payload;
 
 void put(std::vector<std::uint8_t>& out, std::size_t at, std::size_t value) {
     for (std::size_t i = 0; i < 4; ++i) out[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
@@ -29,14 +29,14 @@ bool ImageHeader::ours() const {
 }
 
 bool ImageHeader::named(std::string_view project) const {
-    for (std::size_t i = 0; i < most_name; ++i)
+    for (std::size_t i = 0; i < max_name; ++i)
         if (bytes[name_at + i] != (i < project.size() ? static_cast<std::uint8_t>(project[i]) : 0)) return false;
     return true;
 }
 
 std::string ImageHeader::name() const {
     const auto first = bytes.begin() + name_at;
-    return {first, std::find(first, first + most_name, std::uint8_t{0})};
+    return {first, std::find(first, first + max_name, std::uint8_t{0})};
 }
 
 std::uint8_t ImageHeader::ident() const {
@@ -57,14 +57,14 @@ std::uint32_t ImageHeader::number(std::size_t at) const {
 }
 
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content) {
-    if (content.project.empty() || content.project.size() > most_name)
+    if (content.project.empty() || content.project.size() > max_name)
         return fail(ErrorKind::refused,
                     fmt::format("The project's name has {} characters, but it has 1 to {}. No image was made.",
-                                content.project.size(), most_name));
-    if (content.payload.size() < least_payload || content.payload.size() > most_payload)
+                                content.project.size(), max_name));
+    if (content.payload.size() < min_payload || content.payload.size() > max_payload)
         return fail(ErrorKind::refused,
                     fmt::format("The payload has {} bytes, but an image has {} to {}. No image was made.",
-                                content.payload.size(), least_payload, most_payload));
+                                content.payload.size(), min_payload, max_payload));
     std::vector<std::uint8_t> out(image_header);
     std::copy(image_magic.begin(), image_magic.end(), out.begin());
     std::copy(content.project.begin(), content.project.end(), out.begin() + name_at);
@@ -86,17 +86,17 @@ std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw) {
 }
 
 Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
-    std::vector<std::uint8_t> out(most_image + 1);
+    std::vector<std::uint8_t> out(max_image + 1);
     uLongf size = static_cast<uLongf>(out.size());
     auto used = static_cast<uLong>(file.size());
     const std::uint8_t nothing = 0;
     const int done = uncompress2(out.data(), &size, file.empty() ? &nothing : file.data(), &used);
-    if (size > most_image || (done == Z_BUF_ERROR && size == out.size()))
+    if (size > max_image || (done == Z_BUF_ERROR && size == out.size()))
         return fail(
             ErrorKind::invalid_input,
             fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
                         "was not used; is it an image of this card?",
-                        most_image));
+                        max_image));
     if (done != Z_OK)
         return fail(
             ErrorKind::invalid_input,
@@ -123,9 +123,9 @@ Result<ImageInfo> inspect(std::span<const std::uint8_t> raw) {
     if (raw.size() < image_header)
         return refused(fmt::format("Its header is cut short: {} of {} bytes are there", raw.size(), image_header));
     std::copy_n(raw.begin(), image_header, header.bytes.begin());
-    if (header.length() < least_payload || header.length() > most_payload)
+    if (header.length() < min_payload || header.length() > max_payload)
         return refused(fmt::format("The length in its header is {} bytes, but a payload has {} to {}", header.length(),
-                                   least_payload, most_payload));
+                                   min_payload, max_payload));
     const std::span<const std::uint8_t> payload = raw.subspan(image_header);
     if (payload.size() != header.length())
         return refused(

@@ -24,15 +24,15 @@ namespace motionrack::ioflex02 {
 
 inline constexpr std::string_view image_magic = "IOFLEX02";
 inline constexpr std::size_t image_header = 36;
-inline constexpr std::size_t least_payload = 2 * axis_count;
-inline constexpr std::size_t most_payload = 128 * 1024;
+inline constexpr std::size_t min_payload = 2 * axis_count;
+inline constexpr std::size_t max_payload = 128 * 1024;
 inline constexpr std::string_view position_project = "position";
 inline constexpr std::uint8_t position_ident = 0x25;  ///< the version that Flex2Pos expects
 
 struct ImageContent {
     std::string project{position_project};  ///< up to 16 characters
     std::uint8_t ident = position_ident;
-    std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(least_payload);
+    std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(min_payload);
 };
 
 /// Header and payload, not compressed. Errors: refused, if the name or the payload is too long or the payload too

@@ -15,9 +15,9 @@ inline constexpr std::int64_t tick_100ps = 1'250;     ///< 125 ns
 inline constexpr std::int64_t speed_carry = 64'000;   ///< va at which the speed steps
 inline constexpr std::int64_t jerk_ticks_per_k = 16;  ///< SCLK a step of the acceleration, times K
 /// What registers are in pulses and seconds: V = 1 is M = clock_hz / R pulses/s, A = 1 is rate_unit * M pulses/s2, the
-/// jerk is jerk_unit * M / K pulses/s3. V, SV, A and D go up to most_units.
+/// jerk is jerk_unit * M / K pulses/s3. V, SV, A and D go up to max_units.
 inline constexpr double clock_hz = static_cast<double>(sclk_hz), rate_unit = 125, jerk_unit = 62.5e6;
-inline constexpr std::int64_t most_units = 8'000;
+inline constexpr std::int64_t max_units = 8'000;
 inline constexpr int start_ticks = 2;  ///< ticks between a drive command and the generator's first one
 
 /// A parameter as the generator uses it: limited to its documented range.
@@ -25,7 +25,7 @@ constexpr std::int64_t used_range(std::int64_t r) {
     return std::clamp<std::int64_t>(r, 16'000, 16'777'215);
 }
 constexpr std::int64_t used_speed(std::int64_t v) {
-    return std::clamp<std::int64_t>(v, 1, most_units);
+    return std::clamp<std::int64_t>(v, 1, max_units);
 }
 constexpr std::int64_t used_jerk(std::int64_t k) {
     return std::clamp<std::int64_t>(k, 1, 65'535);

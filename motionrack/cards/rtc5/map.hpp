@@ -22,9 +22,9 @@ inline constexpr double field_least = -524288, field_greatest = 524287;  ///< th
 inline constexpr double z_least = -32768, z_greatest = 32767;
 inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
 inline constexpr int simulated_counts = 10;  ///< a tick: 1 MHz
-inline constexpr std::int64_t least_list_memory = 16, greatest_list_memory = 1 << 20;
-inline constexpr std::size_t greatest_depth = 63, calls_per_tick = 64, subroutine_count = 1024;
-inline constexpr double least_resolution = 100;  ///< counts a turn; under it rotary corrections are off
+inline constexpr std::int64_t min_list_memory = 16, max_list_memory = 1 << 20;
+inline constexpr std::size_t max_depth = 63, calls_per_tick = 64, subroutine_count = 1024;
+inline constexpr double min_resolution = 100;  ///< counts a turn; under it rotary corrections are off
 
 /// Bits of set_control_mode.
 inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_start = 1u << 9,

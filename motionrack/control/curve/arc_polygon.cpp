@@ -12,7 +12,7 @@ namespace {
 constexpr double widest_angle = 0.2;
 
 /// Steps that double, one after the other, at most.
-constexpr int most_doubled = 60;
+constexpr int max_doubled = 60;
 
 /// Of steps that double, from 1, the sum of the first `count`.
 double doubled(std::int64_t count) {
@@ -51,7 +51,7 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
             const bool at_start = falling_ == 0 || (rising_ > 0 && last_in <= last_out);
             double& last = at_start ? last_in : last_out;
             int& count = at_start ? rising_ : falling_;
-            if (last == 0 || 2 * last > inner || total + 2 * last > length || count == most_doubled) break;
+            if (last == 0 || 2 * last > inner || total + 2 * last > length || count == max_doubled) break;
             last *= 2;
             total += last;
             ++count;

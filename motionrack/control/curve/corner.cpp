@@ -33,7 +33,7 @@ Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
 
 /// The least of an axis' limit / |tangent|, and of `least`.
 template <class LimitOf>
-double least_along(const Point& tangent, double least, LimitOf limit_of) {
+double min_along(const Point& tangent, double least, LimitOf limit_of) {
     for (std::size_t i = 0; i < tangent.size(); ++i)
         if (tangent[i] != 0) least = std::min(least, limit_of(i) / std::fabs(tangent[i]));
     return least;
@@ -47,15 +47,15 @@ double ramp_duration_s(double more, const LegLimits& leg) {
 }
 
 double max_velocity_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_velocity; });
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_velocity; });
 }
 
 double max_accel_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_accel; });
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_accel; });
 }
 
 double max_jerk_along(const Point& tangent, const MachineLimits& limits) {
-    return least_along(tangent, no_corner_limit, [&](std::size_t i) { return effective_jerk(limits[i]); });
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return effective_jerk(limits[i]); });
 }
 
 // The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its

@@ -25,7 +25,7 @@ double dot(const Point& a, const Point& b) {
 
 /// How fast XYZ run at most on the piece where u runs with 1, or the fastest rotary axis where only ABC move; a hardly
 /// greater number.
-double fastest_on(const CubicSegment& piece, bool rotary) {
+double max_velocity_on(const CubicSegment& piece, bool rotary) {
     const double x = piece.length;
     if (rotary) {
         double most = 0;
@@ -288,11 +288,11 @@ void PathBuilder::place_turns() {
 
 void PathBuilder::add_event(double u) {
     if (u <= cursor_) return;
-    if (past_event_ == most_events) {
+    if (past_event_ == max_events) {
         std::copy(events_.begin() + static_cast<std::ptrdiff_t>(first_event_), events_.end(), events_.begin());
         past_event_ -= first_event_;
         first_event_ = 0;
-        MOTIONRACK_ASSERT(past_event_ < most_events);
+        MOTIONRACK_ASSERT(past_event_ < max_events);
     }
     std::size_t i = past_event_++;
     for (; i > first_event_ && events_[i - 1] > u; --i) events_[i] = events_[i - 1];
@@ -340,7 +340,7 @@ void PathBuilder::fill(CubicSegment& piece, double end) {
         }
     }
     if (from == 0) piece.start = turns_[0].at;
-    const double fastest = fastest_on(piece, last_.rotary);
+    const double fastest = max_velocity_on(piece, last_.rotary);
     if (fastest > 1) piece.feed /= fastest;
 }
 

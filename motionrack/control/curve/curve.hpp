@@ -55,8 +55,8 @@ struct PathElement {
     double seconds = 0;              ///< rest: the dwell; 0 for a stop
     double corner_tolerance_mm = 0;  ///< rest: how far XYZ may be here from the corner's sides, if the next curve
                                      ///< begins a little before this one ends
-    std::int32_t line = 0;  ///< rest: of the move that ends here, or of the dwell
-    Point at = {};          ///< rest: where
+    std::int32_t line = 0;           ///< rest: of the move that ends here, or of the dwell
+    Point at = {};                   ///< rest: where
 };
 
 /// Makes curves of moves. Allocates nothing after it is made. What comes out depends on the moves and flushes only, not
@@ -123,8 +123,8 @@ class PathBuilder {
     double arc_begin_ = 0;
 
     // pieces
-    static constexpr std::size_t most_events = 512;
-    std::array<double, most_events> events_ = {};  ///< where pieces end, rising
+    static constexpr std::size_t max_events = 512;
+    std::array<double, max_events> events_ = {};  ///< where pieces end, rising
     std::size_t first_event_ = 0, past_event_ = 0;
     std::int64_t placed_ = 0;  ///< turns whose knots are in events_
     std::int64_t alive_ = 0;   ///< first turn whose width reaches beyond the cursor

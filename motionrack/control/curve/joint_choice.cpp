@@ -12,13 +12,14 @@ void JunctionPlanner::begin() {
 
 void JunctionPlanner::add(const LegLimits& leg, const Junction& end) {
     MOTIONRACK_ASSERT(known_ - decided_ <= most && known_ < 32);
-    ways_ = {quickest_to(leg, end, false), quickest_to(leg, end, true)};
+    ways_ = {time_optimal_to(leg, end, false), time_optimal_to(leg, end, true)};
     last_ = end;
     ++known_;
     decide();
 }
 
-JunctionPlanner::Candidate JunctionPlanner::quickest_to(const LegLimits& leg, const Junction& end, bool stops) const {
+JunctionPlanner::Candidate JunctionPlanner::time_optimal_to(const LegLimits& leg, const Junction& end,
+                                                            bool stops) const {
     Candidate out;
     if (!(stops ? end.can_stop : end.can_pass)) return out;
     const bool one_way = ways_[0].open != ways_[1].open && !end.is_choice();

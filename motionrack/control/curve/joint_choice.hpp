@@ -35,7 +35,7 @@ class JunctionPlanner {
         std::uint32_t stops = 0;  ///< bit i: at the i-th joint that was not taken
     };
 
-    Candidate quickest_to(const LegLimits& leg, const Junction& end, bool stops) const;
+    Candidate time_optimal_to(const LegLimits& leg, const Junction& end, bool stops) const;
     void decide();
 
     Junction last_;

@@ -24,7 +24,7 @@ constexpr double no_pulse = 1e-4;
 constexpr double sharpest_turn = -0.5;
 
 /// Turns whose own width would be less than this (mm or degrees) are rests.
-constexpr double least_width = 1e-6;
+constexpr double min_width = 1e-6;
 
 /// Arcs that turn by less (rad) are shallow.
 constexpr double shallow = 0.1;
@@ -41,7 +41,7 @@ double finest_pulse(const MachineLimits& limits, int first) {
 }
 
 double merge_room(double tolerance, double pulse) {
-    return std::clamp(pulse, least_merge_share * tolerance, most_merge_share * tolerance);
+    return std::clamp(pulse, min_merge_share * tolerance, max_merge_share * tolerance);
 }
 
 bool same_feed(double a, double b) {
@@ -67,7 +67,7 @@ Geometry SegmentMerger::shape_of(const Move& move) const {
     if (path.shape != PathShape::arc) return path;
     const double turned = path.length / curvature_radius(path);
     const double height = std::min(2 * path.radius, turned * path.length / 8) * (1 + std::fabs(path.radius_growth));
-    if (height > least_merge_share * path_tolerance(move).linear) return path;
+    if (height > min_merge_share * path_tolerance(move).linear) return path;
     Move straight = move;
     straight.kind = MoveKind::feed;
     Geometry line = geometry_of(straight, position_);
@@ -155,7 +155,7 @@ bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const 
     }
     const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear),
                          std::min(last_.tolerance.rotary, span.tolerance.rotary)};
-    return room.linear >= least_width * linear && room.rotary >= least_width * rotary;
+    return room.linear >= min_width * linear && room.rotary >= min_width * rotary;
 }
 
 /// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
@@ -223,7 +223,7 @@ LegLimits SegmentMerger::leg_of(const MergedSegment& span) const {
 }
 
 void SegmentMerger::push(const Move& move) {
-    MOTIONRACK_ASSERT(made_ - taken_ + most_a_push <= capacity);
+    MOTIONRACK_ASSERT(made_ - taken_ + max_a_push <= capacity);
     if (move.kind == MoveKind::dwell) {
         rest(move.seconds, move.line);
         return;

@@ -17,8 +17,8 @@ namespace motionrack::control {
 /// roundings of the program's coordinates are of this size. An arc's ends take more at a tangent joint than at a
 /// corner, where the corner needs it; two arcs' ends may meet. Moves that are left out take a 500th. What is left is
 /// for spreading turns.
-inline constexpr double least_merge_share = 0.125;
-inline constexpr double most_merge_share = 0.25;
+inline constexpr double min_merge_share = 0.125;
+inline constexpr double max_merge_share = 0.25;
 inline constexpr double arc_tangent_share = 0.37;
 inline constexpr double arc_corner_share = 0.12;
 inline constexpr double inner_share = 0.1;
@@ -61,7 +61,7 @@ class SegmentMerger {
     SegmentMerger(const MachineLimits& limits, const Point& start);
 
     bool has_room() const {
-        return made_ - taken_ + 2 * (waiting_past_ - waiting_) + most_a_push + most_a_flush <= capacity;
+        return made_ - taken_ + 2 * (waiting_past_ - waiting_) + max_a_push + max_a_flush <= capacity;
     }
     void push(const Move& move);
     void flush();
@@ -74,7 +74,7 @@ class SegmentMerger {
 
   private:
     static constexpr std::size_t capacity = 48;
-    static constexpr std::size_t most_a_push = 5, most_a_flush = 3;
+    static constexpr std::size_t max_a_push = 5, max_a_flush = 3;
     static constexpr std::size_t max_merged = 32;
 
     Tolerance path_tolerance(const Move& move) const;
@@ -105,13 +105,13 @@ class SegmentMerger {
         CornerStop stop;                 ///< there, if it is one
     };
     Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
-    static constexpr std::size_t most_waiting = JunctionPlanner::most + 2;
-    PendingSegment& waiting(std::size_t i) { return spans_waiting_[i % most_waiting]; }
+    static constexpr std::size_t max_waiting = JunctionPlanner::most + 2;
+    PendingSegment& waiting(std::size_t i) { return spans_waiting_[i % max_waiting]; }
 
     MachineLimits limits_;
     Tolerance half_pulse_;
     JunctionPlanner choice_;
-    std::array<PendingSegment, most_waiting> spans_waiting_;
+    std::array<PendingSegment, max_waiting> spans_waiting_;
     std::size_t waiting_ = 0, waiting_past_ = 0;
     std::array<MergedSegment, capacity> spans_;
     std::size_t made_ = 0;

@@ -9,14 +9,14 @@ namespace {
 
 constexpr double stop_rounding = 1e-9;
 /// What both of an axis may take.
-constexpr double most_share = 0.5;
+constexpr double max_share = 0.5;
 /// What is eased is a little longer than what overlaps.
 constexpr double spare = 1.1;
 /// Eased are legs that win more than this part of their time: where the jerk changes their speed is not quite the
 /// quickest.
 constexpr double worth_easing = 0.01;
 /// Less of the room is tried too: down to this part.
-constexpr double least_room = 0.05;
+constexpr double min_room = 0.05;
 
 /// s in which a leg that begins at rest only speeds up: to its speed, or to its middle.
 double rising_seconds(const LegLimits& leg) {
@@ -77,7 +77,7 @@ double max_overlap_s(const LegLimits& before, const LegLimits& after, double cor
 }
 
 CornerStop eased_stop(const LegLimits& before, const LegLimits& after, double corner_tolerance_mm, bool turns_back) {
-    double share = most_share;
+    double share = max_share;
     if (turns_back)
         share = std::min(
             {share, share_turning_back(before, corner_tolerance_mm), share_turning_back(after, corner_tolerance_mm)});
@@ -106,7 +106,7 @@ CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, 
         if (shared) stop.gain = std::min({stop.gain, rise_of(before), rise_of(after)});
         return stop;
     }
-    for (double room = corner_tolerance_mm; room > corner_tolerance_mm * least_room; room *= 0.5) {
+    for (double room = corner_tolerance_mm; room > corner_tolerance_mm * min_room; room *= 0.5) {
         const CornerStop eased = eased_stop(before, after, room, turns_back);
         if (eased.gain > stop.gain) stop = eased;
     }

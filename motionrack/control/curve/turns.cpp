@@ -20,8 +20,8 @@ constexpr double narrowest_need = 0.05;
 
 /// Widths become narrower by no more than this to reach from corner to corner, where the two sides differ by this part
 /// of the width.
-constexpr double least_snapped = 0.7;
-constexpr double least_snapped_even = 0.45;
+constexpr double min_snapped = 0.7;
+constexpr double min_snapped_even = 0.45;
 constexpr double even = 0.01;
 
 /// Widths reach from their corner to this part of the way to where the curve begins or ends.
@@ -194,7 +194,7 @@ void CornerBlends::set_blend_length(std::int64_t k, double width) {
     bool snapped = false;
     if (m > 0) {
         const double uneven = std::fabs((*this)[k + m].u + (*this)[k - m].u - 2 * own.u);
-        snapped = both(m) > (uneven < even * both(m) ? least_snapped_even : least_snapped) * width;
+        snapped = both(m) > (uneven < even * both(m) ? min_snapped_even : min_snapped) * width;
     }
     if (snapped) own.blend_length = both(m);
     own.begin = own.u - 0.5 * own.blend_length;

@@ -8,7 +8,7 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 constexpr double settled_part_of_ease = 1e-14;
 
 /// From rest to a greatest speed, phase by phase; lengths and s.
@@ -25,7 +25,7 @@ class End {
     End(double eased_way, double eased_jerk, const LimitInterval& limits)
         : way_(eased_way),
           jerk_(limits.jerk),
-          most_accel_(limits.accel),
+          max_accel_(limits.accel),
           first_(cube_root(6 * eased_way / eased_jerk)),
           accel_(eased_jerk * first_),
           speed_(0.5 * accel_ * first_) {}
@@ -33,14 +33,14 @@ class End {
     double eased_way() const { return way_; }
     double speed() const { return speed_; }  ///< where the ease ends
     double accel() const { return accel_; }
-    bool is_possible() const { return accel_ <= most_accel_; }
+    bool is_possible() const { return accel_ <= max_accel_; }
     /// The least that can be the greatest one: the acceleration falls as soon as the ease ends.
-    double least_speed() const { return speed_ + 0.5 * accel_ * accel_ / jerk_; }
+    double min_speed() const { return speed_ + 0.5 * accel_ * accel_ / jerk_; }
 
     Rise to(double speed) const {
         Rise out;
         const double square = jerk_ * (speed - speed_) + 0.5 * accel_ * accel_;
-        out.accel = std::max(accel_, std::min(most_accel_, std::sqrt(std::max(0.0, square))));
+        out.accel = std::max(accel_, std::min(max_accel_, std::sqrt(std::max(0.0, square))));
         out.steeper = (out.accel - accel_) / jerk_;
         out.flatter = out.accel / jerk_;
         out.even_from = speed_ + 0.5 * (accel_ + out.accel) * out.steeper;
@@ -57,19 +57,19 @@ class End {
     }
 
   private:
-    double way_, jerk_, most_accel_, first_, accel_, speed_;
+    double way_, jerk_, max_accel_, first_, accel_, speed_;
 };
 
 /// The greatest speed that leaves no less than nothing of the line: between false positions.
 std::optional<double> greatest_speed(const End& begin, const End& end, double length, double most) {
     const auto over = [&](double speed) { return begin.way_to(speed) + end.way_to(speed) - length; };
-    double low = std::max(begin.least_speed(), end.least_speed()), high = most;
+    double low = std::max(begin.min_speed(), end.min_speed()), high = most;
     if (!(low <= high)) return std::nullopt;
     double over_low = over(low), over_high = over(high);
     if (over_low > 0) return std::nullopt;
     if (over_high <= 0) return high;
     int side = 0;
-    for (int step = 0; step < most_steps && high - low > settled_part_of_ease * high; ++step) {
+    for (int step = 0; step < max_steps && high - low > settled_part_of_ease * high; ++step) {
         const double speed = (low * over_high - high * over_low) / (over_high - over_low), here = over(speed);
         if (!(speed > low && speed < high)) break;
         if (here <= 0) {

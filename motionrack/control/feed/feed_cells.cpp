@@ -13,18 +13,18 @@ constexpr double radius_growth = 0.25;
 constexpr double unlike_part = 0.25;
 /// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this
 /// part of their time.
-constexpr double quickest_cell = 0.1;
+constexpr double min_cell_s = 0.1;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
-constexpr double min_feed_cells = 48, most_cells_of_a_span = 256;
+constexpr double min_feed_cells = 48, max_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
-constexpr double most_launch = 1.0 / 14;
+constexpr double max_launch = 1.0 / 14;
 constexpr double alike_jerk = 1.5;
 /// Of the size that its span asks for is the first cell of a motion that goes on.
 constexpr double first_part = 0.1;
 /// No cell is shorter than this part of the path: places have no more digits.
-constexpr double least_part = 1e-13;
+constexpr double min_part = 1e-13;
 
-LimitInterval least_of(const LimitInterval& a, const LimitInterval& b) {
+LimitInterval min_of(const LimitInterval& a, const LimitInterval& b) {
     return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk),
             std::min(a.brake, b.brake)};
 }
@@ -40,14 +40,14 @@ double launch_length(double jerk, double seconds) {
 /// the speed cannot come back to what a span ahead allows: one that ends at half of that speed needs no braking, and
 /// one of a fourteenth of the way has the room.
 VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> spans, bool back) const {
-    End end{length_ * most_launch, 0};
+    End end{length_ * max_launch, 0};
     LimitInterval least = spans[back ? spans.size() - 1 : 0];
     double before = 0;
     bool within = true;
-    for (std::size_t n = 0; n < spans.size() && before * most_launch < end.length; ++n) {
+    for (std::size_t n = 0; n < spans.size() && before * max_launch < end.length; ++n) {
         const LimitInterval& span = spans[back ? spans.size() - 1 - n : n];
         if (within) {
-            const LimitInterval all = least_of(least, span);
+            const LimitInterval all = min_of(least, span);
             const double fits = launch_length(
                 all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
             const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
@@ -60,7 +60,7 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> span
             }
         }
         if (n > 0)
-            end.length = std::min(end.length, std::max(before * most_launch,
+            end.length = std::min(end.length, std::max(before * max_launch,
                                                        launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
         before += span.length;
         within = within && before < end.length;
@@ -71,9 +71,9 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> span
 
 /// How long cells should be for a span's own sake.
 double VelocityPlanner::target_cell_length(const LimitInterval& span) const {
-    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk,
-                                      quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
-    return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / min_feed_cells);
+    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk, min_cell_s * settings_.cell_seconds,
+                                      settings_.cell_seconds);
+    return std::min(std::max(span.speed * seconds, span.length / max_cells_of_a_span), length_ / min_feed_cells);
 }
 
 /// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than
@@ -91,7 +91,7 @@ void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> spans) {
     sizes_.front() = moving() ? first_size(target_cell_length(spans.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < spans.size(); ++k) {
-        const LimitInterval least = least_of(spans[k - 1], spans[k]);
+        const LimitInterval least = min_of(spans[k - 1], spans[k]);
         // Between unlike speeds the jerk needs about this time to reach or leave the lesser one.
         const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
         const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
@@ -116,7 +116,7 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
         const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
         double size = std::min({target_cell_length(spans[at]), sizes_[at] + radius_growth * from_left,
                                 sizes_[at + 1] + radius_growth / (1 + radius_growth) * to_right});
-        size = std::max(size, least_part * length_);
+        size = std::max(size, min_part * length_);
         if (begin + 1.5 * size >= end)
             size = end - begin;
         else if (begin + 2.5 * size >= end)
@@ -130,7 +130,7 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
 /// `at`: the span in which it begins.
 void VelocityPlanner::add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end) {
     LimitInterval least = spans[at];
-    for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = least_of(least, spans[at + 1]);
+    for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = min_of(least, spans[at + 1]);
     cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
 }
 

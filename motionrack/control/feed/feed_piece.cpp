@@ -15,14 +15,14 @@ constexpr double feed_rounding = 4e-16;
 /// Beside a rest the square of the speed may be rounded to 0. Its last digit is worth this part of the speed.
 constexpr double as_good_as_rest = 1e-8;
 
-constexpr int most_terms = 60;
+constexpr int max_terms = 60;
 /// What makes the k-th term of a series out of the one before it.
 struct Factors {
-    std::array<double, most_terms> sine = {}, cosine = {};
+    std::array<double, max_terms> sine = {}, cosine = {};
 };
 constexpr Factors factors = [] {
     Factors out;
-    for (int k = 1; k < most_terms; ++k) {
+    for (int k = 1; k < max_terms; ++k) {
         const auto i = static_cast<std::size_t>(k);
         out.sine[i] = 1 / (2.0 * k * (2 * k + 1));
         out.cosine[i] = 1 / ((2.0 * k + 1) * (2 * k + 2));
@@ -37,7 +37,7 @@ struct Series {
 Series series_of(double square) {
     Series out{1, 1};
     double sine = 1, cosine = 1;
-    for (std::size_t k = 1; k < most_terms; ++k) {
+    for (std::size_t k = 1; k < max_terms; ++k) {
         sine *= square * factors.sine[k];
         cosine *= square * factors.cosine[k];
         out.sine += sine;

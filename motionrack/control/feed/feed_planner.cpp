@@ -13,7 +13,7 @@ namespace {
 constexpr double first_guess = 2, guess_falls = 0.3;
 
 /// Of the square that a motion goes on with.
-constexpr double least_square = 1e-6;
+constexpr double min_square = 1e-6;
 
 bool all_alike(std::span<const LimitInterval> spans) {
     return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
@@ -233,7 +233,7 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     out.assign(n + 2, 0);
     double slope = 0, square = 0;
     const bool from_motion = moving() && !back;
-    const double least = from_motion ? least_square * start_.velocity2 : 0;
+    const double least = from_motion ? min_square * start_.velocity2 : 0;
     if (from_motion) {
         out[0] = bound_[0];
         out[1] = square = bound_[1];

@@ -11,7 +11,7 @@
 namespace motionrack::control::gcode {
 
 /// A line may have this many characters, not counting its end.
-inline constexpr std::size_t longest_line = 1024;
+inline constexpr std::size_t max_line_length = 1024;
 
 /// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
 enum GroupG : std::uint8_t {

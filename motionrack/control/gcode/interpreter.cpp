@@ -96,7 +96,7 @@ bool Interpreter::assign() {
         if (++(is_global(parameter.name) ? global : local) > parameters_.room_for(parameter.name)) {
             return fail_at(
                 block_.text.find('#'), GrblStatus::unsupported,
-                fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, most_names));
+                fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, max_names));
         }
     }
     for (const auto& [parameter, value] : block_.assignments) {

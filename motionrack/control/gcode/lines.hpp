@@ -12,8 +12,8 @@ class ProgramLines {
   public:
     explicit ProgramLines(std::string_view text);
 
-    /// The next line, without its end; false: there is none. Of a line longer than `longest_line` only the first
-    /// longest_line + 1 characters are given, and the rest is skipped at the next call.
+    /// The next line, without its end; false: there is none. Of a line longer than `max_line_length` only the first
+    /// max_line_length + 1 characters are given, and the rest is skipped at the next call.
     bool next(std::string_view& line);
 
     std::int32_t number() const { return number_; }  ///< of the line that next() gave, from 1

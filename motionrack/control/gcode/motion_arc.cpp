@@ -21,7 +21,7 @@ constexpr double radius_difference_most_mm = 0.5;
 /// An end this near to the start (mm) is the start, and the arc a full turn.
 constexpr double same_point_mm = 1e-7;
 
-constexpr double most_turns = 100'000;
+constexpr double max_turns = 100'000;
 
 constexpr std::array<char, 3> offset_letters = {'I', 'J', 'K'};
 constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19 (YZ)"};
@@ -34,7 +34,7 @@ bool Interpreter::arc(std::int16_t code) {
     const bool counter_clockwise = code == 30;
     double turns = 1;
     if (block_.has('P') && (used_ & letter_bit('P')) == 0) {
-        if (!need_integer('P', 1, most_turns, "the number of turns of an arc")) return false;
+        if (!need_integer('P', 1, max_turns, "the number of turns of an arc")) return false;
         turns = block_['P'];
         used_ |= letter_bit('P');
     }

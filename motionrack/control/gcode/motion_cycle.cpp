@@ -11,8 +11,8 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr double most_repeats = 10'000;
-constexpr double most_pecks = 100'000;
+constexpr double max_repeats = 10'000;
+constexpr double max_pecks = 100'000;
 
 /// Marks in Modes::cycle_words for the word of the drilling axis, whatever its letter.
 constexpr std::uint32_t depth_word = letter_bit('Z');
@@ -65,7 +65,7 @@ bool Interpreter::spindle_turns(std::int16_t code) {
 
 /// A peck that is too thin for its hole would go on for ever.
 bool Interpreter::pecks_go(const DrillCycle& plan) {
-    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
+    if (!is_pecking(plan.code) || (plan.peck * max_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
         return true;
     return fail_at(
         block_.has('Q') ? block_.column[letter_index('Q')] : error_column(), GrblStatus::bad_target,
@@ -100,7 +100,7 @@ bool Interpreter::cycle(std::int16_t code) {
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
     DrillCycle plan;
     if (block_.has('L')) {
-        if (!need_integer('L', 1, most_repeats, "the number of holes")) return false;
+        if (!need_integer('L', 1, max_repeats, "the number of holes")) return false;
         plan.repeats = static_cast<std::int32_t>(block_['L']);
         used_ |= letter_bit('L');
     }

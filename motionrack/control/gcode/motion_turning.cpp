@@ -11,9 +11,9 @@ namespace motionrack::control::gcode {
 namespace {
 
 constexpr std::int16_t finishing = 700;
-constexpr double most_passes = 10'000;
+constexpr double max_passes = 10'000;
 /// A level takes at least so much, mm.
-constexpr double least_depth = 1e-4;
+constexpr double min_depth = 1e-4;
 
 }  // namespace
 
@@ -88,7 +88,7 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
     if (code == finishing) {
         used_ |= letter_bit('E') | letter_bit('P');
         if (block_.has('E')) plan.end_distance = scaled('E');
-        if (block_.has('P') && !need_integer('P', 1, most_passes, "the number of passes")) return false;
+        if (block_.has('P') && !need_integer('P', 1, max_passes, "the number of passes")) return false;
         if (block_.has('P')) plan.passes = static_cast<std::int32_t>(block_['P']);
         return true;
     }
@@ -96,10 +96,10 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
     const double unit = next_.inch ? 25.4 : 1;
     plan.depth = block_.has('I') ? scaled('I') : unit;
     plan.retract = block_.has('R') ? scaled('R') : 0.5 * unit;
-    if (plan.depth >= least_depth) return true;
+    if (plan.depth >= min_depth) return true;
     return fail_word(
         'I', GrblStatus::bad_target,
-        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), least_depth));
+        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), min_depth));
 }
 
 Interpreter Interpreter::contour_interpreter() const {

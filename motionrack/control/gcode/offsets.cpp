@@ -98,9 +98,9 @@ bool Interpreter::edit_tool(int what) {
     tool.number = static_cast<std::int32_t>(block_['P']);
     if (const Tool* known = tools_.find(tool.number)) {
         tool = *known;
-    } else if (tools_.tools().size() >= most_tools) {
+    } else if (tools_.tools().size() >= max_tools) {
         return fail_word('P', GrblStatus::unsupported,
-                         fmt::format("{}: the tool table has {} tools already", word_text('P'), most_tools));
+                         fmt::format("{}: the tool table has {} tools already", word_text('P'), max_tools));
     }
     if (what == 1) {
         for (int axis = 0; axis < axis_count; ++axis)

@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 namespace {
 
 /// Of each kind.
-constexpr int most_ports = 64;
+constexpr int max_ports = 64;
 
 /// M66 L.
 enum Wait : std::uint8_t { at_once, rise, fall, high, low };
@@ -82,7 +82,7 @@ bool Interpreter::port_number(char letter, char other) {
                                    code, code == wait_on_input ? "input" : "output", code, letter,
                                    is_analog_output(code) ? " Q2.5" : ""));
     }
-    return need_integer(second ? other : letter, 0, most_ports - 1,
+    return need_integer(second ? other : letter, 0, max_ports - 1,
                         code == wait_on_input ? "the number of an input" : "the number of an output");
 }
 

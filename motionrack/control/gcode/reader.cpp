@@ -8,12 +8,12 @@
 namespace motionrack::control::gcode {
 
 ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
-    : walk_(text, settings, std::move(file)), interpreter_(settings), most_steps_(settings.most_steps) {}
+    : walk_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
 
 /// What other lines than those of cycles do is in the allowance of each line.
 bool ProgramReader::within_budget() const {
     constexpr std::int64_t steps_of_a_line = 16;
-    return further_steps_ <= most_steps_ + steps_of_a_line * lines_read_;
+    return further_steps_ <= max_steps_ + steps_of_a_line * lines_read_;
 }
 
 Outcome<const CanonCall*> ProgramReader::next_from_lines() {
@@ -54,7 +54,7 @@ Outcome<const CanonCall*> ProgramReader::next_from_lines() {
 namespace {
 
 /// Problems that were told before, until a check is given up.
-constexpr int most_repeated = 10'000;
+constexpr int max_repeated = 10'000;
 
 /// What goes wrong in a loop or a subprogram goes wrong often.
 bool is_known(const std::vector<Problem>& problems, const Problem& one) {
@@ -75,7 +75,7 @@ ProgramCheck check_program(std::string_view text, const Settings& settings, std:
         const auto step = reader.next();
         if (!step) {
             if (is_known(check.problems, step.error())) {
-                if (++repeated < most_repeated) continue;
+                if (++repeated < max_repeated) continue;
                 check.more_problems = true;
                 break;
             }

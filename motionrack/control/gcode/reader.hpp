@@ -49,7 +49,7 @@ class ProgramReader {
 
     ProgramFlow walk_;
     Interpreter interpreter_;
-    std::int64_t most_steps_;
+    std::int64_t max_steps_;
     std::int64_t further_steps_ = 0;  ///< than the first ones of their lines
     std::int64_t lines_read_ = 0;
 };

@@ -189,10 +189,10 @@ bool scan_line(std::string_view text, const ScanOptions& options, Block& block, 
     block.percent = block.deleted = block.flow = false;
     if (!block.comments.empty()) block.comments.clear();
     if (!block.assignments.empty()) block.assignments.clear();
-    if (text.size() > longest_line) {
-        set_problem(
-            problem, text, longest_line, GrblStatus::line_too_long,
-            fmt::format("the line is longer than {} characters; break it up (is this a G-code file?)", longest_line));
+    if (text.size() > max_line_length) {
+        set_problem(problem, text, max_line_length, GrblStatus::line_too_long,
+                    fmt::format("the line is longer than {} characters; break it up (is this a G-code file?)",
+                                max_line_length));
         problem.word.clear();
         return false;
     }

@@ -33,9 +33,9 @@ struct Settings {
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
     ToolTable tools = {};  ///< for G43, G41 and G42; empty: any tool number will do, but has no length and no diameter
-    std::int64_t most_lines = 5'000'000;   ///< that loops and calls may go through, beside the program's own; >= 0
-    std::int64_t most_steps = 20'000'000;  ///< that cycles may make, beside 16 a line; >= 0
-    SubprogramSource subprogram = {};      ///< none: a program has the subs that are in its text
+    std::int64_t max_lines = 5'000'000;   ///< that loops and calls may go through, beside the program's own; >= 0
+    std::int64_t max_steps = 20'000'000;  ///< that cycles may make, beside 16 a line; >= 0
+    SubprogramSource subprogram = {};     ///< none: a program has the subs that are in its text
 };
 
 /// Refuses settings with numbers that are not finite, or larger than 1e9, or limits the wrong way round.

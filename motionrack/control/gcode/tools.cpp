@@ -118,7 +118,7 @@ bool ToolTable::put(const Tool& tool) {
         tools_[static_cast<std::size_t>(there - tools_.data())] = tool;
         return true;
     }
-    if (tools_.size() >= most_tools) return false;
+    if (tools_.size() >= max_tools) return false;
     tools_.push_back(tool);
     return true;
 }
@@ -134,7 +134,7 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
             reader.wrong(line.data(),
                          fmt::format("there is a tool T{} already; each has a number of its own", reader.tool.number));
         else if (good && !table.put(reader.tool))
-            reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", most_tools));
+            reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", max_tools));
         if (!reader.problem.empty())
             return fail(ErrorKind::invalid_input, fmt::format("{}; the tool table was not taken", reader.problem),
                         {lines.number(), static_cast<int>(reader.column)}, file);

@@ -16,7 +16,7 @@
 
 namespace motionrack::control::gcode {
 
-inline constexpr std::size_t most_tools = 1000;
+inline constexpr std::size_t max_tools = 1000;
 inline constexpr std::int32_t largest_tool = 99'999;
 
 struct Tool {
@@ -36,7 +36,7 @@ class ToolTable {
     /// In the order of the file.
     const std::vector<Tool>& tools() const { return tools_; }
     bool empty() const { return tools_.empty(); }
-    /// In place of the tool with that number, or behind the others. False: most_tools.
+    /// In place of the tool with that number, or behind the others. False: max_tools.
     bool put(const Tool& tool);
 
   private:

@@ -24,7 +24,7 @@ class Path {
         : view_(view), at_(view.in(at)), moves_(moves) {}
 
     PlanePoint at() const { return at_; }
-    bool full() const { return moves_.size() > most_turning_moves; }
+    bool full() const { return moves_.size() > max_turning_moves; }
     void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
     /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
     void over(double highest, PlanePoint to) {
@@ -324,7 +324,7 @@ std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment>
         constexpr Part parts[] = {Part::whole, Part::without_pockets, Part::pockets};
         Rougher(plan, parts[plan.code % 10], start, beside, path).cut();
     }
-    if (path.full()) return fmt::format("it would be more than {} moves; make I larger", most_turning_moves);
+    if (path.full()) return fmt::format("it would be more than {} moves; make I larger", max_turning_moves);
     return {};
 }
 

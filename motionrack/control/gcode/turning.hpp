@@ -57,7 +57,7 @@ struct LatheMove {
 };
 
 /// Moves that one cycle may make.
-inline constexpr std::size_t most_turning_moves = 1'000'000;
+inline constexpr std::size_t max_turning_moves = 1'000'000;
 
 /// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a
 /// sentence if there are none, and nothing is of use then.

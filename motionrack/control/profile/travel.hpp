@@ -53,7 +53,7 @@ class AxisProfile {
                     speed + s * (accel + 0.5 * s * jerk), accel + s * jerk, jerk};
         }
     };
-    static constexpr int most_phases = 9;
+    static constexpr int max_phases = 9;
 
     AxisProfile() {}  // which leaves the phases as they are: clearing them would take a tenth of a travel's time
 
@@ -71,7 +71,7 @@ class AxisProfile {
 
   private:
     friend class AxisProfileBuilder;
-    std::array<Phase, most_phases> phases_;
+    std::array<Phase, max_phases> phases_;
     int count_ = 0;
     double duration_ = 0;
     KinematicState start_;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double no_cap = 1e200;
 /// Cells of a piece that bends, and about so many of a whole curve that does.
-constexpr double least_cells = 16, most_cells = 256, cells_of_curve = 2000;
+constexpr double min_cells = 16, max_cells = 256, cells_of_curve = 2000;
 constexpr double much = 0.2;
 
 /// A part of a piece. In its middle an axis' acceleration is from * (w at its begin) + to * (w at its end).
@@ -48,7 +48,7 @@ struct Grid {
         const int count = straight
                               ? 1
                               : static_cast<int>(std::clamp(std::ceil(cells_of_curve * piece.length / curve_length),
-                                                            least_cells, most_cells));
+                                                            min_cells, max_cells));
         const double length = piece.length / count;
         for (int k = 0; k < count; ++k) {
             const double begin = length * k;
@@ -81,7 +81,7 @@ class Polygon {
 
     /// Leaves what has a * from + b * to <= most; most > 0, so (0, 0) stays.
     void cut(double a, double b, double most) {
-        std::array<Corner, most_corners> kept = {};
+        std::array<Corner, max_corners> kept = {};
         std::size_t count = 0;
         const auto room = [&](const Corner& corner) { return most - (a * corner.from + b * corner.to); };
         for (std::size_t i = 0; i < count_; ++i) {
@@ -98,7 +98,7 @@ class Polygon {
         corners_ = kept;
         count_ = count;
     }
-    double greatest_from() const {
+    double max_from() const {
         double most = 0;
         for (std::size_t i = 0; i < count_; ++i) most = std::max(most, corners_[i].from);
         return most;
@@ -106,8 +106,8 @@ class Polygon {
 
   private:
     /// A cut adds one, or by roundings two.
-    static constexpr std::size_t most_corners = 4 + 4 * axis_count;
-    std::array<Corner, most_corners> corners_;
+    static constexpr std::size_t max_corners = 4 + 4 * axis_count;
+    std::array<Corner, max_corners> corners_;
     std::size_t count_;
 };
 
@@ -120,7 +120,7 @@ double back_over(const Cell& cell, double cap, double next, const MachineLimits&
         polygon.cut(cell.from[i], cell.to[i], limits[i].max_accel);
         polygon.cut(-cell.from[i], -cell.to[i], limits[i].max_accel);
     }
-    return polygon.greatest_from();
+    return polygon.max_from();
 }
 
 /// The greatest w at a cell's end, up to `cap`, after `square` at its begin.

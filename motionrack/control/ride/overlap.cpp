@@ -70,8 +70,8 @@ double seconds_gone(std::span<const ProfileSegment> feed, double room) {
 
 // From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one
 // has gone no more than that. The path is no farther from one side than it has gone along the other.
-double longest_within(std::span<const ProfileSegment> in, std::span<const ProfileSegment> out,
-                      double corner_tolerance_mm) {
+double max_length_within(std::span<const ProfileSegment> in, std::span<const ProfileSegment> out,
+                         double corner_tolerance_mm) {
     return seconds_to_go(in, corner_tolerance_mm) + seconds_gone(out, corner_tolerance_mm);
 }
 
@@ -102,7 +102,7 @@ struct Moment {
 };
 
 /// The greatest of |a x + b y|, each of x and y between its two values.
-double greatest_sum(double a, double x0, double x1, double b, double y0, double y1) {
+double max_sum(double a, double x0, double x1, double b, double y0, double y1) {
     const double ax0 = std::min(a * x0, a * x1), ax1 = std::max(a * x0, a * x1), by0 = std::min(b * y0, b * y1),
                  by1 = std::max(b * y0, b * y1);
     return std::max(std::fabs(ax0 + by0), std::fabs(ax1 + by1));
@@ -113,14 +113,13 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
     const auto [out0, out1] = moment.out;
-    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) >
-        limits.max_velocity * (1 + overlap_rounding))
+    if (max_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_velocity * (1 + overlap_rounding))
         return false;
     const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel),
                                                      std::fabs(in * in1.accel + out * out1.accel))
-                                          : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
+                                          : max_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
     if (accel > limits.max_accel * (1 + overlap_rounding)) return false;
-    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <=
+    return max_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <=
            effective_jerk(limits) * (1 + overlap_rounding);
 }
 
@@ -208,17 +207,17 @@ void StoredRamp::keep(const SectionRamp& end) {
     feed_.assign(end.feed.begin(), end.feed.end());
 }
 
-double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double most_seconds, double corner_tolerance_mm,
+double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double max_seconds, double corner_tolerance_mm,
                      const MachineLimits& limits) {
-    if (!(corner_tolerance_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
+    if (!(corner_tolerance_mm > 0 && max_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
     double seconds =
-        std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, corner_tolerance_mm)});
+        std::min({max_seconds, in.seconds(), out.seconds(), max_length_within(in.feed, out.feed, corner_tolerance_mm)});
     for (int i = 0; i < overlap_tries; ++i, seconds *= shorter_overlap)
         if (is_within(in, out, seconds, limits)) return seconds;
     // Where both go on with constant jerk an axis that turns back gets no more of both than of one.
     const auto landing = in.feed.last(1), launch = out.feed.first(1);
     seconds = std::min(
-        {most_seconds, landing[0].seconds, launch[0].seconds, longest_within(landing, launch, corner_tolerance_mm)});
+        {max_seconds, landing[0].seconds, launch[0].seconds, max_length_within(landing, launch, corner_tolerance_mm)});
     return is_within(in, out, seconds, limits) ? seconds : 0;
 }
 

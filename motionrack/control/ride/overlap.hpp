@@ -37,9 +37,9 @@ class StoredRamp {
     std::vector<ProfileSegment> feed_;
 };
 
-/// Seconds by which the next one may begin earlier, 0 .. `most_seconds`; 0: none, as on curved ends, or where an axis
+/// Seconds by which the next one may begin earlier, 0 .. `max_seconds`; 0: none, as on curved ends, or where an axis
 /// of both would get too much. `corner_tolerance_mm`: how far the path may be from the corner's sides.
-double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double most_seconds, double corner_tolerance_mm,
+double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double max_seconds, double corner_tolerance_mm,
                      const MachineLimits& limits);
 
 }  // namespace motionrack::control

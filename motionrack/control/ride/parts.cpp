@@ -11,8 +11,8 @@ namespace {
 constexpr double much_of_a_part = 0.1;
 /// No part is shorter than this part of the time in which acceleration is reached, nor than these seconds allow.
 constexpr double part_of_rise = 0.5;
-constexpr double least_seconds = 0.0002, most_seconds = 0.004;
-constexpr double most_parts = 64;
+constexpr double min_seconds = 0.0002, max_seconds = 0.004;
+constexpr double max_parts = 64;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ CubicSegment sub_move(const CubicSegment& piece, double from, double to) {
 int subdivision_count(const CubicSegment& piece, const MachineLimits& limits) {
     if (is_straight(piece)) return 1;
     const SegmentLimits on(piece, limits);
-    double curvature = 0, tangent = 0, change = 0, rise = most_seconds / part_of_rise;
+    double curvature = 0, tangent = 0, change = 0, rise = max_seconds / part_of_rise;
     for (std::size_t i = 0; i < on.count; ++i) {
         const AxisSegmentLimits& axis = on.axes[i];
         curvature = std::max(curvature, axis.curvature);
@@ -41,8 +41,8 @@ int subdivision_count(const CubicSegment& piece, const MachineLimits& limits) {
     const double speed = on.max_velocity_for(max_curvature_share), square = speed * speed;
     if (curvature * square <= much_of_a_part) return 1;
     const double wanted = std::max(2 * curvature * piece.length / tangent, change * square) / much_of_a_part;
-    const double most = piece.length / (speed * std::max(least_seconds, part_of_rise * rise));
-    return static_cast<int>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, most_parts));
+    const double most = piece.length / (speed * std::max(min_seconds, part_of_rise * rise));
+    return static_cast<int>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, max_parts));
 }
 
 }  // namespace motionrack::control

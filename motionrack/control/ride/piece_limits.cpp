@@ -9,7 +9,7 @@ namespace motionrack::control {
 namespace {
 
 /// Of an axis' acceleration and of its jerk a curvature takes this much at most; the rest changes the speed.
-constexpr double accel_of_bend = 0.995, most_jerk_of_bend = 0.97;
+constexpr double accel_of_bend = 0.995, max_jerk_of_bend = 0.97;
 /// Of what jerk is left, changing the speed on a curvature takes so much; the rest changes the acceleration.
 constexpr double share_of_bend = 0.7;
 constexpr double no_limit = 1e300;
@@ -68,7 +68,7 @@ double SegmentLimits::max_velocity_for(double jerk_share) const {
 }
 
 double SegmentLimits::jerk_share_beside(double at_speed, double accel, double jerk) const {
-    double share = most_jerk_of_bend;
+    double share = max_jerk_of_bend;
     for (std::size_t i = 0; i < count; ++i) {
         const double bent = 3 * axes[i].jerk_bend * at_speed * accel;
         share = std::min(share, 1 - std::max(axes[i].jerk_tangent * jerk + bent, bent / share_of_bend));

@@ -10,7 +10,7 @@ namespace {
 
 /// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is
 /// nothing.
-constexpr double jump_share = 0.3, least_noise = 0.1;
+constexpr double jump_share = 0.3, min_noise = 0.1;
 /// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be
 /// beside its path.
 constexpr double off_pulses = 0.4;
@@ -23,9 +23,9 @@ constexpr int tries = 16;
 constexpr double noise_left = 0.25;
 /// From one length that is tried to the next.
 constexpr double shorter = 0.7;
-constexpr double least_accel = 1e-6;
+constexpr double min_accel = 1e-6;
 /// mm, degrees: no move at all.
-constexpr double smallest_move = 1e-6;
+constexpr double min_move_length = 1e-6;
 
 /// Along the path: of XYZ, or of the fastest rotary axis where only these move.
 double size_of(const Point& way) {
@@ -103,7 +103,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
         planned.move = rider_.move(planned.number).move;
         planned.move.end = place_;
         planned.move.seconds =
-            settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
+            settings_.cut_dwells ? std::min(settings_.max_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
         rider_.advance_dwell(planned.move.seconds);
         return true;
     }
@@ -111,7 +111,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     const double seconds = last_seconds_ = seconds_of_next();
     const TrajectoryPoint end = rider_.at(seconds);
     const double length = size_of(between(place_, end.place));
-    if (length < smallest_move && size_of(end.speed) > 0) {  // where it turns round
+    if (length < min_move_length && size_of(end.speed) > 0) {  // where it turns round
         rider_.advance(seconds);
         return pull(planned, early);
     }
@@ -127,7 +127,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned.cruise_velocity = std::max(speed_in, speed_out);
     planned.exit_velocity = speed_out;
     planned.accel = std::max(
-        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), least_accel);
+        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), min_accel);
     planned.constant_accel = true;
     planned.move.feed = planned.cruise_velocity;
     place_ = end.place;
@@ -142,11 +142,11 @@ double TrajectoryInterpolator::seconds_of_next() const {
     const double least = uses_auxiliary_axis(rider_.move(rider_.move_of(begin)).axes)
                              ? settings_.drive->min_velocity_update_s()
                              : shortest;
-    double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
+    double seconds = std::min({settings_.max_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= shorter) {
         const ApproximationError is = roughness_of(begin, seconds);
         if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
-        if (noise_left * is.quantisation > std::max(is.velocity_step, least_noise)) break;
+        if (noise_left * is.quantisation > std::max(is.velocity_step, min_noise)) break;
     }
     // No crumb before the end.
     const double left = rider_.left();
@@ -156,14 +156,14 @@ double TrajectoryInterpolator::seconds_of_next() const {
 
 /// A little earlier the path may pass nearer to a place on whole pulses.
 double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, double seconds) const {
-    if (roughness_of(begin, seconds).quantisation <= least_noise) return seconds;
-    double best = seconds, least_off = 1;
-    for (int k = 0; k < tries && least_off > near_enough; ++k) {
+    if (roughness_of(begin, seconds).quantisation <= min_noise) return seconds;
+    double best = seconds, min_off = 1;
+    for (int k = 0; k < tries && min_off > near_enough; ++k) {
         const double time = seconds * (1 - earliest * k / tries),
                      off = off_whole_pulses(begin.place, rider_.at(time).place);
-        if (off >= least_off) continue;
+        if (off >= min_off) continue;
         best = time;
-        least_off = off;
+        min_off = off;
     }
     return best;
 }

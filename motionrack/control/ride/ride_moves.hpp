@@ -13,7 +13,7 @@ namespace motionrack::control {
 
 struct InterpolatorSettings {
     TrajectoryGeneratorSettings rider;
-    double most_seconds = 0.1;                ///< of a move, so that wishes are felt soon; above 0, at most 0.1
+    double max_seconds = 0.1;                 ///< of a move, so that wishes are felt soon; above 0, at most 0.1
     bool cut_dwells = false;                  ///< dwells too
     const DriveConstraints* drive = nullptr;  ///< may be null; must outlive the planner
 };

@@ -15,11 +15,11 @@ constexpr double margin = 0.15;
 /// s until another plan is sought where none was found.
 constexpr double patience = 0.008;
 /// Passed pieces are dropped by so many.
-constexpr std::size_t least_drop = 1'024;
+constexpr std::size_t min_drop = 1'024;
 /// Curves carry the number of the move in the place of its line, and numbers come round.
 constexpr std::int64_t tags = std::int64_t{1} << 30;
 
-double fastest_of_axes(const CubicSegment& piece, const MachineLimits& limits) {
+double max_axis_velocity(const CubicSegment& piece, const MachineLimits& limits) {
     const Point middle = tangent_on(piece, 0.5 * piece.length), end = tangent_on(piece, piece.length);
     return std::min({max_velocity_along(piece.tangent, limits), max_velocity_along(middle, limits),
                      max_velocity_along(end, limits)});
@@ -103,7 +103,7 @@ double TrajectoryGenerator::feed_of(const KnownSection& part, std::size_t i) con
     const double programmed = part.programmed[i];
     if (!moves_[static_cast<std::size_t>(move_of(part.curve[i].line) - first_move_)].overridable) return programmed;
     if (programmed < std::numeric_limits<double>::infinity()) return programmed * feed_override_;
-    return rapid_override_ < 1 ? rapid_override_ * fastest_of_axes(part.curve[i], limits_) : programmed;
+    return rapid_override_ < 1 ? rapid_override_ * max_axis_velocity(part.curve[i], limits_) : programmed;
 }
 
 /// Without what an earlier plan knew.
@@ -113,7 +113,7 @@ void TrajectoryGenerator::set_feed(KnownSection& part, std::size_t i, double at_
 }
 
 void TrajectoryGenerator::drop_passed() {
-    if (piece_ < least_drop) return;
+    if (piece_ < min_drop) return;
     const auto drop = [this](auto& column) {
         column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(piece_));
     };

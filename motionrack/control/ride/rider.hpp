@@ -159,8 +159,8 @@ class TrajectoryGenerator {
     double dwelt_ = 0;                  ///< s of the dwell at the end of now_
     double retry_delay_s_ = 0;          ///< s until another plan is sought
     bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
-    static constexpr double least_ease = 1.2;
-    double ease_ = least_ease;  ///< how much longer than a stop a way into lower feeds may be
+    static constexpr double min_ease = 1.2;
+    double ease_ = min_ease;  ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 
     std::vector<CubicSegment> stop_curve_;

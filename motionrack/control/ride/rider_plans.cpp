@@ -18,7 +18,7 @@ constexpr double part_of_speed = 0.7;
 constexpr double above_plan = 1.003;
 /// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by
 /// this much more.
-constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
+constexpr double faster = 1.01, max_ease = 16, ease_grows = 1.3;
 /// A speed below this part of another is slower, and not only rounded.
 constexpr double clearly_slower = 0.99;
 
@@ -166,7 +166,7 @@ bool TrajectoryGenerator::apply_overrides() {
     }
     KnownSection part = with_feeds(from, stop);
     if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.u, now_.known())) {
-        ease_ = std::min(ease_grows * ease_, most_ease);
+        ease_ = std::min(ease_grows * ease_, max_ease);
         return false;
     }
     const auto replace = [&](auto& column, const auto& by) {
@@ -179,7 +179,7 @@ bool TrajectoryGenerator::apply_overrides() {
     replace(now_.programmed, part.programmed);
     replace(now_.use, part.use);
     new_feeds_ = holding_ = false;
-    ease_ = least_ease;
+    ease_ = min_ease;
     take(from, before_left_, now_.known());
     return true;
 }

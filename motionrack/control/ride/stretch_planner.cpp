@@ -7,7 +7,7 @@ namespace motionrack::control {
 namespace {
 
 /// Rounds of planning, and the part of the time that must be won for another one.
-constexpr int most_rounds = 3;
+constexpr int max_rounds = 3;
 constexpr double worth_another = 0.995;
 /// So much faster than found last it may become.
 constexpr double first_slack = 0.35, slack_falls = 0.3;
@@ -26,7 +26,7 @@ bool SectionPlanner::plan(const InitialPathState& start, std::span<const CubicSe
     measure(curve, use, from, to);
     compute_reachable_velocities(start);
     double slack = 1 + first_slack;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         const std::span<const ProfileSegment> found =
             round == 0 ? planner_.plan_approximate(start, spans_) : planner_.replan_approximate(spans_);
         double seconds = 0;
@@ -89,7 +89,7 @@ double SectionPlanner::max_segment_velocity(std::size_t i, double up) const {
 }
 
 /// The greatest that was found up to there; `k`: the first part of the feed that is looked at, then the last.
-PathMotion SectionPlanner::most_found(double end, std::size_t& k) const {
+PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
     PathMotion most;
     for (;; ++k) {
         for (const PathMotion& state : {feed_[k].at(0), feed_[k].last()})
@@ -107,7 +107,7 @@ bool SectionPlanner::tighten_limits(double slack) {
     double end = 0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
         end += spans_[i].length;
-        const PathMotion most = most_found(end, k);
+        const PathMotion most = max_found(end, k);
         if (pieces_[i].straight) continue;
         if (most.speed * slack < spans_[i].speed) {
             use_[i].speed = most.speed * slack;

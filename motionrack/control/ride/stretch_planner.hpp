@@ -48,7 +48,7 @@ class SectionPlanner {
     void compute_reachable_velocities(const InitialPathState& start);
     double max_segment_velocity(std::size_t i, double up) const;
     bool tighten_limits(double slack);
-    PathMotion most_found(double end, std::size_t& k) const;
+    PathMotion max_found(double end, std::size_t& k) const;
 
     MachineLimits limits_;
     VelocityPlanner planner_;

@@ -174,7 +174,7 @@ TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
 
 TEST(GcodeFlow, ThatNeverEndsIsStopped) {
     Settings settings = testing::machine();
-    settings.most_lines = 1000;
+    settings.max_lines = 1000;
     for (const char* program : {"o1 while [1]\no1 endwhile", "o1 do\no1 while [1]",
                                 "o1 repeat [1000000000]\no1 endrepeat", "o1 while [1]\nX1\nX2\no1 endwhile"}) {
         const auto found = problems(program, settings);
@@ -189,7 +189,7 @@ TEST(GcodeFlow, ThatNeverEndsIsStopped) {
 
 TEST(GcodeFlow, ThatDrillsWithoutEndIsStopped) {
     Settings settings = testing::machine();
-    settings.most_steps = 100'000;
+    settings.max_steps = 100'000;
     const std::string drills = "F100 G99\no1 repeat [#1]\nG81 X1 Z-1 R1 L1000\no1 endrepeat\nG80\nM2";
     const auto found = problems("#1=1000\n" + drills, settings);
     ASSERT_EQ(found.size(), 1u);
@@ -199,7 +199,7 @@ TEST(GcodeFlow, ThatDrillsWithoutEndIsStopped) {
 
 TEST(GcodeFlow, WithManyBranchesInALoopIsStopped) {
     Settings settings = testing::machine();
-    settings.most_lines = 10'000;
+    settings.max_lines = 10'000;
     std::string branches = "o1 while [1]\no2 if [0]\n";
     for (int i = 0; i < 1000; ++i) branches += "o2 elseif [0]\n";
     branches += "o2 endif\no1 endwhile\n";

@@ -108,7 +108,7 @@ TEST(GcodeNumbered, AreRefusedWithTheirPlace) {
 
 TEST(GcodeNumbered, AProgramThatCallsWithoutEndIsStopped) {
     Settings settings = testing::machine("XYZABC", 1e6);
-    settings.most_lines = 1000;
+    settings.max_lines = 1000;
     const auto read = testing::read("M98 P1 L1000000000\nM2\nO1\nM3\nM99", settings);
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_THAT(read.problems[0].message, HasSubstr("is not over"));

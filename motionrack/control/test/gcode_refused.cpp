@@ -209,7 +209,7 @@ TEST(GcodeReader, RefusesAxesThatTheMachineDoesNotHave) {
 
 TEST(GcodeReader, RefusesALineOfMoreThan1024CharactersAndGoesOnAfterIt) {
     const std::string long_comment = "(" + std::string(1022, 'x') + ")";
-    ASSERT_EQ(long_comment.size(), longest_line);
+    ASSERT_EQ(long_comment.size(), max_line_length);
     const auto program = testing::read(long_comment + "\nG0 X1 " + std::string(100'000, ' ') + "\r\nG0 X2\n");
     ASSERT_EQ(program.problems.size(), 1u);
     EXPECT_EQ(program.problems[0].place, (Place{2, 1025}));

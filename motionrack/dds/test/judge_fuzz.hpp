@@ -58,7 +58,7 @@ class Run {
                 s.frame.words = feed_.word();
                 break;
             case 2:
-                s.frame.counts[feed_.below(grating_bus::most_scales)] ^= feed_.word();
+                s.frame.counts[feed_.below(grating_bus::max_scales)] ^= feed_.word();
                 break;
             case 3:
                 s.frame.time = static_cast<std::int64_t>(wide());
@@ -96,7 +96,7 @@ class Run {
         must(c.received == c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed +
                                c.wrong_words + c.other_source,
              "every sample is counted once");
-        must(judge_.others().size() <= FrameValidator::most_others, "a few others are kept");
+        must(judge_.others().size() <= FrameValidator::max_others, "a few others are kept");
     }
 
     void take(const Sample& sample) {

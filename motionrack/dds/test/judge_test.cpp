@@ -243,10 +243,10 @@ TEST_F(Judging, TellsPeopleOnlyPrintableText) {
 TEST_F(Judging, KeepsAFewOthersInMindAndCountsTheRest) {
     hear(10);
     for (std::uint8_t id = 50; id < 80; ++id) hear(sample_of(source_named(id, "crowd"), 1));
-    EXPECT_EQ(judge.others().size(), FrameValidator::most_others);
+    EXPECT_EQ(judge.others().size(), FrameValidator::max_others);
     EXPECT_EQ(judge.counts().other_source, 30u);
     hear(42);
-    EXPECT_EQ(judge.counts().conflicts, FrameValidator::most_others);
+    EXPECT_EQ(judge.counts().conflicts, FrameValidator::max_others);
 }
 
 }  // namespace

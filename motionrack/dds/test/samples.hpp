@@ -16,7 +16,7 @@ inline Source source_named(std::uint8_t id, std::string_view host = "wafer1") {
 }
 
 inline void seal(Sample& sample) {
-    if (sample.frame.words <= grating_bus::most_scales) sample.frame.crc = crc_of(sample.frame);
+    if (sample.frame.words <= grating_bus::max_scales) sample.frame.crc = crc_of(sample.frame);
     sample.check = check_of(sample);
 }
 

@@ -18,7 +18,7 @@ static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io:
               cResNm == static_cast<int>(io::cResNm) && cResNmSig == static_cast<int>(io::cResNmSig));
 
 static_assert(cVerNo == int{io::cVerNo} && sizeof cVer == sizeof io::cVer);
-static_assert(flex2pos_payload == io::least_payload);
+static_assert(flex2pos_payload == io::min_payload);
 
 struct flex2pos {
     flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)

@@ -13,7 +13,7 @@ using namespace motionrack;
 using namespace motionrack::c;
 namespace gb = grating_bus;
 
-static_assert(MR_MAX_SCALES == gb::most_scales && sizeof(mr_frame::counts) == sizeof(gb::Frame::counts) &&
+static_assert(MR_MAX_SCALES == gb::max_scales && sizeof(mr_frame::counts) == sizeof(gb::Frame::counts) &&
               sizeof(mr_frame::addresses) == sizeof(gb::Frame::addresses));
 
 constexpr const char* no_frame = "There is no place for the frame: it is a null pointer. Nothing was done.";
@@ -88,10 +88,10 @@ int mr_frame_read(mr_rack* rack, const char* card, mr_frame* frame) {
 
 int mr_frame_wait(mr_rack* rack, const char* card, uint64_t timeout_ns, mr_frame* frame) {
     return guarded({{rack, no_rack}, {card, no_card}, {frame, no_frame}}, [&]() -> Result<void> {
-        if (timeout_ns > rack::Session::most_ns)
+        if (timeout_ns > rack::Session::max_ns)
             return fail(ErrorKind::refused,
                         fmt::format("The timeout is {} ns, but {} ns are the most. Nothing was done.", timeout_ns,
-                                    rack::Session::most_ns));
+                                    rack::Session::max_ns));
         const Duration timeout = nanoseconds(static_cast<std::int64_t>(timeout_ns));
         return read_frame(*rack->session, card, *frame,
                           [&](gb::GratingCard& library) { return library.wait(timeout); });

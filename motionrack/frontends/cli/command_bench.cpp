@@ -41,7 +41,7 @@ int bench(const BenchOptions& options) {
     for (int i = 0; i < options.runs; ++i) {
         auto begin = std::chrono::steady_clock::now();
         const control::gcode::ProgramCheck check =
-            control::gcode::check_program(text, settings, most_problems_of_run, name);
+            control::gcode::check_program(text, settings, max_problems_of_run, name);
         reading.push_back(seconds_since(begin));
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
         lines = check.lines;

@@ -126,8 +126,7 @@ int publish_rack(Run& run) {
         if (!loaded) return report(loaded.error());
         const control::gcode::Settings settings = program_settings(run.rack.config(), loaded->name);
         if (const int bad = print_problems(
-                control::gcode::check_program(loaded->text, settings, most_problems_of_run, loaded->name),
-                loaded->name);
+                control::gcode::check_program(loaded->text, settings, max_problems_of_run, loaded->name), loaded->name);
             bad != exit_done)
             return bad;
         program = std::move(*loaded);

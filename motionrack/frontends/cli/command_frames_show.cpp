@@ -99,7 +99,7 @@ int read_program(const std::string& path, const rack::RackConfig& config, ReadPr
     inputs.push_back(path);
     control::gcode::Settings noted = out.reading;
     note_subprograms(noted, out.text.name, inputs);
-    return print_problems(control::gcode::check_program(out.text.text, noted, most_problems_of_run, out.text.name),
+    return print_problems(control::gcode::check_program(out.text.text, noted, max_problems_of_run, out.text.name),
                           out.text.name);
 }
 
@@ -133,13 +133,13 @@ int finish(Show& show, const rack::FrameMonitor& watch, const ShowOptions& optio
     if (!options.json) {
         fmt::print("{}", conflicts_text(watch.bus(), 12));
         std::fflush(stdout);
-        static constexpr std::size_t most_told = 12;
+        static constexpr std::size_t max_told = 12;
         const auto conditions = show.rack.kernel().conditions();
-        for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i)
+        for (std::size_t i = 0; i < std::min(max_told, conditions.size()); ++i)
             print_warning(show.rack.describe(conditions[i]));
         for (const std::string& fault : show.faults.not_done()) print_warning(fault);
-        if (conditions.size() > most_told)
-            print_warning(fmt::format("{} more things were reported", conditions.size() - most_told));
+        if (conditions.size() > max_told)
+            print_warning(fmt::format("{} more things were reported", conditions.size() - max_told));
     }
     if (show.recorder) wrote(show.recorder->finish(), options.vcd);
     if (!options.picture.empty()) {

@@ -205,7 +205,7 @@ void add_frames_subscribe(CLI::App& frames, Action& chosen) {
     command
         ->add_option("--scales", options->scales,
                      "N that is expected; frames with another one are not used (default: N of the first frame)")
-        ->check(CLI::Range(1, grating_bus::most_scales))
+        ->check(CLI::Range(1, grating_bus::max_scales))
         ->option_text("1 .. 128");
     command->add_option("--count", options->count, "end after so many frames");
     command->add_option("--for", options->seconds, "end after so many seconds");

@@ -24,7 +24,7 @@ namespace io = ioflex02;
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr ReadLimit image_limit{io::max_image_file, "a configuration image"};
-constexpr ReadLimit payload_limit{io::most_payload, "the payload of an image"};
+constexpr ReadLimit payload_limit{io::max_payload, "the payload of an image"};
 
 struct ImageOptions {
     std::string file, output, project{io::position_project};

@@ -29,7 +29,7 @@ struct RunOptions {
 };
 
 /// Problems until a program that is not checked first is given up.
-constexpr std::size_t most_unchecked = 10'000;
+constexpr std::size_t max_unchecked = 10'000;
 
 /// What is to be run; the exit code where it cannot.
 int read_request(const RunOptions& options, rack::JobRequest& request) {
@@ -111,7 +111,7 @@ int run(const RunOptions& options) {
     const std::string& name = request.program_name;
     // Without a check first it is read all the same: for the subprograms that it calls.
     const control::gcode::ProgramCheck check = control::gcode::check_program(
-        request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
+        request.program, *settings, options.stream ? max_unchecked : max_problems_of_run, name);
     if (!options.stream || control::gcode::is_empty_program(request.program))
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
     if (!may_write(inputs, outputs)) return exit_refused;

@@ -241,7 +241,7 @@ void add_serve(CLI::App& app, Action& chosen) {
                      "address to serve; other than this computer's loopback only with TLS")
         ->capture_default_str();
     command->add_option("--speed", options->speed, "seconds of the rack for a second")
-        ->check(CLI::Range(operate::ClockPacer::least_factor, operate::ClockPacer::greatest_factor))
+        ->check(CLI::Range(operate::ClockPacer::min_factor, operate::ClockPacer::max_factor))
         ->capture_default_str();
     command->add_flag("--free", options->free, "as fast as the computer can");
     command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");

@@ -124,7 +124,7 @@ Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, con
         return nats::gather(sweep, results, options.nats, options.fresh, stop_asked, show, wait);
     }
     const auto cores =
-        static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+        static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::max_jobs)));
     return sweep::run_here(sweep, results, options.jobs > 0 ? options.jobs : cores, stop_asked, show);
 }
 
@@ -162,7 +162,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
         ->capture_default_str();
     command->add_option("--picture", options->picture, "draw the results as SVG");
     command->add_option("--jobs", options->jobs, "points that run at the same time (default: one for each core)")
-        ->check(CLI::Range(1, sweep::most_jobs));
+        ->check(CLI::Range(1, sweep::max_jobs));
     command->add_option("--nats", options->nats,
                         "let workers on any machines run the points, through this server with JetStream: "
                         "nats://HOST:4222; see sweep-worker");

@@ -18,7 +18,7 @@ namespace {
 int work(nats::WorkerSettings settings) {
     if (settings.jobs == 0)
         settings.jobs = static_cast<int>(
-            std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+            std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::max_jobs)));
     stop_on_signals();
     std::int64_t count = 0;
     const Result<void> ended = nats::work(settings, stop_asked, [&count](std::int64_t done) { count = done; });
@@ -41,7 +41,7 @@ void add_sweep_worker(CLI::App& app, Action& chosen) {
                      "the server with JetStream: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222")
         ->required();
     command->add_option("--jobs", settings->jobs, "points that run at the same time (default: one for each core)")
-        ->check(CLI::Range(1, sweep::most_jobs));
+        ->check(CLI::Range(1, sweep::max_jobs));
     command
         ->add_option("--idle", settings->idle_s,
                      "end when there was nothing to do for so many seconds (default: never)")

@@ -12,7 +12,7 @@ namespace {
 
 namespace gb = grating_bus;
 
-constexpr std::size_t most_scales_shown = 6;
+constexpr std::size_t max_scales_shown = 6;
 
 std::string state_of(const rack::FrameRow& row) {
     if (row.off) return "off";
@@ -53,7 +53,7 @@ std::string frames_table(const rack::FrameMonitor& watch, Instant now) {
         to_seconds(now), watch.published(), watch.bus().lines().all_conflicts(), "card", width, "role", "sequence",
         "age us", "frames", "bad", "unlike", "untrue", "state");
     auto end = std::back_inserter(out);
-    const std::size_t shown = std::min(scales, most_scales_shown);
+    const std::size_t shown = std::min(scales, max_scales_shown);
     for (std::size_t k = 0; k < shown; ++k) fmt::format_to(end, " {:>12}", column_text(rows, k));
     out += scales > shown ? fmt::format(" .. {} more\n", scales - shown) : "\n";
     for (const rack::FrameRow& row : rows) {

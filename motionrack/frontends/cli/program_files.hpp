@@ -60,7 +60,7 @@ void note_subprograms(control::gcode::Settings& settings, const std::string& pro
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// How many problems a check for people collects; of a program that is to run the first ones are enough.
-inline constexpr std::size_t max_problems = 100, most_problems_of_run = 20;
+inline constexpr std::size_t max_problems = 100, max_problems_of_run = 20;
 /// Prints the problems that were found with their lines, and how many there are; the exit code (0 if there are none).
 int print_problems(const control::gcode::ProgramCheck& check, const std::string& name);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration most_at_once = nanoseconds(static_cast<std::int64_t>(World::most_ns));
+constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(World::max_ns));
 
 /// "uio:..", "memory:..", "port:..": where a real card is, and neither the text nor the path of a rack file.
 bool names_real_card(std::string_view text) {
@@ -159,7 +159,7 @@ Result<void> Bench::pass(Chip& chip, Duration duration) {
     };
     const Instant end = later(chip.now(), duration);
     while (step_all_beside(chip) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
-    while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(most_at_once, end - chip.now())));
+    while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(max_at_once, end - chip.now())));
     return {};
 }
 

@@ -39,7 +39,7 @@ class RackWorld final : public World {
     std::vector<std::unique_ptr<CardOfRack>> cards_;
 };
 
-static_assert(World::most_ns == rack::Session::most_ns);
+static_assert(World::max_ns == rack::Session::max_ns);
 
 }  // namespace
 

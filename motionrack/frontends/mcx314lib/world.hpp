@@ -33,9 +33,9 @@ class World {
 
     /// Its mcx314 cards, in the order of the rack file.
     virtual std::vector<VirtualCard*> cards() = 0;
-    /// Lets `ns` nanoseconds pass, 0 .. most_ns. Errors: refused.
+    /// Lets `ns` nanoseconds pass, 0 .. max_ns. Errors: refused.
     virtual Result<void> advance(std::uint64_t ns) = 0;
-    static constexpr std::uint64_t most_ns = 1'000'000'000'000'000;
+    static constexpr std::uint64_t max_ns = 1'000'000'000'000'000;
     /// Drives a wire with 0 or 1 until it is released (NaN). Errors: bad_input, refused.
     virtual Result<void> set_wire(std::string_view name, double value) = 0;
 };

@@ -17,7 +17,7 @@ namespace {
 /// What the functions that read files answer.
 enum FileAnswer : UINT { loaded = 0, damaged = 1, not_read = 3, wrong_parameter = 10, no_such_card = 11 };
 
-constexpr std::size_t most_table_bytes = 64u << 20;
+constexpr std::size_t max_table_bytes = 64u << 20;
 
 /// At most `limit` bytes of it, and one more if it has more.
 Result<std::string> bytes_of(const char* name, std::size_t limit) {
@@ -61,7 +61,7 @@ Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& ans
         card.engine.load_fly_2d_table(nullptr);
     } else {
         answer = not_read;
-        MOTIONRACK_TRY(const std::string text, bytes_of(name, most_table_bytes));
+        MOTIONRACK_TRY(const std::string text, bytes_of(name, max_table_bytes));
         answer = damaged;
         MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, name));
         card.engine.load_fly_2d_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
@@ -163,7 +163,7 @@ void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJ
         rtc5::Delays delays = card.engine.state().delays;
         delays.variable_polygon = VarPoly != 0;
         delays.edge_level = EdgeLevel;
-        delays.least_jump = MinJumpDelay;
+        delays.min_jump = MinJumpDelay;
         delays.jump_limit = JumpLengthLimit;
         return card.engine.set_delays(delays);
     });

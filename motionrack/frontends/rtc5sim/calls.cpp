@@ -18,7 +18,7 @@ namespace {
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string last_sentence;
-constexpr UINT most_cards = 16;
+constexpr UINT max_cards = 16;
 constexpr std::uint64_t ns_per_tick = 10'000;
 constexpr std::int64_t end_of_time =
     std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; laser instants fit, too
@@ -53,11 +53,11 @@ Result<UINT> cards_wanted() {
     const std::string_view all = text;
     UINT number = 0;
     const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
-    if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > most_cards)
+    if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > max_cards)
         return fail(ErrorKind::invalid_input,
                     fmt::format("the environment variable RTC5SIM_CARDS is \"{}\", but the number of cards "
                                 "is 1 to {}. Nothing was done.",
-                                all, most_cards));
+                                all, max_cards));
     return number;
 }
 

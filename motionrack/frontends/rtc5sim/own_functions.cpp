@@ -74,9 +74,9 @@ int rtc5sim_advance_us(int64_t us) {
     });
 }
 
-int rtc5sim_run(int64_t most_us) {
+int rtc5sim_run(int64_t max_us) {
     return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
-        MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(most_us, std::numeric_limits<std::int64_t>::max()));
+        MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(max_us, std::numeric_limits<std::int64_t>::max()));
         MOTIONRACK_TRY(const bool rests, bench.run_to_rest(ticks));
         return rests ? 1 : 0;
     });

@@ -39,7 +39,7 @@ RTC5_API int rtc5sim_advance_us(int64_t us);
 
 /* Lets all cards run until no list runs, nothing moves and no start waits, at most so long: 1 they rest, 0 they do not
  * yet, -1. */
-RTC5_API int rtc5sim_run(int64_t most_us);
+RTC5_API int rtc5sim_run(int64_t max_us);
 
 /* Virtual time since the first call; -1 if it failed. */
 RTC5_API int64_t rtc5sim_now_us(void);

@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double least_rate = 1, greatest_rate = 100, first_rate = 10;
+constexpr double min_rate = 1, max_rate = 100, first_rate = 10;
 constexpr int policy = 1008, try_again = 1013;  // RFC 6455, 7.4
 
 std::chrono::nanoseconds period_of(double rate_hz) {
@@ -136,9 +136,9 @@ void Client::subscribe(const Request& request) {
             rate = value.get<double>();
         } else if (key == "channels") {
             if (!value.is_array()) return wrong("channels is a list of names.");
-            if (value.size() > panel::Panel::most_channels)
+            if (value.size() > panel::Panel::max_channels)
                 return wrong(fmt::format("{} channels are too many; at most {} are sent.", value.size(),
-                                         panel::Panel::most_channels));
+                                         panel::Panel::max_channels));
             for (const json& name : value) {
                 if (!name.is_string()) return wrong("channels is a list of names.");
                 names.push_back(name);
@@ -147,8 +147,8 @@ void Client::subscribe(const Request& request) {
             return wrong("To subscribe takes channels and rate_hz, nothing else.");
         }
     }
-    if (!(rate >= least_rate && rate <= greatest_rate))
-        return wrong(fmt::format("rate_hz is {:g}, but it is {:g} to {:g}.", rate, least_rate, greatest_rate));
+    if (!(rate >= min_rate && rate <= max_rate))
+        return wrong(fmt::format("rate_hz is {:g}, but it is {:g} to {:g}.", rate, min_rate, max_rate));
     const std::int64_t number = ++newest_subscription_;
     const auto take = [this, number, rate, id = request.id](std::shared_ptr<panel::ChannelSet> set) {
         if (number == newest_subscription_) {

@@ -24,7 +24,7 @@ struct PortMessage {
 template <class Stream>
 class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
   public:
-    SenderLine(Stream stream, std::size_t most_waiting) : stream_(std::move(stream)), most_waiting_(most_waiting) {}
+    SenderLine(Stream stream, std::size_t max_waiting) : stream_(std::move(stream)), max_waiting_(max_waiting) {}
 
     bool awaits_greeting = false;  ///< hears nothing before it
 
@@ -42,7 +42,7 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
     bool write(const PortMessage& said) {
         if (said.greets) awaits_greeting = false;
         if (awaits_greeting) return true;
-        if (waiting_ + said.text->size() > most_waiting_) return false;
+        if (waiting_ + said.text->size() > max_waiting_) return false;
         waiting_ += said.text->size();
         out_.push_back(said.text);
         if (out_.size() == 1) write_on();
@@ -72,7 +72,7 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
     }
 
     Stream stream_;
-    std::size_t most_waiting_, waiting_ = 0;
+    std::size_t max_waiting_, waiting_ = 0;
     std::array<char, 65536> in_{};
     std::deque<std::shared_ptr<const std::string>> out_;
 };

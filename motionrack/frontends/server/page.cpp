@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t greatest_size = 64 << 20;
-constexpr std::size_t most_files = 2000;
+constexpr std::uintmax_t max_size = 64 << 20;
+constexpr std::size_t max_files = 2000;
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> types = {{
     {".html", "text/html; charset=utf-8"},
@@ -68,11 +68,11 @@ Result<Page> Page::read(const fs::path& folder) {
             return fail(ErrorKind::io, "This file of the page could not be read. Nothing was started.", {},
                         it->path().string());
         size += text.size();
-        if (size > greatest_size || page.files_.size() >= most_files)
+        if (size > max_size || page.files_.size() >= max_files)
             return fail(
                 ErrorKind::invalid_input,
                 fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.",
-                            greatest_size >> 20, most_files),
+                            max_size >> 20, max_files),
                 {}, folder.string());
         const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
         // Files in assets/ carry a hash of what is in them in their names.

@@ -18,7 +18,7 @@ using boost::system::error_code;
 
 namespace {
 
-constexpr std::chrono::seconds longest_goodbye{1};
+constexpr std::chrono::seconds close_timeout{1};
 
 Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     MOTIONRACK_CHECK(authority::check_readers(files.key, "The key"));
@@ -129,7 +129,7 @@ class Server::Inside {
   private:
     /// Looks every few ms whether all are gone.
     void wait_for_the_last() {
-        if (listener_->empty() || std::chrono::steady_clock::now() - stopped_ > longest_goodbye) return io_.stop();
+        if (listener_->empty() || std::chrono::steady_clock::now() - stopped_ > close_timeout) return io_.stop();
         goodbye_.expires_after(std::chrono::milliseconds(5));
         goodbye_.async_wait([this](error_code) { wait_for_the_last(); });
     }

@@ -50,13 +50,13 @@ TEST_F(AJournal, TakesSoManyEntriesAsMayWaitAndNoMore) {
         go_on.get_future().wait();
     });
     busy.get_future().wait();
-    for (std::size_t i = 0; i < Journal::most_waiting; ++i) journal->write(Instant{}, "state", "waits");
+    for (std::size_t i = 0; i < Journal::max_waiting; ++i) journal->write(Instant{}, "state", "waits");
     EXPECT_THAT(journal->failure(), IsEmpty());
     journal->write(Instant{}, "state", "one too many");
     EXPECT_THAT(journal->failure(), HasSubstr("100000 entries wait for the disk"));
     go_on.set_value();
     EXPECT_FALSE(journal->close());
-    EXPECT_EQ(all_entries().size(), Journal::most_waiting + 1);
+    EXPECT_EQ(all_entries().size(), Journal::max_waiting + 1);
 }
 
 TEST_F(AJournal, RemovesEntriesBeyondTheNewestMillionAtItsStart) {

@@ -104,7 +104,7 @@ TEST_F(AJournalOnABadDisk, FailsWhereTooManyEntriesWait) {
     sqlite3* other = nullptr;
     ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
     ASSERT_EQ(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
-    for (std::size_t i = 0; journal->failure().empty() && i < 3 * Journal::most_waiting; ++i)
+    for (std::size_t i = 0; journal->failure().empty() && i < 3 * Journal::max_waiting; ++i)
         journal->write(Instant{}, "state", "waits");
     EXPECT_THAT(journal->failure(), HasSubstr("100000 entries wait for the disk"));
     sqlite3_close(other);

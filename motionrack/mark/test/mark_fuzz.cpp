@@ -13,7 +13,7 @@ namespace motionrack::mark::fuzz {
 
 namespace {
 
-constexpr double greatest_run_s =
+constexpr double max_run_s =
     0.02;  // of marks, of a drawing that is marked: runs are a hundred times slower with sanitizers
 
 bool finite(Spot p) {
@@ -26,7 +26,7 @@ std::string drawing_problem(const Drawing& drawing) {
         for (const Element& e : stroke.elements)
             if (!finite(e.to) || !finite(e.centre) || !std::isfinite(e.sweep)) return "a line ends nowhere";
     }
-    if (element_count(drawing) > most_elements + 10) return "more elements than may be";
+    if (element_count(drawing) > max_elements + 10) return "more elements than may be";
     return "";
 }
 
@@ -48,7 +48,7 @@ std::string picture_problem(const std::string& text) {
 
 /// Marks it for a little while.
 std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::string_view text) {
-    if (length_of(prepared.drawing) > greatest_run_s * job.pace.mark_mm_s) return "";
+    if (length_of(prepared.drawing) > max_run_s * job.pace.mark_mm_s) return "";
     const Result<MarkingOutcome> out = run_job(job, prepared, {{}, [] { return true; }});
     if (!out) return error_problem(out.error(), text);
     for (const Marked* m : {&out->on, out->off ? &*out->off : nullptr}) {

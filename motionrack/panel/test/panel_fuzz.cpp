@@ -17,7 +17,7 @@ constexpr const char* rack_text =
     "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
     "\"m\"\nchannel = \"y\"\n"
     "[card.p]\ntype = \"databoard4002\"\n[card.l]\ntype = \"rtc5\"\nlist_memory = 2000\n[scanner.head]\ncard = \"l\"\n";
-constexpr int most_lines = 16;
+constexpr int max_lines = 16;
 
 /// Asks line after line, a slice apart.
 class Asker {
@@ -40,7 +40,7 @@ class Asker {
             fields.erase("order");
         }
         if (!fields.is_discarded()) ask(name, fields);
-        if (left_.empty() || asked_ > most_lines) machine_->quit();
+        if (left_.empty() || asked_ > max_lines) machine_->quit();
     }
     std::string problem() const {
         if (!problem_.empty()) return problem_;

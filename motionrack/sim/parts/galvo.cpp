@@ -38,7 +38,7 @@ Result<void> check(const GalvoSettings& s) {
         return fail(ErrorKind::refused,
                     fmt::format("mirrors with {} {}: {} to {} are possible", name, value, least, greatest));
     };
-    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, greatest_dead_us));
+    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
     MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
     return range("a greatest speed in bits/ms of", s.greatest_speed, 1, 1e9);

@@ -13,7 +13,7 @@
 
 namespace motionrack::parts {
 
-inline constexpr int greatest_dead_us = 10'000;
+inline constexpr int max_dead_us = 10'000;
 
 struct GalvoSettings {
     bool ideal = true;
@@ -45,7 +45,7 @@ class GalvoPair {
     struct Mirror {
         double position = 0, speed = 0;  ///< bits, bits/tick
         std::int64_t head = 0;
-        std::array<double, greatest_dead_us / 10> late{};  ///< what was told, the dead time ago
+        std::array<double, max_dead_us / 10> late{};  ///< what was told, the dead time ago
     };
     double step(Mirror& mirror, double told) const;
 

@@ -20,11 +20,11 @@ void LaserGate::change(std::int64_t half_us, bool on) {
     const double at = static_cast<double>(half_us) / 20 + (on ? settings_.on_delay_us : settings_.off_delay_us) / 10;
     State& s = state_;
     const auto last = [&]() -> Edge& {
-        return s.edges[static_cast<std::size_t>((s.head + s.count - 1) % most_waiting)];
+        return s.edges[static_cast<std::size_t>((s.head + s.count - 1) % max_waiting)];
     };
     // A pulse shorter than the difference of the delays never shines, a gap shorter than it is none.
     while (s.count > 0 && last().at >= at) --s.count;
-    if (s.count == most_waiting) take_first();
+    if (s.count == max_waiting) take_first();
     ++s.count;
     last() = {at, on};
 }

@@ -50,7 +50,7 @@ class LaserGate {
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
 
     /// Changes that may wait for their delay; of more the earliest ones come at once.
-    static constexpr std::int64_t most_waiting = 4096;
+    static constexpr std::int64_t max_waiting = 4096;
 
   private:
     struct Edge {
@@ -58,13 +58,13 @@ class LaserGate {
         std::int64_t on = 0;
     };
     struct State {
-        std::array<Edge, most_waiting> edges{};  ///< a ring from `head`
+        std::array<Edge, max_waiting> edges{};  ///< a ring from `head`
         std::int64_t head = 0, count = 0, on = 0;
     };
     const Edge& first() const { return state_.edges[static_cast<std::size_t>(state_.head)]; }
     void take_first() {
         state_.on = first().on;
-        state_.head = (state_.head + 1) % most_waiting;
+        state_.head = (state_.head + 1) % max_waiting;
         --state_.count;
     }
 

@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::int64_t most_behind = 8;  // counts: what is further behind is lost
+constexpr std::int64_t max_behind = 8;  // counts: what is further behind is lost
 
 /// Ticks between two edges at `rate` edges a second.
 std::int64_t spacing_of(double rate) {
@@ -72,8 +72,8 @@ bool LineOutput::loses_lines() const {
 void LineOutput::step(Instant now) {
     const std::int64_t to_go = state_.target - state_.shown, behind = to_go < 0 ? -to_go : to_go,
                        sign = to_go < 0 ? -1 : 1;
-    if (loses_lines() && behind > most_behind) {
-        const std::int64_t lost = (behind - most_behind / 2) / 4 * 4;
+    if (loses_lines() && behind > max_behind) {
+        const std::int64_t lost = (behind - max_behind / 2) / 4 * 4;
         state_.shown += sign * lost;
         state_.lost += lost;
     }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> scale_faults = {"scale.lose", "scale.dirt", "scale.swapped",
                                                           "scale.expansion"};
-constexpr Wide most_ratio = Wide{1} << 50;                             // so that all products fit
+constexpr Wide max_ratio = Wide{1} << 50;                              // so that all products fit
 constexpr std::int64_t farthest_scale_counts = std::int64_t{1} << 46;  // counts; watches beyond are never left
 constexpr Wide billion = 1'000'000'000;
 
@@ -80,7 +80,7 @@ void LinearScale::set_ratio(double ppm) {
          den = Wide{settings_.pitch_pm} * settings_.places;
     Wide shared = common(num, den);
     num /= shared, den /= shared;
-    MOTIONRACK_ASSERT(num <= most_ratio && den <= most_ratio);
+    MOTIONRACK_ASSERT(num <= max_ratio && den <= max_ratio);
     if (ppm != 0) num *= billion, den *= billion + nearest(ppm * 1e3);
     shared = common(num, den);
     state_.num = num / shared, state_.den = den / shared;

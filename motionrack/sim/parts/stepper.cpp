@@ -40,8 +40,8 @@ void Stepper::change_rate(double rate_hz, std::int64_t pulses) {
     state_.hold = RotorHold::stalled;
     if (!may_lock()) return;
     // An abrupt stop: the rotor's momentum carries it on, against the jump.
-    constexpr double most_cycles = 1e6;
-    const double cycles = std::min(std::floor(std::fabs(jump) / settings_.start_stop_hz), most_cycles);
+    constexpr double max_cycles = 1e6;
+    const double cycles = std::min(std::floor(std::fabs(jump) / settings_.start_stop_hz), max_cycles);
     const std::int64_t run_on = static_cast<std::int64_t>(cycles) * settings_.electrical_cycle();
     state_.lost += jump < 0 ? -run_on : run_on;
     state_.hold = RotorHold::in_step;

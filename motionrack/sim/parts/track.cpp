@@ -50,7 +50,7 @@ Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
         if (!within(p.at_s, 0, 1e6) || (i > 0 && p.at_s <= s.profile[i - 1].at_s))
             return refuse(fmt::format("point {} of the speed profile is at {} s: times are 0 to 1000000 s and rise",
                                       i + 1, p.at_s));
-        if (!within(p.speed, -greatest_track_speed, greatest_track_speed))
+        if (!within(p.speed, -max_track_speed, max_track_speed))
             return refuse(fmt::format("point {} of the speed profile has the speed {}: -100000 to 100000 are possible",
                                       i + 1, p.speed));
     }

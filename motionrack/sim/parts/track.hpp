@@ -13,7 +13,7 @@
 namespace motionrack::parts {
 
 /// mm/s or degrees/s, either way.
-inline constexpr double greatest_track_speed = 1e5;
+inline constexpr double max_track_speed = 1e5;
 
 struct SpeedPoint {
     double at_s = 0;
@@ -42,7 +42,7 @@ class Conveyor {
     /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards);
     /// infinity if never. Travel is between them at `from_s`.
     double leaves(double from_s, double low, double high) const;
-    /// From t_s on at this speed, at most greatest_track_speed; braking to a standstill; by the profile again.
+    /// From t_s on at this speed, at most max_track_speed; braking to a standstill; by the profile again.
     void drive(double t_s, double speed);
     void stop(double t_s);
     void follow_profile(double t_s);

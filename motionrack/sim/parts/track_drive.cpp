@@ -10,7 +10,7 @@ constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "
 }
 
 ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double greatest_speed)
-    : track_(track), greatest_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+    : track_(track), max_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
 std::span<const std::string_view> ConveyorDrive::fault_names() {
     return track_drive_faults;
@@ -19,7 +19,7 @@ std::span<const std::string_view> ConveyorDrive::fault_names() {
 bool ConveyorDrive::fault(std::string_view name, double value, Instant now) {
     const bool by_hand = name == track_drive_faults[0];
     if (!by_hand && name != track_drive_faults[1]) return false;
-    if (!(std::fabs(value) <= greatest_speed_)) return false;
+    if (!(std::fabs(value) <= max_speed_)) return false;
     if (!by_hand) return go_on(now), true;
     change(now, [value](Conveyor& track, double at_s) { track.drive(at_s, value); });
     return true;

@@ -18,9 +18,9 @@ namespace motionrack::parts {
 
 class ConveyorDrive final : public sim::Device {
   public:
-    /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most greatest_track_speed.
+    /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most max_track_speed.
     ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
-                  double greatest_speed = greatest_track_speed);
+                  double greatest_speed = max_track_speed);
 
     const Conveyor& track() const { return track_; }
     sim::DeviceId id() const { return id_; }
@@ -43,7 +43,7 @@ class ConveyorDrive final : public sim::Device {
     void change(Instant now, Change&& how);
 
     Conveyor track_;
-    double greatest_speed_;
+    double max_speed_;
     std::vector<ConveyorPosition*> motions_;
     sim::DeviceId id_{};
 };

@@ -23,7 +23,7 @@ SerialWordSource::SerialWordSource(sim::Kernel& kernel, const std::string& name,
       word_wire_(kernel.add_wire(wires + ".mcbsp", 0, 32)),
       frame_wire_(kernel.add_wire(wires + ".mcbsp_frame", 0)) {
     MOTIONRACK_ASSERT(sender.settings().delay_us <
-                      static_cast<double>(most_under_way - 1) * sender.settings().period_us);
+                      static_cast<double>(max_under_way - 1) * sender.settings().period_us);
     schedule();
 }
 
@@ -42,7 +42,7 @@ void SerialWordSource::schedule() {
 
 void SerialWordSource::on_scheduled(Instant now) {
     State& s = state_;
-    const auto place = [](std::int64_t n) { return static_cast<std::size_t>(n % most_under_way); };
+    const auto place = [](std::int64_t n) { return static_cast<std::size_t>(n % max_under_way); };
     if (reading(s.read) <= now) {
         s.words[place(s.read)] = sender_.word_at(to_seconds(now));
         ++s.read;

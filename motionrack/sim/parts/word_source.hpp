@@ -19,7 +19,7 @@ namespace motionrack::parts {
 class SerialWordSource final : public sim::Device {
   public:
     /// Words that can be under way: the delay is less than so many periods.
-    static constexpr std::int64_t most_under_way = 256;
+    static constexpr std::int64_t max_under_way = 256;
 
     /// Adds the device `name` and its wires `wires`.mcbsp and `wires`.mcbsp_frame to the kernel, before it starts.
     SerialWordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
@@ -38,7 +38,7 @@ class SerialWordSource final : public sim::Device {
     struct State {
         std::int64_t read = 0, sent = 0;  ///< readings made, and those whose words are complete
         std::int64_t word = 0, frame = 0, silent = 0;
-        std::array<std::int64_t, most_under_way> words{};  ///< of reading n at n % most_under_way
+        std::array<std::int64_t, max_under_way> words{};  ///< of reading n at n % max_under_way
     };
     Instant reading(std::int64_t n) const;
     void schedule();

@@ -74,10 +74,10 @@ rc::Gen<std::int64_t> some_counts() {
     return rc::gen::element<std::int64_t>(400, 3200, 4000, 1024, 10'000, 777, 100'000);
 }
 
-std::vector<PulseLaw> some_laws(int size, int fastest_us = 2) {
+std::vector<PulseLaw> some_laws(int size, int min_period_us = 2) {
     std::vector<PulseLaw> laws;
     for (int i = 0; i < size; ++i)
-        laws.push_back({milliseconds(10 * i), microseconds(*rc::gen::inRange(fastest_us, 100)),
+        laws.push_back({milliseconds(10 * i), microseconds(*rc::gen::inRange(min_period_us, 100)),
                         *rc::gen::inRange<std::int64_t>(-1, 2)});
     return laws;
 }

@@ -47,7 +47,7 @@ TEST(SvgScatter, DrawsNothingOneAndVeryMany) {
                 testing::EndsWith("</svg>\n"));
     SvgDots many{"", "z", {}, false};
     for (int i = 0; i < 100'000; ++i) many.dots.push_back({static_cast<double>(i), static_cast<double>(i % 7)});
-    EXPECT_LE(count_of(svg_scatter({"t", "x", {}, {many}}), "<circle"), most_dots);
+    EXPECT_LE(count_of(svg_scatter({"t", "x", {}, {many}}), "<circle"), max_dots);
 }
 
 TEST(SvgMap, DrawsCellsWhereEveryPlaceIsThereAndDotsElsewhere) {

@@ -109,8 +109,8 @@ Result<void> HomeSearch::drive(bool towards, int rate) {
         stop_seen_ = host_.now();  // no edge comes of it
         return {};
     }
-    const std::int64_t far = std::clamp<std::int64_t>(counts_ + (forward_ ? frame_.travel : -frame_.travel),
-                                                      map::least_24, map::greatest_24);
+    const std::int64_t far =
+        std::clamp<std::int64_t>(counts_ + (forward_ ? frame_.travel : -frame_.travel), map::min_24, map::max_24);
     MOTIONRACK_CHECK(driver_.on_regulation());
     MOTIONRACK_CHECK(driver_.set_rate(rate));
     MOTIONRACK_CHECK(driver_.set_target(far));

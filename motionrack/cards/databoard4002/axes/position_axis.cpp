@@ -10,13 +10,13 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
-constexpr double count_slack = 1e-6;                         // what is so little off a whole count is one
-constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
+constexpr Duration min_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
+constexpr double count_slack = 1e-6;                       // what is so little off a whole count is one
+constexpr std::int64_t min_progress = 2;                   // a broken line alone goes to and fro by one count
 
 /// From one look at the progress to the next, at `speed` counts/s: time for ten times that.
 Duration progress_time(double speed) {
-    return std::max(least_progress_time, from_seconds(10 * least_progress / std::max(speed, 1e-3)));
+    return std::max(min_progress_time, from_seconds(10 * min_progress / std::max(speed, 1e-3)));
 }
 
 }  // namespace
@@ -121,12 +121,12 @@ Result<void> PositionAxis::move_by(double distance, double speed) {
     MOTIONRACK_TRY(const int rate, rate_of("Move", speed));
     MOTIONRACK_TRY(const std::int64_t here, counts());
     const double target = std::floor(static_cast<double>(here) + distance * settings_.counts_per_unit + 0.5);
-    if (!(target >= static_cast<double>(map::least_24) && target <= static_cast<double>(map::greatest_24)) ||
-        std::fabs(target - static_cast<double>(here)) > static_cast<double>(longest_move))
+    if (!(target >= static_cast<double>(map::min_24) && target <= static_cast<double>(map::max_24)) ||
+        std::fabs(target - static_cast<double>(here)) > static_cast<double>(max_move_counts))
         return refuse(
             "Move",
             fmt::format("it leads to {:.0f} counts, but the card's positions are {} to {} and its moves up to {}",
-                        target, map::least_24, map::greatest_24, longest_move));
+                        target, map::min_24, map::max_24, max_move_counts));
     const double there = offset_ + target / settings_.counts_per_unit, rounding = 1 / settings_.counts_per_unit;
     if (trusted_ &&
         (there < settings_.limits.min_position - rounding || there > settings_.limits.max_position + rounding))
@@ -151,9 +151,9 @@ Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     const double counts_to_end = (end - offset_) * settings_.counts_per_unit;
     const auto limit = static_cast<std::int64_t>(forward ? std::floor(counts_to_end + count_slack)
                                                          : std::ceil(counts_to_end - count_slack));
-    const std::int64_t most = forward ? map::greatest_24 : map::least_24;
-    const std::int64_t target = std::clamp(trusted_ ? limit : most, std::max(map::least_24, here - longest_move),
-                                           std::min(map::greatest_24, here + longest_move));
+    const std::int64_t most = forward ? map::max_24 : map::min_24;
+    const std::int64_t target = std::clamp(trusted_ ? limit : most, std::max(map::min_24, here - max_move_counts),
+                                           std::min(map::max_24, here + max_move_counts));
     if (forward ? target <= here : target >= here) return refuse("Jog", "it stands at the end of its travel");
     MOTIONRACK_CHECK(begin("Jog", target, rate, forward));
     doing_ = Doing::jogging;
@@ -202,7 +202,7 @@ void PositionAxis::look_at_progress(Instant now) {
     if (!here) return end_with(here.error());
     const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
     progress_due_ = later(now, progress_time_);
-    if (gone >= least_progress) return;
+    if (gone >= min_progress) return;
     end_with(
         {ErrorKind::machine,
          fmt::format(
@@ -274,7 +274,7 @@ void PositionAxis::end_with(Error error, bool counted) {
 // ---- position and home
 
 Result<void> PositionAxis::set_position(double position) {
-    const double most = static_cast<double>(longest_move) / settings_.counts_per_unit;
+    const double most = static_cast<double>(max_move_counts) / settings_.counts_per_unit;
     if (!(std::fabs(position) <= most))
         return refuse("Position",
                       fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
@@ -304,7 +304,7 @@ Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now
     frame.speed_rate = rate;
     frame.slow_rate = slow;
     frame.travel = static_cast<std::int64_t>(
-        std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(longest_move)));
+        std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(max_move_counts)));
     frame.offset = offset_;
     frame.settle = settings_.settle;
     trusted_ = hold_after_ = false;

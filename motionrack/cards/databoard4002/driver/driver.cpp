@@ -126,22 +126,22 @@ Result<void> Driver::clear_watch_out() {
 }
 
 Result<void> Driver::set_deviation(std::int64_t counts) {
-    MOTIONRACK_CHECK(in_range("The deviation D", counts, 0, map::greatest_24));
+    MOTIONRACK_CHECK(in_range("The deviation D", counts, 0, map::max_24));
     return send(command("D"), counts, 3);
 }
 
 Result<void> Driver::set_number(std::int64_t counts) {
-    MOTIONRACK_CHECK(in_range("The distance N", counts, map::least_24, map::greatest_24));
+    MOTIONRACK_CHECK(in_range("The distance N", counts, map::min_24, map::max_24));
     return send(command("N"), counts, 3);
 }
 
 Result<void> Driver::set_target(std::int64_t counts) {
-    MOTIONRACK_CHECK(in_range("The target P", counts, map::least_24, map::greatest_24));
+    MOTIONRACK_CHECK(in_range("The target P", counts, map::min_24, map::max_24));
     return send(command("P"), counts, 3);
 }
 
 Result<void> Driver::set_rate(int rate) {
-    MOTIONRACK_CHECK(in_range("The rate R", rate, 0, map::greatest_rate));
+    MOTIONRACK_CHECK(in_range("The rate R", rate, 0, map::max_rate));
     return send(command("R"), rate, 2);
 }
 
@@ -175,11 +175,11 @@ Result<int> Driver::version() {
 
 Result<std::int64_t> Driver::to_counts(double mm) const {
     const double counts = std::floor(mm * settings_.counts_per_mm + 0.5);
-    if (!(counts >= static_cast<double>(map::least_24) && counts <= static_cast<double>(map::greatest_24)))
+    if (!(counts >= static_cast<double>(map::min_24) && counts <= static_cast<double>(map::max_24)))
         return fail(ErrorKind::refused,
                     fmt::format("The position {} mm is beyond what card {} can count: {:.3f} to {:.3f} mm. Nothing "
                                 "was moved.",
-                                mm, settings_.select, to_mm(map::least_24), to_mm(map::greatest_24)));
+                                mm, settings_.select, to_mm(map::min_24), to_mm(map::max_24)));
     return static_cast<std::int64_t>(counts);
 }
 

@@ -107,16 +107,16 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
 
 Result<void> Driver::move_to(std::int64_t counts, Duration timeout, Waiting how) {
     MOTIONRACK_TRY(const std::int64_t here, position());
-    MOTIONRACK_CHECK(in_range("The target P", counts, map::least_24, map::greatest_24));
-    MOTIONRACK_CHECK(in_range("The length of the move", counts - here, -longest_move, longest_move));
+    MOTIONRACK_CHECK(in_range("The target P", counts, map::min_24, map::max_24));
+    MOTIONRACK_CHECK(in_range("The length of the move", counts - here, -max_move_counts, max_move_counts));
     MOTIONRACK_CHECK(set_target(counts));
     return run_move(event::POSITION, counts >= here, timeout, how);
 }
 
 Result<void> Driver::move_by(std::int64_t counts, Duration timeout, Waiting how) {
     MOTIONRACK_TRY(const std::int64_t here, position());
-    MOTIONRACK_CHECK(in_range("The length of the move", counts, -longest_move, longest_move));
-    MOTIONRACK_CHECK(in_range("The end of the move", here + counts, map::least_24, map::greatest_24));
+    MOTIONRACK_CHECK(in_range("The length of the move", counts, -max_move_counts, max_move_counts));
+    MOTIONRACK_CHECK(in_range("The end of the move", here + counts, map::min_24, map::max_24));
     MOTIONRACK_CHECK(set_number(counts));
     return run_move(event::POSITION, counts >= 0, timeout, how);
 }

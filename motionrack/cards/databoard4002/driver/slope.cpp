@@ -14,7 +14,7 @@ double SpeedScale::speed(int rate) const {
 }
 
 int SpeedScale::rate_for(double counts_s) const {
-    int low = 0, high = most_rate + 1;  // speed(low) <= counts_s < speed(high)
+    int low = 0, high = max_rate + 1;  // speed(low) <= counts_s < speed(high)
     while (high - low > 1) {
         const int middle = (low + high) / 2;
         (speed(middle) <= counts_s ? low : high) = middle;
@@ -46,11 +46,11 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
                     fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
                                 "table was made.",
                                 d.creep_speed, d.top_speed));
-    if (d.top_speed > scale.speed(most_rate))
+    if (d.top_speed > scale.speed(max_rate))
         return fail(ErrorKind::refused,
                     fmt::format("The top speed is {} counts/s, but this machine reaches {} at the card's greatest "
                                 "rate. No table was made.",
-                                d.top_speed, scale.speed(most_rate)));
+                                d.top_speed, scale.speed(max_rate)));
     return {};
 }
 
@@ -72,11 +72,11 @@ Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, doubl
                             speed, scale.speed(1)));
         const double longer = i == 0 ? 4 * lag * scale.speed(rate) : lag * step;
         position = std::max(position + scale.speed(rate) * step / ramp + longer, position + 1);
-        if (position > static_cast<double>(longest_move))
+        if (position > static_cast<double>(max_move_counts))
             return fail(ErrorKind::refused,
                         fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Take a "
                                     "lower top speed or a steeper ramp. No table was made.",
-                                    d.top_speed, ramp, longest_move));
+                                    d.top_speed, ramp, max_move_counts));
         table.set(first + i, {rate, static_cast<std::int64_t>(position + 0.5)});
     }
     return {};
@@ -96,9 +96,9 @@ Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& sca
 // ---- from table to motion
 
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale) {
-    if (distance < 0 || distance > longest_move)
+    if (distance < 0 || distance > max_move_counts)
         return fail(ErrorKind::refused,
-                    fmt::format("The move is {} counts long, but it is 0 to {}.", distance, longest_move));
+                    fmt::format("The move is {} counts long, but it is 0 to {}.", distance, max_move_counts));
     SlopeMotion motion;
     motion.distance = distance;
     std::int64_t at = 0;

@@ -7,27 +7,26 @@
 
 namespace motionrack::databoard4002::map {
 
-inline constexpr std::int64_t least_24 = -8'388'608, greatest_24 = 8'388'607;
-inline constexpr std::int64_t greatest_rate = most_rate;
+inline constexpr std::int64_t min_24 = -8'388'608, max_24 = 8'388'607;
+inline constexpr std::int64_t max_rate = databoard4002::max_rate;
 inline constexpr int table_bytes = SlopeTable::size;
-static_assert(signed24(least_24) == least_24 && signed24(greatest_24) == greatest_24 &&
-              signed24(greatest_24 + 1) == least_24);
+static_assert(signed24(min_24) == min_24 && signed24(max_24) == max_24 && signed24(max_24 + 1) == min_24);
 
 inline constexpr CommandInfo commands[] = {
     {"A", 'A', 0, 0, 0, "", "", "athome: the present position is 0"},
-    {"D", 'D', 3, least_24, greatest_24, "counts", "",
+    {"D", 'D', 3, min_24, max_24, "counts", "",
      "deviation; out: how far lock lets the position deviate (absolute value); in: present minus requested position",
      true, 3},
     {"G", 'G', 0, 0, 0, "", "", "go: starts what N, P, R and S specify; switches lock off"},
     {"I", 'I', 0, 0, 0, "", "", "initialise: changes nothing; the maker's programs send it"},
     {"L", 'L', 0, 0, 0, "", "", "lock: goes back to the requested position whenever it deviates by more than D"},
     {"M", 'M', 0, 0, 0, "", "", "manual: slope mode and lock off"},
-    {"N", 'N', 3, least_24, greatest_24, "counts", "", "number: the target relative to the position at the next G"},
+    {"N", 'N', 3, min_24, max_24, "counts", "", "number: the target relative to the position at the next G"},
     {"O", 'O', 0, 0, 0, "", "", "on regulation: slope mode on, Rate to its maximum"},
-    {"P", 'P', 3, least_24, greatest_24, "counts", "",
+    {"P", 'P', 3, min_24, max_24, "counts", "",
      "position; out: the absolute target of the next G; in: the present position", true, 3},
     {"Q", 'Q', 0, 0, 0, "", "", "quit: stops; the position register is zeroed, Rate stays"},
-    {"R", 'R', 2, 0, greatest_rate, "16384 - 400 kHz / f", "",
+    {"R", 'R', 2, 0, max_rate, "16384 - 400 kHz / f", "",
      "rate; out: the speed, at once, 0 switches the relay off; in: the present speed, negative backwards", true, 2},
     {"S", 'S', table_bytes, 0, 0, "", "", "slope: 48 intervals of rate (2 bytes) and position (3 bytes)"},
     {"V", 'V', 0, 0, 0, "", "", "version of the card's program", true, 1},

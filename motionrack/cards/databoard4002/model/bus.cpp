@@ -9,7 +9,7 @@ Bus::Bus(sim::Kernel& kernel, const std::string& name)
       interrupt_(kernel.add_wire(name + ".bus.int", 0)) {}
 
 void Bus::plug(Card& card, std::uint8_t select) {
-    MOTIONRACK_ASSERT(slots_.size() < most_cards);
+    MOTIONRACK_ASSERT(slots_.size() < max_cards);
     for (const Slot& slot : slots_) MOTIONRACK_ASSERT(slot.select != select);
     kernel_.listen(card.interrupt_wire(), id_, static_cast<int>(slots_.size()));
     slots_.push_back({&card, select, kernel_.find_wire(kernel_.device_name(card.id()) + ".csb")});

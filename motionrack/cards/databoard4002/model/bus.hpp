@@ -16,7 +16,7 @@ namespace motionrack::databoard4002 {
 
 class Bus final : public sim::Device, public sim::ByteDevice {
   public:
-    static constexpr std::size_t most_cards = 32;
+    static constexpr std::size_t max_cards = 32;
 
     /// Adds the bus and its wire "<name>.int" to the kernel.
     Bus(sim::Kernel& kernel, const std::string& name);

@@ -86,7 +86,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
             return open(code, Collecting::collecting);
         case command("O"):
             f.sloped = 1;
-            f.rate = most_rate;
+            f.rate = max_rate;
             return;
         case command("P"):
             return open_answer(code, Collecting::either, signed24(counter(now)), 3);

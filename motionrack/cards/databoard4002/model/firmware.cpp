@@ -67,7 +67,7 @@ void Card::go(Instant now) {
     Firmware& f = state_.firmware;
     const std::int64_t here = signed24(counter(now));
     const std::int64_t target = f.relative ? here + f.number : f.target;
-    if (target != signed24(target) || std::abs(target - here) > longest_move)
+    if (target != signed24(target) || std::abs(target - here) > max_move_counts)
         return report(CardCondition::move_refused, target, here);
     if (inputs() & stat::EMS) return report(CardCondition::go_in_emergency, here);
     if (f.move.on) report(CardCondition::during_move, 'G');

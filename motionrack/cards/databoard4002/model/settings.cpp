@@ -13,10 +13,10 @@ Result<void> check(const Settings& s) {
         return fail(ErrorKind::refused,
                     fmt::format("The firmware takes {} ns for a byte, but that is 2,500 to 100,000,000.",
                                 s.byte_time.count() / 10));
-    const int most_pair = s.folding == sim::Edges::all ? 0 : s.folding == sim::Edges::both_of_a ? 1 : 3;
-    if (s.first_pair < 0 || s.first_pair > most_pair)
+    const int max_pair = s.folding == sim::Edges::all ? 0 : s.folding == sim::Edges::both_of_a ? 1 : 3;
+    if (s.first_pair < 0 || s.first_pair > max_pair)
         return fail(ErrorKind::refused, fmt::format("The first strap pair is {}, but with folding {} it is 0 to {}.",
-                                                    s.first_pair, static_cast<int>(s.folding), most_pair));
+                                                    s.first_pair, static_cast<int>(s.folding), max_pair));
     if (!sound(s.trim))
         return fail(ErrorKind::refused,
                     "The trim table must have 1 to 64 rows whose voltages (up to 10 V) and rates (up to 16,383) rise.");

@@ -57,7 +57,7 @@ class Run {
     }
     sim::WireId wire(const char* pin) { return host_.kernel.find_wire("c1." + std::string(pin)); }
     int level(sim::WireId id) { return host_.kernel.level(id); }
-    Duration longest_access() const {
+    Duration max_access_time() const {
         const Settings& s = host_.card.settings();
         return s.byte_time + nanoseconds(2'500) * (s.pass_ticks + 1);
     }
@@ -95,10 +95,10 @@ class Run {
         const int bytes =
             feed_.below(16) == 0 && full > 0 ? static_cast<int>(feed_.below(static_cast<std::uint32_t>(full))) : full;
         out(ports::CS, select);
-        run(longest_access());
+        run(max_access_time());
         out(ports::C2, static_cast<std::uint8_t>(code));
         for (int i = 0; i < bytes; ++i) {
-            run(longest_access());
+            run(max_access_time());
             // High bytes that make moves which end, and speeds that one can see.
             const bool high = (full == 3 && i == 2) || (full == 2 && i == 1) || (full == 240 && i % 5 == 1);
             const std::uint32_t wild = feed_.word();
@@ -145,7 +145,7 @@ class Run {
         if (host_.card.hung()) {
             check(since <= whole_seconds(1), "the watchdog has not ended a hang after 1 s");
         } else {
-            check(since + longest_access() >= whole_seconds(1), "a hang ended before the watchdog's second");
+            check(since + max_access_time() >= whole_seconds(1), "a hang ended before the watchdog's second");
             ++verdict_.watchdogs;
             was_reset();
         }
@@ -168,7 +168,7 @@ class Run {
         if (port == ports::C4) arms_ = arms, armed_ = armed_ || arms;
         if ((port == ports::C2 && value == 'A') || port == ports::C4) {
             loose_ = true;
-            loose_until_ = host_.kernel.now() + longest_access();
+            loose_until_ = host_.kernel.now() + max_access_time();
         }
     }
     void reset_by_host() {
@@ -236,7 +236,7 @@ class Run {
         host_.card.pulses().deliver_edges();
         if (listening_) check(edges_.total == pulses(), "edges and pulses differ");
         if (host_.card.hung()) return;
-        run(longest_access());
+        run(max_access_time());
         check((host_.card.peek(ports::STAT) & stat::READY) != 0, "Ready does not return");
     }
     void still_alive() {

@@ -106,9 +106,9 @@ TEST(Databoard4002Arithmetic, TheVoltageGoesThroughTheTrimTableAndRises) {
         EXPECT_EQ(microvolts_of(row.rate, default_trim), row.microvolts);
     }
     EXPECT_EQ(microvolts_of(0, default_trim), 0);
-    for (int rate = 1; rate < most_rate; ++rate)
+    for (int rate = 1; rate < max_rate; ++rate)
         EXPECT_LE(microvolts_of(rate, default_trim), microvolts_of(rate + 1, default_trim)) << rate;
-    EXPECT_EQ(microvolts_of(most_rate, default_trim), 10'000'000);
+    EXPECT_EQ(microvolts_of(max_rate, default_trim), 10'000'000);
 }
 
 TEST(Databoard4002SlopeTable, FindsTheIntervalAndWhereItEnds) {

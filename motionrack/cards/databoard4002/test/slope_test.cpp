@@ -58,7 +58,7 @@ RC_GTEST_PROP(Databoard4002Slope, RateForIsTheGreatestRateThatIsNotFaster, ()) {
     const double wanted = *rc::gen::inRange(1, 12'000'000) * 1e-2;
     const int rate = scale.rate_for(wanted);
     RC_ASSERT(scale.speed(rate) <= wanted);
-    RC_ASSERT(rate == most_rate || scale.speed(rate + 1) > wanted);
+    RC_ASSERT(rate == max_rate || scale.speed(rate + 1) > wanted);
 }
 
 RC_GTEST_PROP(Databoard4002Slope, TablesAreSoundAndTheirAverageRampsAreThoseAskedFor, ()) {
@@ -72,7 +72,7 @@ RC_GTEST_PROP(Databoard4002Slope, TablesAreSoundAndTheirAverageRampsAreThoseAske
     RC_ASSERT(table.has_value());
     int interval = 0;
     RC_ASSERT(table->flaw(interval) == SlopeFlaw::none);
-    const auto motion = motion_of(*table, 2'000'000, most_rate, scale);
+    const auto motion = motion_of(*table, 2'000'000, max_rate, scale);
     RC_ASSERT(motion.has_value());
     RC_ASSERT(std::fabs(motion->top_speed - d.top_speed) < 0.08 * d.top_speed);
     const auto ramp_time = [&](double a) { return d.top_speed / (a / (1 + d.load)) * 23 / 24; };
@@ -90,7 +90,7 @@ RC_GTEST_PROP(Databoard4002Slope, TablesAreSoundAndTheirAverageRampsAreThoseAske
 
 TEST(Databoard4002Slope, ThePlannedMotionIsTheOneThatTheCardMakes) {
     for (const auto& [distance, limit] :
-         {std::pair{100'000, most_rate}, {3'000, most_rate}, {40'000, 16'300}, {17, most_rate}}) {
+         {std::pair{100'000, max_rate}, {3'000, max_rate}, {40'000, 16'300}, {17, max_rate}}) {
         Host host;
         host.start();
         Driver driver(host.port, host.port);
@@ -116,7 +116,7 @@ TEST(Databoard4002Slope, ThePlannedMotionIsTheOneThatTheCardMakes) {
 TEST(Databoard4002Slope, LegsJoinAndTheSeriesHasTheirCorners) {
     const SpeedScale scale;
     const SlopeTable table = *design_slope({.top_speed = 9'000, .acceleration = 12'000, .deceleration = 7'000}, scale);
-    const SlopeMotion motion = *motion_of(table, 50'000, most_rate, scale);
+    const SlopeMotion motion = *motion_of(table, 50'000, max_rate, scale);
     std::int64_t at = 0;
     double time = 0;
     for (const SlopeLeg& leg : motion.legs) {
@@ -133,7 +133,7 @@ TEST(Databoard4002Slope, LegsJoinAndTheSeriesHasTheirCorners) {
     EXPECT_EQ(series.speed.front(), 0);
     EXPECT_EQ(series.speed.back(), 0);
     EXPECT_EQ(series.position.back(), 50'000);
-    EXPECT_TRUE(motion_of(table, 0, most_rate, scale)->legs.empty());
+    EXPECT_TRUE(motion_of(table, 0, max_rate, scale)->legs.empty());
 }
 
 TEST(Databoard4002Slope, RefusesWhatCannotBeWithItsNumbers) {
@@ -147,8 +147,8 @@ TEST(Databoard4002Slope, RefusesWhatCannotBeWithItsNumbers) {
     EXPECT_THAT(design_slope({.top_speed = 100}, scale).error().message, HasSubstr("slowest rate gives 24.41"));
     EXPECT_THAT(design_slope({.top_speed = 100'000, .acceleration = 100}, scale).error().message,
                 HasSubstr("is longer than 8388607"));
-    EXPECT_FALSE(motion_of(SlopeTable{}, 100, most_rate, scale));
-    EXPECT_FALSE(motion_of(SlopeTable{}, -1, most_rate, scale));
+    EXPECT_FALSE(motion_of(SlopeTable{}, 100, max_rate, scale));
+    EXPECT_FALSE(motion_of(SlopeTable{}, -1, max_rate, scale));
 }
 
 }  // namespace

@@ -35,10 +35,10 @@ Result<CardInfo> GratingCard::open() {
     info.checks = CHECKS.test(role);
     info.wrong_direction = DIRECTION.test(port_.read(offset("STATUS")));
     info.scales = port_.read(offset("SCALES"));
-    if (info.scales < 1 || info.scales > most_scales)
+    if (info.scales < 1 || info.scales > max_scales)
         return fail(ErrorKind::refused,
                     fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Look at its address.",
-                                info.scales, most_scales));
+                                info.scales, max_scales));
     info.first = port_.read(offset("FIRST"));
     info.timing.t1 = Duration{port_.read(offset("T1"))};
     info.timing.t2 = Duration{port_.read(offset("T2"))};
@@ -58,10 +58,10 @@ Result<Reading> GratingCard::take() {
         return fail(
             ErrorKind::refused,
             "The card has no frame yet: no host has read one since the start. Is there a host, and does it run?");
-    if (frame.words > most_scales)
+    if (frame.words > max_scales)
         return fail(ErrorKind::refused,
                     fmt::format("The card says that its frame has {} scales, but {} are the most; it was not read.",
-                                frame.words, most_scales));
+                                frame.words, max_scales));
     frame.sequence = read32(offset("SEQUENCE_L"));
     std::uint64_t time = 0;
     for (std::uint32_t i = 0; i < 4; ++i) {

@@ -18,10 +18,10 @@ namespace motionrack::grating_bus {
 struct CardInfo {
     bool host = false;
     bool checks = false;
-    bool wrong_direction = false;                  ///< a level shifter does not fit the role
-    int scales = 0;                                ///< N
-    int first = 0;                                 ///< address of the first scale
-    std::array<std::uint8_t, most_scales> list{};  ///< addresses of the card's own list
+    bool wrong_direction = false;                 ///< a level shifter does not fit the role
+    int scales = 0;                               ///< N
+    int first = 0;                                ///< address of the first scale
+    std::array<std::uint8_t, max_scales> list{};  ///< addresses of the card's own list
     Timing timing;
     Duration period{};
     /// The card's own list: address of the scale of each word.
@@ -41,7 +41,7 @@ struct CardErrors {
 /// Positions of one instant.
 struct Reading {
     Frame frame;
-    std::array<std::int64_t, most_scales> positions{};  ///< counts, extended beyond 32 bits from reading to reading
+    std::array<std::int64_t, max_scales> positions{};  ///< counts, extended beyond 32 bits from reading to reading
     std::span<const std::int64_t> counts() const { return {positions.data(), frame.words}; }
     /// Address of the scale of each word, 0 .. 127: those that the host addressed.
     std::span<const std::uint8_t> addresses() const { return {frame.addresses.data(), frame.words}; }
@@ -77,8 +77,8 @@ class GratingCard {
 
     RegisterPort& port_;
     Interrupt& interrupt_;
-    std::array<std::int64_t, most_scales> before_{};  // of each scale by its address
-    std::array<std::uint8_t, most_scales> addresses_{};
+    std::array<std::int64_t, max_scales> before_{};  // of each scale by its address
+    std::array<std::uint8_t, max_scales> addresses_{};
     std::uint32_t words_ = 0;
 };
 

@@ -46,14 +46,14 @@ void Bus::plug(Card& card) {
     card_driver_.push_back(static_cast<int>(drivers_.size()));
     drivers_.push_back(card.id());
     cards_.push_back(&card);
-    MOTIONRACK_ASSERT(drivers_.size() <= most_drivers);
+    MOTIONRACK_ASSERT(drivers_.size() <= max_drivers);
 }
 
 void Bus::plug(Decoder& decoder) {
     decoder_driver_.push_back(static_cast<int>(drivers_.size()));
     drivers_.push_back(decoder.id());
     decoders_.push_back(&decoder);
-    MOTIONRACK_ASSERT(drivers_.size() <= most_drivers);
+    MOTIONRACK_ASSERT(drivers_.size() <= max_drivers);
 }
 
 const std::string& Bus::driver_name(int n) const {
@@ -116,7 +116,7 @@ void Bus::settle(Instant now) {
         const int high = std::countr_zero(conflict.high);
         const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one may drive both, bit by bit
         kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
-                       high * most_drivers + std::countr_zero(others != 0 ? others : conflict.low));
+                       high * max_drivers + std::countr_zero(others != 0 ? others : conflict.low));
     }
     show();
 }

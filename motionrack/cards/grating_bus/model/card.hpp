@@ -21,7 +21,7 @@ class Bus;
 class Card;
 
 /// Counts of all scales of a decoder, by their addresses.
-using Latched = std::array<std::uint32_t, most_scales>;
+using Latched = std::array<std::uint32_t, max_scales>;
 
 /// Which addresses a frame has.
 class TakenAddresses {
@@ -36,7 +36,7 @@ class TakenAddresses {
     }
 
   private:
-    std::array<std::uint32_t, most_scales / 32> bits_{};
+    std::array<std::uint32_t, max_scales / 32> bits_{};
 };
 
 /// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.

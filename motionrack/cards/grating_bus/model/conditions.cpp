@@ -77,7 +77,7 @@ std::string describe(const sim::Condition& c, const Bus& bus) {
         "wrong. More on this "
         "line are only listed. A bus has one host",
         to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name,
-        bus.driver_name(static_cast<int>(c.b / most_drivers)), bus.driver_name(static_cast<int>(c.b % most_drivers)));
+        bus.driver_name(static_cast<int>(c.b / max_drivers)), bus.driver_name(static_cast<int>(c.b % max_drivers)));
 }
 
 }  // namespace motionrack::grating_bus

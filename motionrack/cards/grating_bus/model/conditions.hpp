@@ -14,7 +14,7 @@ enum class BusCondition : std::uint16_t {
     missed_edges = 3,     ///< a: how many, b: sequence
     overrun = 4,          ///< a: sequence; once until CLEAR_ERRORS
     stale = 5,            ///< a: sequence of the frame published last, -1: none yet, b: its time, 0.1 ns
-    conflict = 6,         ///< by the bus, once a line; a: Line, b: numbers of two drivers, high * most_drivers + low
+    conflict = 6,         ///< by the bus, once a line; a: Line, b: numbers of two drivers, high * max_drivers + low
     no_register = 7,      ///< a: the offset, b: the word written, -1: it was a read
     other_scale = 8       ///< a: the word, b: the address on the bus * 256 + that of the card's own list
 };

@@ -49,7 +49,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
   private:
     friend class Bus;
     struct State {
-        std::array<std::uint32_t, most_scales> latched{};
+        std::array<std::uint32_t, max_scales> latched{};
         std::uint32_t out = 0;  // what it drives, or drove last
         std::uint32_t no_latch = 0;
         std::uint32_t high = 0;                                          // high word kept by a read of a low one
@@ -59,8 +59,8 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
         Instant output = never;                                          // when the addressed count comes out
         std::uint32_t hold = 0, read_n = 1, addr = rest_of(Line::addr);  // as it reacted to them last
         std::uint32_t reserved = 0;
-        std::uint32_t lines[most_scales] = {};  // bit 0: A, bit 1: B
-        std::array<sim::QuadratureDecoder, most_scales> counters;
+        std::uint32_t lines[max_scales] = {};  // bit 0: A, bit 1: B
+        std::array<sim::QuadratureDecoder, max_scales> counters;
     };
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
@@ -79,7 +79,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     Bus& bus_;
     sim::DeviceId id_{};
     sim::WireId int_wire_{};
-    std::array<sim::PositionFunction*, most_scales> scales_{};
+    std::array<sim::PositionFunction*, max_scales> scales_{};
     State state_{};
 };
 

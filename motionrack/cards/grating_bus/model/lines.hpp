@@ -15,7 +15,7 @@ namespace motionrack::grating_bus {
 
 enum class Line : std::uint8_t { clk, hold, read_n, addr, data };
 inline constexpr std::size_t line_count = 5;
-inline constexpr int most_drivers = 64;  ///< cards and decoders of a bus
+inline constexpr int max_drivers = 64;  ///< cards and decoders of a bus
 
 struct LineType {
     std::string_view name;
@@ -40,7 +40,7 @@ constexpr int bits_of_line(Line line) {
 constexpr std::uint32_t bits_of(Line line) {
     return 0xFFFFFFFFu >> (32 - bits_of_line(line));
 }
-static_assert(1 << bits_of_line(Line::addr) == most_scales, "every address is that of a scale");
+static_assert(1 << bits_of_line(Line::addr) == max_scales, "every address is that of a scale");
 
 /// Drivers that differed on a line, from `begin` to `end`.
 struct Conflict {
@@ -98,7 +98,7 @@ class Lines {
     std::array<std::uint32_t, line_count> stuck_{};
     std::uint32_t in_conflict_ = 0;  // a bit a line
     std::array<std::uint64_t, line_count> driving_{};
-    std::array<std::array<std::uint32_t, most_drivers>, line_count> value_{};
+    std::array<std::array<std::uint32_t, max_drivers>, line_count> value_{};
     std::array<std::uint64_t, line_count> told_{};
     std::array<std::uint64_t, line_count> open_{};  // number of the conflict that lasts
     std::uint64_t count_ = 0;

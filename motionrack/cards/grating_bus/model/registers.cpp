@@ -35,12 +35,12 @@ constexpr std::uint16_t ticks(Duration d) {
 }
 
 constexpr bool is_count(std::uint32_t at) {
-    return at >= counts_at && at < counts_at + 4 * most_scales && at % 2 == 0;
+    return at >= counts_at && at < counts_at + 4 * max_scales && at % 2 == 0;
 }
 
 /// Whether it is that of an address, of those that begin at `begin`.
 constexpr bool is_address(std::uint32_t at, std::uint32_t begin) {
-    return at >= begin && at < begin + 2 * most_scales && at % 2 == 0;
+    return at >= begin && at < begin + 2 * max_scales && at % 2 == 0;
 }
 
 std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {

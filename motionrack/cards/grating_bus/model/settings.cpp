@@ -24,17 +24,17 @@ Result<void> within(const char* name, int value, int least, int most) {
     return fail(ErrorKind::refused, fmt::format("{} is {}, but it is {} to {}.", name, value, least, most));
 }
 
-constexpr Duration least_wait{1}, most_wait = microseconds(6);
+constexpr Duration min_wait{1}, max_wait = microseconds(6);
 
 /// Each address in range and only once.
 Result<void> check_list(const std::vector<int>& addresses) {
-    if (addresses.size() > most_scales)
+    if (addresses.size() > max_scales)
         return fail(ErrorKind::invalid_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
-                                                          addresses.size(), most_scales));
+                                                          addresses.size(), max_scales));
     for (auto at = addresses.begin(); at != addresses.end(); ++at) {
-        if (*at < 0 || *at >= most_scales)
+        if (*at < 0 || *at >= max_scales)
             return fail(ErrorKind::invalid_input,
-                        fmt::format("The list has the address {}, but an address is 0 to {}.", *at, most_scales - 1));
+                        fmt::format("The list has the address {}, but an address is 0 to {}.", *at, max_scales - 1));
         if (std::find(addresses.begin(), at, *at) != at)
             return fail(ErrorKind::invalid_input,
                         fmt::format("The list has the address {} twice; a frame reads each scale once.", *at));
@@ -91,18 +91,18 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
 }
 
 Result<void> check(const CardSettings& s) {
-    MOTIONRACK_CHECK(within("The number of scales", s.scales, 1, most_scales));
+    MOTIONRACK_CHECK(within("The number of scales", s.scales, 1, max_scales));
     if (s.addresses.empty()) {
-        MOTIONRACK_CHECK(within("The address of the first scale", s.first, 0, most_scales - s.scales));
+        MOTIONRACK_CHECK(within("The address of the first scale", s.first, 0, max_scales - s.scales));
     } else if (s.addresses.size() != static_cast<std::size_t>(s.scales)) {
         return fail(ErrorKind::refused,
                     fmt::format("The list has {} addresses, but a frame has {} scales.", s.addresses.size(), s.scales));
     }
     MOTIONRACK_CHECK(check_list(s.addresses));
-    MOTIONRACK_CHECK(within("T1", s.timing.t1, least_wait, most_wait));
-    MOTIONRACK_CHECK(within("T2", s.timing.t2, least_wait, most_wait));
-    MOTIONRACK_CHECK(within("T3", s.timing.t3, least_wait, most_wait));
-    MOTIONRACK_CHECK(within("The logic's clock period", s.timing.clock, least_wait, most_wait));
+    MOTIONRACK_CHECK(within("T1", s.timing.t1, min_wait, max_wait));
+    MOTIONRACK_CHECK(within("T2", s.timing.t2, min_wait, max_wait));
+    MOTIONRACK_CHECK(within("T3", s.timing.t3, min_wait, max_wait));
+    MOTIONRACK_CHECK(within("The logic's clock period", s.timing.clock, min_wait, max_wait));
     MOTIONRACK_CHECK(within("The period of the frames", s.period, microseconds(1), milliseconds(100)));
     MOTIONRACK_CHECK(within("The offset of the first pulse", s.offset, Duration{0}, s.period));
     const Duration frame = s.timing.frame_time(s.scales);
@@ -116,9 +116,9 @@ Result<void> check(const CardSettings& s) {
 }
 
 Result<void> check(const DecoderSettings& s) {
-    MOTIONRACK_CHECK(within("The number of scales", s.scales, 1, most_scales));
-    MOTIONRACK_CHECK(within("The time of the latch", s.latch, Duration{0}, most_wait));
-    return within("The time to valid data", s.output, least_wait, most_wait);
+    MOTIONRACK_CHECK(within("The number of scales", s.scales, 1, max_scales));
+    MOTIONRACK_CHECK(within("The time of the latch", s.latch, Duration{0}, max_wait));
+    return within("The time to valid data", s.output, min_wait, max_wait);
 }
 
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder) {

@@ -28,7 +28,7 @@ ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
     static_assert(std::is_trivially_copyable_v<ServoLoop> &&
                       sizeof(ServoLoop) == sizeof(ServoSettings) + sizeof(FollowingError) + 8 * 7,
                   "padding would get into the hash of what holds it");
-    MOTIONRACK_ASSERT(settings.scale < most_scales && settings.nm_per_count != 0);
+    MOTIONRACK_ASSERT(settings.scale < max_scales && settings.nm_per_count != 0);
     MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.limit_nm >= 0);
 }
 

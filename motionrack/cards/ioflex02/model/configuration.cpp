@@ -44,7 +44,7 @@ void Card::take_byte(std::uint8_t byte) {
         c.header.bytes[at] = byte;
         if (at < image_header - 4) c.crc = crc32_of(c.crc, &byte, 1);
         if (at + 1 == image_magic.size() && !c.header.ours()) return refuse(CfgError::foreign);
-        if (at + 1 == image_header && (c.header.length() < least_payload || c.header.length() > most_payload))
+        if (at + 1 == image_header && (c.header.length() < min_payload || c.header.length() > max_payload))
             refuse(CfgError::length);
         return;
     }
@@ -70,7 +70,7 @@ void Card::take_project() {
 void Card::preload(std::span<const std::uint8_t> image) {
     Configuration& c = state_.configuration;
     std::copy_n(image.begin(), image_header, c.header.bytes.begin());
-    std::copy_n(image.begin() + image_header, least_payload, c.payload.begin());
+    std::copy_n(image.begin() + image_header, min_payload, c.payload.begin());
     take_project();
     c.starts_at = Instant{0};
 }

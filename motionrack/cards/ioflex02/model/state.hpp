@@ -20,7 +20,7 @@ struct Configuration {
     CfgError error = CfgError::none;
     std::uint16_t known = 0;  ///< the project is one that the model has
     ImageHeader header;
-    std::array<std::uint8_t, least_payload> payload{};  ///< its beginning
+    std::array<std::uint8_t, min_payload> payload{};  ///< its beginning
     std::array<std::uint8_t, 4> reserved{};
     Instant starts_at = never;  ///< when the array is configured
     std::array<std::uint16_t, axis_count> modes{};

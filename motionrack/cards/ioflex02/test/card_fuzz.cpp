@@ -93,7 +93,7 @@ class Run {
         ImageContent content;
         if (feed_.below(4) == 0) content.project = "other";
         content.ident = static_cast<std::uint8_t>(feed_.below(3) ? position_ident : feed_.below(256));
-        content.payload.resize(least_payload + feed_.below(40));
+        content.payload.resize(min_payload + feed_.below(40));
         for (std::uint8_t& byte : content.payload)
             byte = static_cast<std::uint8_t>(feed_.below(3) ? 0 : feed_.below(256));
         std::vector<std::uint8_t> raw = *raw_image(content);

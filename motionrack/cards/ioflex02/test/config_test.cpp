@@ -203,7 +203,7 @@ TEST(Ioflex02Image, DigitsThatAreNoneAreToldWithTheirPlace) {
 
 TEST(Ioflex02Image, IsCompressedAndUnpackedAgain) {
     ImageContent content;
-    content.payload.resize(most_payload);
+    content.payload.resize(max_payload);
     for (std::size_t i = 0; i < content.payload.size(); ++i) content.payload[i] = static_cast<std::uint8_t>(i * i >> 7);
     const auto raw = *raw_image(content);
     const auto file = compressed(raw);
@@ -236,7 +236,7 @@ TEST(Ioflex02Image, ContentsOutOfRangeMakeNoImage) {
     content = {};
     content.payload.resize(7);
     EXPECT_FALSE(raw_image(content));
-    content.payload.resize(most_payload + 1);
+    content.payload.resize(max_payload + 1);
     EXPECT_FALSE(raw_image(content));
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double companion_share = 0.3;
 // Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so
 // many pulses.
-constexpr double joint_share = 0.7, shortest_chord = 16, greatest_angle = 0.5;
+constexpr double joint_share = 0.7, shortest_chord = 16, max_angle = 0.5;
 
 double squared(double x) {
     return x * x;
@@ -21,26 +21,26 @@ double squared(double x) {
 
 /// The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r).
 double tolerated_angle(const AxisMap& map, double radius) {
-    return std::min(greatest_angle, std::sqrt(8 * map.arc_tolerance_mm / radius));
+    return std::min(max_angle, std::sqrt(8 * map.arc_tolerance_mm / radius));
 }
 
 double shortest_angle(const AxisMap& map, const control::Geometry& arc) {
     const double scale = std::max(map.limits[arc.first].pulses_per_unit, map.limits[arc.second].pulses_per_unit);
-    return std::min(greatest_angle, shortest_chord / scale / arc.radius);
+    return std::min(max_angle, shortest_chord / scale / arc.radius);
 }
 
-/// How many lines a move is drawn with; none takes less than `least_seconds`.
-double chords_of(const AxisMap& map, const control::Geometry& path, double cruise, double least_seconds) {
+/// How many lines a move is drawn with; none takes less than `min_seconds`.
+double chords_of(const AxisMap& map, const control::Geometry& path, double cruise, double min_seconds) {
     if (path.shape == control::PathShape::arc) {
         // From chord to chord the axes' speeds jump by speed * angle.
         const double jump =
             joint_share * std::min(map.limits[path.first].max_velocity_step, map.limits[path.second].max_velocity_step);
         const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
-        const double quickest = std::min(least_seconds * cruise / path.radius, greatest_angle);
+        const double quickest = std::min(min_seconds * cruise / path.radius, max_angle);
         return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), quickest}));
     }
     const double seconds = path.length / cruise, count = std::clamp(std::ceil(seconds / 0.008), 8.0, 20'000.0);
-    return least_seconds > 0 ? std::min(count, std::max(1.0, std::floor(seconds / least_seconds))) : count;
+    return min_seconds > 0 ? std::min(count, std::max(1.0, std::floor(seconds / min_seconds))) : count;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
 
 void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
-    const double count = chords_of(map_, work.path, work.move.cruise_velocity, least_seconds_);
+    const double count = chords_of(map_, work.path, work.move.cruise_velocity, min_seconds_);
     const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
     const double deviation = arc ? work.path.radius * (1 - sin_cos(half).cos) : 0;
     if (work.auxiliary >= 0)
@@ -102,7 +102,7 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
         const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
         // It begins with the speed of the chord before it.
-        const double most = most_on(way, work.constant_vector).speed;
+        const double most = max_on(way, work.constant_vector).speed;
         chords[i - 1].v = std::min({chords[i - 1].v, most, std::floor(std::sqrt(squared(after.v) + 2 * slope * room))});
     }
     for (const Chord& chord : chords)

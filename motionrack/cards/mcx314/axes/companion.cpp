@@ -15,7 +15,7 @@ namespace motionrack::mcx314 {
 Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
     auxiliary_ = channel;
     companion_target_ = companion_from_ = at;
-    double acceleration = most_units, start = 1, top = most_units;
+    double acceleration = max_units, start = 1, top = max_units;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] != channel) continue;
         const control::AxisLimits& limits = map_.limits[i];
@@ -24,7 +24,7 @@ Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
         start = 0.5 * limits.max_velocity_step * units;
         top = limits.max_velocity * units;
     }
-    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, most_units)); };
+    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, max_units)); };
     companion_start_speed_ = whole(start);
     companion_acceleration_ = whole(acceleration);
     companion_top_speed_ = whole(top);

@@ -32,7 +32,7 @@ std::int64_t Segmenter::basic_pulses(const Pulses4& way) {
 /// would jump twice.
 void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
     const Pulses4 way = way_between(next, work.to, next.to);
-    work.most_at_end = most_on(way, false).speed;
+    work.max_at_end = max_on(way, false).speed;
     double along = 0;
     for (std::size_t i = 0; i < control::axis_count; ++i)
         along += (work.move.move.end[i] - work.move.start[i]) * (next.move.move.end[i] - next.move.start[i]);
@@ -43,7 +43,7 @@ void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
 /// basic pulses for a mm change from piece to piece too.
 void Segmenter::make_even(const PendingMove& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
-    const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
+    const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.max_at_end);
     const Pulses4 way = way_between(work, at_, work.to);
     const std::int64_t basic = basic_pulses(way);
     if (basic == 0) return;
@@ -51,9 +51,9 @@ void Segmenter::make_even(const PendingMove& work, Speeds& speeds) {
     const double whole = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;
     const double length = std::max(0.5 * whole, whole - host_seconds_ * from);
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
-    const std::int32_t most = most_on(way, false).acceleration;
+    const std::int32_t most = max_on(way, false).acceleration;
     speeds.acceleration =
-        std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), most_units)), 1, most);
+        std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), max_units)), 1, most);
     const double changed = 2 * length * rules::rate_unit * speeds.acceleration;
     reached_ =
         changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));

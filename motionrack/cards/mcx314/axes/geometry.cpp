@@ -19,9 +19,9 @@ namespace {
 /// many lines have less than a pulse each, one of them has the pulse. Beside an arc, which the chip draws itself if
 /// nothing else moves, only a pulse counts.
 bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& worst, std::size_t axis) {
-    constexpr double least_of_line = 1e-6;  // pulses: more than the rounding of coordinates
+    constexpr double min_of_line = 1e-6;  // pulses: more than the rounding of coordinates
     const double scale = map.limits[axis].pulses_per_unit, pulses = worst[axis] * path.length * scale;
-    if (path.shape != control::PathShape::arc) return pulses >= least_of_line;
+    if (path.shape != control::PathShape::arc) return pulses >= min_of_line;
     if (axis == path.first || axis == path.second) return pulses >= 0.5;
     return nearest_pulse(path.start[axis], scale) != nearest_pulse(path.end[axis], scale);
 }

@@ -17,7 +17,7 @@ namespace motionrack::mcx314 {
 inline constexpr double both_axes_extra = 0.41421356237309503;
 
 /// As doubles.
-inline constexpr double most_units = static_cast<double>(rules::most_units),
+inline constexpr double max_units = static_cast<double>(rules::max_units),
                         speed_carry = static_cast<double>(rules::speed_carry);
 
 /// The nearest whole pulse, or count, to a place.

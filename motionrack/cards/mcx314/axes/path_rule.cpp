@@ -55,8 +55,8 @@ double PathRule::constant_velocity_length(const control::Geometry& path) const {
     return std::min(path.length, spent);
 }
 
-double PathRule::least_seconds() const {
-    return Segmenter::least_seconds(host_);
+double PathRule::min_seconds() const {
+    return Segmenter::min_seconds(host_);
 }
 
 }  // namespace motionrack::mcx314

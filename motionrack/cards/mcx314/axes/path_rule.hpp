@@ -15,7 +15,7 @@ class PathRule final : public control::DriveConstraints {
     int max_interpolated_axes() const override { return 3; }
     double min_velocity_update_s() const override { return 0.008; }
     double speed_ratio(const control::Geometry& before, const control::Geometry& after) const override;
-    double least_seconds() const override;
+    double min_seconds() const override;
     double late_seconds() const override { return to_seconds(host_.latency); }
 
   private:

@@ -30,12 +30,12 @@ std::int32_t Segmenter::best_range(const AxisMap& map) {
     for (std::size_t i = 0; i < map.channel.size(); ++i)
         if (map.channel[i] >= 0)
             fastest = std::max(fastest, map.limits[i].max_velocity * map.limits[i].pulses_per_unit);
-    const double range = rules::clock_hz * most_units / (fastest * 1.4143);
+    const double range = rules::clock_hz * max_units / (fastest * 1.4143);
     return static_cast<std::int32_t>(
         std::clamp(std::floor(range), static_cast<double>(param::R.min), static_cast<double>(param::R.max)));
 }
 
-double Segmenter::least_seconds(const HostTimes& host) {
+double Segmenter::min_seconds(const HostTimes& host) {
     return piece_reserve * (accesses_of_piece * to_seconds(host.access) + to_seconds(host.latency));
 }
 
@@ -45,7 +45,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
       pulses_per_v_(rules::clock_hz / range),
       host_seconds_(to_seconds(host.latency)),
       latency_seconds_(accesses_to_write_speed * to_seconds(host.access) + host_seconds_),
-      least_seconds_(least_seconds(host)),
+      min_seconds_(min_seconds(host)),
       at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
@@ -92,12 +92,12 @@ double Segmenter::units_along(const PendingMove& work, const control::Point& tan
 }
 
 std::int32_t Segmenter::speed_units(double units, double speed) const {
-    return static_cast<std::int32_t>(std::clamp(std::floor(units * speed), 1.0, most_units));
+    return static_cast<std::int32_t>(std::clamp(std::floor(units * speed), 1.0, max_units));
 }
 
 std::int32_t Segmenter::acceleration_units(double units, double acceleration) const {
     return static_cast<std::int32_t>(
-        std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, most_units));
+        std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, max_units));
 }
 
 /// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may
@@ -130,7 +130,7 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
 double Segmenter::fall_from(const PendingMove& work, double units, const Speeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
-    const double least = least_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
+    const double least = min_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
     double from = work.path.length - std::max(fall, least);
     if (!leaves_time(work, from, work.path.length, speeds.top)) from -= 2 * pulse;
     const bool fits = from >= least && leaves_time(work, 0, from, speeds.top) &&
@@ -143,7 +143,7 @@ double Segmenter::fall_from(const PendingMove& work, double units, const Speeds&
 bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
     const auto pulses = static_cast<double>(basic_pulses(way_between(work, begin, pulses_at(work, to))));
-    return pulses >= counted_reserve / piece_reserve * least_seconds_ * v * pulses_per_v_;
+    return pulses >= counted_reserve / piece_reserve * min_seconds_ * v * pulses_per_v_;
 }
 
 // ---- moves to pieces
@@ -203,7 +203,7 @@ void Segmenter::emit_straight(const PendingMove& work, const Speeds& speeds) {
         Pulses4 fall = {};
         for (std::size_t c = 0; c < fall.size(); ++c) fall[c] = work.to[c] - middle[c];
         // The fall begins with the speed of the piece before it.
-        emit_line(work, middle, std::min(speeds.top, most_on(fall, work.constant_vector).speed), speeds.acceleration);
+        emit_line(work, middle, std::min(speeds.top, max_on(fall, work.constant_vector).speed), speeds.acceleration);
     }
     // A pulse that waits for a piece with room is no piece of its own.
     if (speeds.fall_from >= work.path.length) return;
@@ -237,7 +237,7 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
     };
     const double whole = units * work.path.length;
     const double spare = (8 + 0.02 * whole * rules::clock_hz / range_) * range_ / rules::clock_hz + v0 * 1e-3;
-    double low = v0 + 1, high = std::min(most_units, units * work.move.cruise_velocity);
+    double low = v0 + 1, high = std::min(max_units, units * work.move.cruise_velocity);
     if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
     if (2 * ramp_length(high) + spare > whole)
         for (int i = 0; i < 40; ++i)
@@ -245,11 +245,11 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
     else
         low = high;
     for (std::size_t c = 0; c < at_.size(); ++c)
-        if (work.to[c] - at_[c] > longest_line || at_[c] - work.to[c] > longest_line) return false;
+        if (work.to[c] - at_[c] > max_line_pulses || at_[c] - work.to[c] > max_line_pulses) return false;
     // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too
     // fast.
     const auto v = static_cast<std::int32_t>(low), sv = static_cast<std::int32_t>(initial);
-    const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / rules::rate_unit), 1.0, most_units));
+    const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / rules::rate_unit), 1.0, max_units));
     const auto jerk = static_cast<std::int32_t>(std::max(1.0, k));
     if (v <= sv) return false;
     const std::int64_t rise = rules::s_ramp(sv, v, limit, jerk).phase / range_;

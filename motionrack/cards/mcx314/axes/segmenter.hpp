@@ -53,10 +53,10 @@ class Segmenter {
     static std::int32_t best_range(const AxisMap& map);
 
     /// A piece that takes less, s, may be over before the host has written the next one.
-    static double least_seconds(const HostTimes& host);
+    static double min_seconds(const HostTimes& host);
 
   private:
-    static constexpr std::int64_t longest_line = 8'000'000;  ///< pulses
+    static constexpr std::int64_t max_line_pulses = 8'000'000;  ///< pulses
 
     enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
     /// A planned move and how the chip will draw it.
@@ -71,8 +71,8 @@ class Segmenter {
         std::int32_t auxiliary = -1;  ///< channel of a fourth axis that moves beside the interpolation
         std::uint8_t channels = 0;    ///< that it moves, a bit each
         Pulses4 to = {};
-        std::int32_t most_at_end = rules::most_units;  ///< V with which the piece after it may begin
-        bool turns_back = false;                       ///< the piece after it goes back
+        std::int32_t max_at_end = rules::max_units;  ///< V with which the piece after it may begin
+        bool turns_back = false;                     ///< the piece after it goes back
     };
     /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
     struct Speeds {
@@ -84,8 +84,8 @@ class Segmenter {
 
     /// In V and A units.
     struct UnitLimits {
-        std::int32_t speed = rules::most_units;
-        std::int32_t acceleration = rules::most_units;
+        std::int32_t speed = rules::max_units;
+        std::int32_t acceleration = rules::max_units;
     };
 
     PendingMove classify(const control::PlannedMove& move);
@@ -113,7 +113,7 @@ class Segmenter {
     bool leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
-    UnitLimits most_on(const Pulses4& way, bool constant_vector) const;
+    UnitLimits max_on(const Pulses4& way, bool constant_vector) const;
     double start_speed(const control::Point& tangent) const;
 
     AxisMap map_;
@@ -121,7 +121,7 @@ class Segmenter {
     double pulses_per_v_;     ///< pulses a second of one V unit
     double host_seconds_;     ///< its latency
     double latency_seconds_;  ///< until a speed is written
-    double least_seconds_;
+    double min_seconds_;
     Pulses4 at_;
     std::optional<PendingMove> waiting_;
     std::deque<Segment> ready_;

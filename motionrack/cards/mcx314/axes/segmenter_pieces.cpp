@@ -97,7 +97,7 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
         without[left] = at_[left];
         return emit_line(work, without, v, acceleration);
     }
-    if (longest > longest_line) {
+    if (longest > max_line_pulses) {
         Pulses4 half = at_;
         for (std::size_t c = 0; c < half.size(); ++c) half[c] += (to[c] - at_[c]) / 2;
         emit_line(work, half, v, acceleration);
@@ -126,7 +126,7 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
     segment.acceleration = acceleration;
     Pulses4 way = {};
     for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
-    const UnitLimits most = most_on(way, segment.constant_vector);
+    const UnitLimits most = max_on(way, segment.constant_vector);
     segment.speed = std::min(segment.speed, most.speed);
     segment.acceleration = std::min(segment.acceleration, most.acceleration);
     segment.even = work.move.constant_accel;
@@ -136,7 +136,7 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
 
 /// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its
 /// share.
-Segmenter::UnitLimits Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
+Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector) const {
     double basic = 0, second = 0;
     for (const std::int64_t pulses : way) {
         const auto size = static_cast<double>(std::llabs(pulses));
@@ -150,7 +150,7 @@ Segmenter::UnitLimits Segmenter::most_on(const Pulses4& way, bool constant_vecto
         const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
         const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
         auto at_most = [](double value) {
-            return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units));
+            return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, max_units));
         };
         most.speed = std::min(most.speed, at_most(map_.limits[i].max_velocity * units));
         most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Duration look_every = milliseconds(1);
 constexpr double pulse_slack = 1e-6;  // what is so little off a whole pulse is one
-constexpr double most_pulses = static_cast<double>(param::pulses.max), most_place = static_cast<double>(param::LP.max);
+constexpr double max_pulses = static_cast<double>(param::pulses.max), max_place = static_cast<double>(param::LP.max);
 
 }  // namespace
 
@@ -105,7 +105,7 @@ Result<void> SingleAxis::move_to(double position, double speed) {
 Result<void> SingleAxis::move_by(double distance, double speed) {
     if (trusted_) return move_to(real_.position() + distance, speed);
     MOTIONRACK_CHECK(check_speed("Move", speed));
-    const double most = most_pulses / settings_.limits.pulses_per_unit;
+    const double most = max_pulses / settings_.limits.pulses_per_unit;
     if (!(std::fabs(distance) <= most))
         return refuse("Move",
                       fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
@@ -149,7 +149,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
         MOTIONRACK_CHECK(manual_.set(manual));
     }
     const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
-    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, most_units));
+    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, max_units));
     MOTIONRACK_CHECK(manual_.jog(speed < 0 ? -v : v, now));
     jogged_ = true;
     return {};
@@ -164,11 +164,11 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         if (value >= least && value <= greatest) return {};
         return refuse("Homing", fmt::format("{} is {}, but may be {} to {}", what, value, least, greatest));
     };
-    const double most_way = most_pulses / limits.pulses_per_unit, most_home = most_place / limits.pulses_per_unit;
-    MOTIONRACK_CHECK(outside("the home position", order.position, -most_home, most_home));
-    MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, most_way));
+    const double max_way = max_pulses / limits.pulses_per_unit, max_home = max_place / limits.pulses_per_unit;
+    MOTIONRACK_CHECK(outside("the home position", order.position, -max_home, max_home));
+    MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, max_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
-    MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, most_way));
+    MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, max_way));
     MOTIONRACK_CHECK(
         outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.max_velocity_step)));
     const bool index =
@@ -177,7 +177,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
     const auto pulses = [&](double way) {
-        return static_cast<std::int64_t>(std::min(most_pulses, std::floor(way * limits.pulses_per_unit + 0.5)));
+        return static_cast<std::int64_t>(std::min(max_pulses, std::floor(way * limits.pulses_per_unit + 0.5)));
     };
     const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
@@ -196,11 +196,11 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
     out.turn = settings_.pulses_per_turn;
     if (index && order.index_after) {
-        MOTIONRACK_CHECK(outside("the way from the switch to the index", *order.index_after, 0, most_way));
+        MOTIONRACK_CHECK(outside("the way from the switch to the index", *order.index_after, 0, max_way));
         out.index_after = pulses(*order.index_after);
     }
     if (order.hysteresis) {
-        MOTIONRACK_CHECK(outside("the hysteresis of the switch", *order.hysteresis, 0, most_way));
+        MOTIONRACK_CHECK(outside("the hysteresis of the switch", *order.hysteresis, 0, max_way));
         out.hysteresis = pulses(*order.hysteresis) + 1;
         out.repeats = pulses(contacts_repeat) + 2;
     }
@@ -271,7 +271,7 @@ void SingleAxis::trust(bool on) {
 }
 
 Result<void> SingleAxis::set_position(double position) {
-    const double most = most_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
+    const double most = max_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
     if (!(std::fabs(position) <= most))
         return refuse("Position",
                       fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));

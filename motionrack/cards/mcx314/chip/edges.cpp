@@ -5,7 +5,7 @@
 namespace motionrack::mcx314 {
 
 namespace {
-constexpr std::int64_t longest_batch = 0xF000'0000;  // ticks between the first and the last edge of a batch
+constexpr std::int64_t max_batch_ticks = 0xF000'0000;  // ticks between the first and the last edge of a batch
 
 /// Ticks between even edges: `whole`, or one more when `slack` has no `part` left to give; then it gets `all` of a tick
 /// back.
@@ -133,7 +133,8 @@ void Chip::flush_edges(int axis) {
 void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     const std::int64_t offset = at - outputs_[a].batch_tick;
-    if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > longest_batch))
+    if (batch.size > 0 &&
+        (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > max_batch_ticks))
         flush_edges(a);
     if (batch.size > 0) {
         batch.at[batch.size++] = static_cast<std::uint32_t>(offset);
@@ -159,11 +160,11 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
     std::int64_t count = state_.axis[a].count;
     while (pulses > 0) {
         if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity)) flush_edges(a);
-        if (batch.size > 0 && run.at - outputs_[a].batch_tick > longest_batch) flush_edges(a);
+        if (batch.size > 0 && run.at - outputs_[a].batch_tick > max_batch_ticks) flush_edges(a);
         if (batch.size == 0) begin_batch(a, run.at, direction, count + direction);
         std::int64_t some = std::min<std::int64_t>(sim::EdgeBatch::capacity - batch.size, pulses);
         // As many as the batch's 32-bit offsets have room for.
-        some = std::min(some, (longest_batch - (run.at - outputs_[a].batch_tick)) / (run.quotient + 1) + 1);
+        some = std::min(some, (max_batch_ticks - (run.at - outputs_[a].batch_tick)) / (run.quotient + 1) + 1);
         const auto first = static_cast<std::uint32_t>(run.at - outputs_[a].batch_tick);
         PlaceInRow<std::int32_t, std::uint32_t> next{first, static_cast<std::int32_t>(run.slack)};
         fill_evenly(batch.at.data() + batch.size, some, next,

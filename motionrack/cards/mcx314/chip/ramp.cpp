@@ -12,12 +12,12 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr int longest_walk = 512;  // steps: a change in between costs no more than to walk them again
+constexpr int max_walk_steps = 512;  // steps: a change in between costs no more than to walk them again
 
 /// Straight: the ticks of a step are 64,000 / rate, and one more where the remainder asks for it.
 Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t tick_limit, std::int64_t phase_limit) {
     Walk walk{from};
-    const std::int64_t steps = std::min<std::int64_t>(longest_walk, rules::magnitude(to - from.speed) - 1);
+    const std::int64_t steps = std::min<std::int64_t>(max_walk_steps, rules::magnitude(to - from.speed) - 1);
     const std::int64_t whole = rules::speed_carry / rate, rest = rules::speed_carry % rate;
     std::int64_t part = from.speed_part, speed = from.speed;
     std::int64_t each = rules::ticks_to_carry(part, rate);
@@ -46,7 +46,7 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
     Speed law = from;
     std::int64_t rate = 0, whole = 0, rest = 0, ticks = 0, sum = 0, last_phase = 0, last_speed = 0;
     std::int64_t same_rate = rules::s_ticks_of_rate(law, jerk);
-    for (int i = 0; i < longest_walk; ++i) {
+    for (int i = 0; i < max_walk_steps; ++i) {
         const std::int64_t next = law.speed + law.ramp;
         if (next == law.aim || next <= end) break;
         if (law.rate != rate) {

@@ -14,19 +14,19 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr double most_chain_rate = 2e6;  // pulses a second that continuous interpolation follows
+constexpr double max_chain_rate = 2e6;  // pulses a second that continuous interpolation follows
 constexpr Duration poll_period_of_chains = microseconds(20);
 
 }  // namespace
 
 Result<void> Driver::check_chain_speed(int axis, std::int64_t v) const {
     const double rate = static_cast<double>(v) * multiple(axis);
-    if (rate <= most_chain_rate) return {};
+    if (rate <= max_chain_rate) return {};
     return fail(
         ErrorKind::refused,
         fmt::format("V = {} of {} is {:.0f} pulses/s, but continuous interpolation makes at most {:.0f}. Nothing "
                     "was written.",
-                    v, axes_text(1u << axis), rate, most_chain_rate));
+                    v, axes_text(1u << axis), rate, max_chain_rate));
 }
 
 Result<void> Driver::ContStart(const CONTDATA& data) {

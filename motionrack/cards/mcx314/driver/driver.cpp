@@ -8,7 +8,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr std::int64_t most_multiple = 500, most_pulse_rate = 4'000'000;
+constexpr std::int64_t max_multiple = 500, max_pulse_rate = 4'000'000;
 constexpr Duration reset_time = nanoseconds(875);
 constexpr std::uint16_t reset_word = field("WR0", "RESET").mask;
 
@@ -157,10 +157,10 @@ Result<void> Driver::SetPulseLevels(unsigned axes, bool negative, bool direction
 }
 
 Result<void> Driver::SetMultiple(unsigned axes, std::int64_t multiple) {
-    if (multiple < 1 || multiple > most_multiple)
+    if (multiple < 1 || multiple > max_multiple)
         return fail(ErrorKind::refused,
                     fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
-                                multiple, most_multiple));
+                                multiple, max_multiple));
     MOTIONRACK_CHECK(check_axes(axes, "SetMultiple"));
     MOTIONRACK_CHECK(check_standing(axes, "SetMultiple"));
     return WriteRange(axes, range_of_multiple(multiple));
@@ -173,11 +173,11 @@ Result<void> Driver::SetRange(unsigned axes, std::int64_t range) {
 }
 
 Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
-    if (pulses_a_second < 1 || pulses_a_second > most_pulse_rate)
+    if (pulses_a_second < 1 || pulses_a_second > max_pulse_rate)
         return fail(ErrorKind::refused,
                     fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
                                 "written.",
-                                pulses_a_second, most_pulse_rate));
+                                pulses_a_second, max_pulse_rate));
     return SetMultiple(axes, rules::ceil_div(pulses_a_second, param::V.max));
 }
 

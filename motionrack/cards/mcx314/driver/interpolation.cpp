@@ -14,7 +14,7 @@ namespace {
 
 // R of the second and third axis for R of the first: a pulse of two axes is sqrt(2), of three sqrt(3) pulses long.
 constexpr double two_axes_factor = 1.41421356237309503, three_axes_factor = 1.73205080756887719;
-constexpr double least_off_circle = 3;
+constexpr double min_off_circle = 3;
 
 std::int64_t times(std::int64_t range, double factor) {
     return static_cast<std::int64_t>(static_cast<double>(range) * factor + 0.5);
@@ -145,7 +145,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
                     fmt::format("{}: the centre is the start, so the radius is 0. Nothing was written. Give C, or call "
                                 "SetCP first.",
                                 who));
-    const double allowed = std::max(least_off_circle, arc_tolerance_ * radius);
+    const double allowed = std::max(min_off_circle, arc_tolerance_ * radius);
     if (std::fabs(reach - radius) <= allowed) return {};
     const rules::ArcEnd end =
         rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);

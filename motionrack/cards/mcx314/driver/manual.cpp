@@ -56,7 +56,7 @@ Result<void> Manual::set(const ManualSettings& settings) {
     const Bound bounds[] = {
         {"the initial speed SV", settings.sv, param::SV.min, param::SV.max},
         {"the acceleration A", settings.a, param::A.min, param::A.max},
-        {"the greatest speed", settings.most_v, param::V.min, param::V.max},
+        {"the greatest speed", settings.max_v, param::V.min, param::V.max},
         {"the time a jog is held, in ms,", settings.hold / milliseconds(1), 1, 10'000},
     };
     for (const Bound& bound : bounds)
@@ -77,8 +77,8 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     const auto refuse = [&](const std::string& why) {
         return fail(ErrorKind::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
     };
-    if (v == 0 || v > settings_.most_v || v < -settings_.most_v)
-        return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.most_v));
+    if (v == 0 || v > settings_.max_v || v < -settings_.max_v)
+        return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.max_v));
     if (state_ == ManualState::stepping || state_ == ManualState::homing)
         return refuse(fmt::format("it is {}; stop that first", state_name()));
     if (state_ == ManualState::standing && driver_.moving(mask()))

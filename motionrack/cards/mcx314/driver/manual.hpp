@@ -22,7 +22,7 @@ struct ManualTravel {
 struct ManualSettings {
     std::int64_t sv = 50;               ///< initial speed, 1 .. 8,000
     std::int64_t a = 100;               ///< acceleration and deceleration, 1 .. 8,000
-    std::int64_t most_v = 8'000;        ///< greatest speed that jog() takes, 1 .. 8,000
+    std::int64_t max_v = 8'000;         ///< greatest speed that jog() takes, 1 .. 8,000
     Duration hold = milliseconds(250);  ///< how long a jog or a manual home goes on without being renewed, 1 ms .. 10 s
     std::optional<ManualTravel> travel = {};  ///< absent: a jog goes on until something stops it
 };
@@ -41,7 +41,7 @@ class Manual {
     const ManualSettings& settings() const { return settings_; }
 
     /// Jogs at `v`, the sign is the direction; 0 lets go. Starts, renews, changes the speed on the fly, or turns round
-    /// by way of a stop. Refused: above most_v, at the end of the travel or into an active limit, with alarm or
+    /// by way of a stop. Refused: above max_v, at the end of the travel or into an active limit, with alarm or
     /// emergency stop active, while stepping or homing.
     Result<void> jog(std::int64_t v, Instant now);
     /// One step of `pulses` (signed, not 0) at `v`. Refused unless standing, and as jog().

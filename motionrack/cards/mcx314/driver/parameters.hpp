@@ -35,9 +35,9 @@ inline constexpr Parameter COMP_PLUS = documented("COMP_PLUS", "The comparison v
 inline constexpr Parameter COMP_MINUS = documented("COMP_MINUS", "The comparison value COMP-");
 inline constexpr Parameter AO = documented("AO", "The acceleration counter offset AO");
 /// Pulses of a fixed drive: their sign chooses the command, the register takes the number.
-inline constexpr Parameter pulses{cmd::P, -map::most_pulses, map::most_pulses, "The number of output pulses P"};
+inline constexpr Parameter pulses{cmd::P, -map::max_pulses, map::max_pulses, "The number of output pulses P"};
 /// Finish point of an interpolation: the same register as 24-bit number with sign.
-inline constexpr Parameter finish{cmd::P, map::least_24, map::greatest_24, "The finish point P"};
+inline constexpr Parameter finish{cmd::P, map::min_24, map::max_24, "The finish point P"};
 /// R of the axes that give the second and third speed of constant vector speed: up to 8,000,000 * 1.732.
 inline constexpr Parameter vector_range{cmd::R, R.min, 13'856'407, "The range R"};
 }  // namespace param

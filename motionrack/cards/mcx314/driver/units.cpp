@@ -13,19 +13,19 @@ namespace {
 
 using rules::clock_hz, rules::rate_unit, rules::jerk_unit;
 constexpr double max_range_multiple = 500;
-constexpr double max_units = static_cast<double>(rules::most_units);
-constexpr double most_distance = 2'147'483'647;
+constexpr double max_drive_units = static_cast<double>(rules::max_units);
+constexpr double max_distance = 2'147'483'647;
 
 /// One value of a drive: what it is called, and how much of it one M gives at most.
 struct Kind {
     const char* name;
     const char* time;  ///< s, s2 or s3: units a second, ..
-    double most_per_multiple;
+    double max_per_multiple;
 };
-constexpr Kind speed_kind{"drive speed", "s", max_units};
-constexpr Kind start_kind{"start speed", "s", max_units};
-constexpr Kind accel_kind{"acceleration", "s2", max_units* rate_unit};
-constexpr Kind decel_kind{"deceleration", "s2", max_units* rate_unit};
+constexpr Kind speed_kind{"drive speed", "s", max_drive_units};
+constexpr Kind start_kind{"start speed", "s", max_drive_units};
+constexpr Kind accel_kind{"acceleration", "s2", max_drive_units* rate_unit};
+constexpr Kind decel_kind{"deceleration", "s2", max_drive_units* rate_unit};
 constexpr Kind jerk_kind{"jerk", "s3", jerk_unit};
 
 Result<void> check_scale(const Scale& scale) {
@@ -41,7 +41,7 @@ Result<void> check_value(const Kind& kind, const Scale& scale, double value, dou
         return fail(ErrorKind::refused,
                     fmt::format("The {} is {} units/{}, but it must be more than 0. Nothing was set.", kind.name, value,
                                 kind.time));
-    const double most = kind.most_per_multiple * multiple;
+    const double most = kind.max_per_multiple * multiple;
     // R is a whole number, so the multiple that was chosen may miss by the last digit of a double.
     if (value * scale.pulses_per_unit <= most * (1 + 1e-12)) return {};
     return fail(ErrorKind::refused,
@@ -102,15 +102,15 @@ RealSetting with_range(const Scale& scale, const RealDrive& drive, std::int64_t 
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
     MOTIONRACK_CHECK(check_drive(scale, drive, max_range_multiple));
     const double pulses = scale.pulses_per_unit;
-    const double least = std::max({1.0, drive.speed * pulses / speed_kind.most_per_multiple,
-                                   drive.start_speed * pulses / start_kind.most_per_multiple,
-                                   drive.acceleration * pulses / accel_kind.most_per_multiple,
-                                   drive.deceleration * pulses / decel_kind.most_per_multiple,
-                                   drive.jerk * pulses / jerk_kind.most_per_multiple});
+    const double least = std::max({1.0, drive.speed * pulses / speed_kind.max_per_multiple,
+                                   drive.start_speed * pulses / start_kind.max_per_multiple,
+                                   drive.acceleration * pulses / accel_kind.max_per_multiple,
+                                   drive.deceleration * pulses / decel_kind.max_per_multiple,
+                                   drive.jerk * pulses / jerk_kind.max_per_multiple});
     const double widest =
         std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.min), static_cast<double>(param::R.max));
     // V is what fits into the widest range; R is then as much narrower as makes V the asked speed, rounded to reach it.
-    const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_units);
+    const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_drive_units);
     const double range =
         std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.min), widest);
     return with_range(scale, drive, static_cast<std::int64_t>(range));
@@ -135,12 +135,12 @@ RealDrive real_values(const Scale& scale, const CurveData& curve) {
 Result<Rounded> to_pulses(const Scale& scale, double distance) {
     MOTIONRACK_CHECK(check_scale(scale));
     const double pulses = std::floor(distance * scale.pulses_per_unit + 0.5);
-    if (!std::isfinite(pulses) || std::fabs(pulses) > most_distance)
+    if (!std::isfinite(pulses) || std::fabs(pulses) > max_distance)
         return fail(
             ErrorKind::refused,
             fmt::format("The distance of {} units is {} pulses, but counters hold at most {:.0f}: {:.6g} units. "
                         "Nothing was set.",
-                        distance, pulses, most_distance, most_distance / scale.pulses_per_unit));
+                        distance, pulses, max_distance, max_distance / scale.pulses_per_unit));
     return Rounded{distance, pulses / scale.pulses_per_unit, static_cast<std::int64_t>(pulses)};
 }
 

@@ -5,9 +5,9 @@
 
 namespace motionrack::mcx314::map {
 
-inline constexpr std::int64_t least_32 = -2'147'483'648LL, greatest_32 = 2'147'483'647LL;
-inline constexpr std::int64_t least_24 = -8'388'608, greatest_24 = 8'388'607;
-inline constexpr std::int64_t most_pulses = 268'435'455;
+inline constexpr std::int64_t min_32 = -2'147'483'648LL, max_32 = 2'147'483'647LL;
+inline constexpr std::int64_t min_24 = -8'388'608, max_24 = 8'388'607;
+inline constexpr std::int64_t max_pulses = 268'435'455;
 inline constexpr std::string_view as_only = "MCX314As";
 
 inline constexpr CommandInfo commands[] = {
@@ -18,26 +18,26 @@ inline constexpr CommandInfo commands[] = {
     {"D", 0x03, 2, 1, 8'000, "125 * M pulses/s2", "", "deceleration, where DSNDE is set"},
     {"SV", 0x04, 2, 1, 8'000, "M pulses/s", "", "initial speed"},
     {"V", 0x05, 2, 1, 8'000, "M pulses/s", "", "drive speed; also while driving"},
-    {"P", 0x06, 4, least_24, most_pulses, "pulses", "",
+    {"P", 0x06, 4, min_24, max_pulses, "pulses", "",
      "output pulses of a fixed drive, 0 .. 268,435,455 (MCX314As: 4,294,967,295), or finish point of an interpolation, "
      "-8,388,608 .. 8,388,607 (MCX314As: -2,147,483,646 .. 2,147,483,646)"},
-    {"DP", 0x07, 4, 0, most_pulses, "pulses", "",
+    {"DP", 0x07, 4, 0, max_pulses, "pulses", "",
      "manual deceleration point: pulses made when the deceleration begins; MCX314As: 0 .. 4,294,967,295"},
-    {"C", 0x08, 4, least_24, greatest_24, "pulses", "",
+    {"C", 0x08, 4, min_24, max_24, "pulses", "",
      "centre of an arc, relative to its start; MCX314As: -2,147,483,646 .. 2,147,483,646"},
-    {"LP", 0x09, 4, least_32, greatest_32, "pulses", "", "logical position counter"},
-    {"EP", 0x0A, 4, least_32, greatest_32, "counts", "", "real position counter (encoder)"},
-    {"COMP_PLUS", 0x0B, 4, least_32, greatest_32, "", "", "comparison register COMP+"},
-    {"COMP_MINUS", 0x0C, 4, least_32, greatest_32, "", "", "comparison register COMP-"},
+    {"LP", 0x09, 4, min_32, max_32, "pulses", "", "logical position counter"},
+    {"EP", 0x0A, 4, min_32, max_32, "counts", "", "real position counter (encoder)"},
+    {"COMP_PLUS", 0x0B, 4, min_32, max_32, "", "", "comparison register COMP+"},
+    {"COMP_MINUS", 0x0C, 4, min_32, max_32, "", "", "comparison register COMP-"},
     {"AO", 0x0D, 2, 0, 65'535, "pulses", "", "acceleration counter offset: pulses kept for the end at SV"},
     {"L", 0x0E, 2, 1, 65'535, "62.5e6 / L * M pulses/s3", as_only, "jerk of falling S-ramps, where DSNDE is set"},
     {"NOP", 0x0F, 0, 0, 0, "", "", "chooses the axis of WR1..WR3, RR1..RR3"},
-    {"READ_LP", 0x10, 4, least_32, greatest_32, "pulses", "", "LP to RR6, RR7"},
-    {"READ_EP", 0x11, 4, least_32, greatest_32, "counts", "", "EP to RR6, RR7"},
+    {"READ_LP", 0x10, 4, min_32, max_32, "pulses", "", "LP to RR6, RR7"},
+    {"READ_EP", 0x11, 4, min_32, max_32, "counts", "", "EP to RR6, RR7"},
     {"READ_CV", 0x12, 2, 0, 8'000, "M pulses/s", "", "present speed to RR6; 0 at rest"},
     {"READ_CA", 0x13, 2, 0, 8'000, "125 * M pulses/s2", "",
      "present acceleration or deceleration to RR6; at constant speed the last one"},
-    {"READ_BR", 0x14, 4, least_32, greatest_32, "", as_only, "what a synchronous action has saved, to RR6, RR7"},
+    {"READ_BR", 0x14, 4, min_32, max_32, "", as_only, "what a synchronous action has saved, to RR6, RR7"},
     {"FIXED_PLUS", 0x20, 0, 0, 0, "", "", "drives P pulses in + direction"},
     {"FIXED_MINUS", 0x21, 0, 0, 0, "", "", "drives P pulses in - direction"},
     {"CONTINUOUS_PLUS", 0x22, 0, 0, 0, "", "", "drives in + direction until stopped"},
@@ -60,11 +60,11 @@ inline constexpr CommandInfo commands[] = {
     {"DECELERATION_ON", 0x3B, 0, 0, 0, "", "", "interpolation decelerates at its end"},
     {"DECELERATION_OFF", 0x3C, 0, 0, 0, "", "", "interpolation keeps its speed to the end"},
     {"INTERPOLATION_INTERRUPT_CLEAR", 0x3D, 0, 0, 0, "", "", "clears the interpolation interrupt"},
-    {"EM", 0x60, 4, least_32, greatest_32, "", as_only, "extension mode: EM7:EM6"},
+    {"EM", 0x60, 4, min_32, max_32, "", as_only, "extension mode: EM7:EM6"},
     {"HV", 0x61, 2, 1, 8'000, "M pulses/s", as_only, "speed of the slow steps of the home search"},
     {"HOME", 0x62, 0, 0, 0, "", as_only, "automatic home search by EM7"},
     {"DCC", 0x63, 0, 0, 0, "", as_only, "deviation counter clear pulse on nDRIVE, where DCCE is set"},
-    {"SM", 0x64, 4, least_32, greatest_32, "", as_only, "synchronous action mode: SM7:SM6"},
+    {"SM", 0x64, 4, min_32, max_32, "", as_only, "synchronous action mode: SM7:SM6"},
     {"SYNC", 0x65, 0, 0, 0, "", as_only, "the condition CMD of the synchronous action"},
 };
 static_assert(declared<commands_flaw(commands)>());

@@ -108,7 +108,7 @@ TEST(Jog, EndsAtALimitAndOnlyLeavesIt) {
 TEST(Jog, IsRefusedWithItsReason) {
     ManualRig rig;
     ManualSettings s;
-    s.most_v = 300;
+    s.max_v = 300;
     ASSERT_TRUE(rig.manual.set(s));
     EXPECT_THAT(rig.manual.jog(301, rig.now()).error().message, HasSubstr("the speed is 301, but may be 1 to 300"));
     rig.hold_wire("c.emgn", 0);

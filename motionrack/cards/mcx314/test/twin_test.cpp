@@ -53,14 +53,14 @@ TEST(Mcx314Twin, DrivesTheMakersSCurveInTheTimeOfTheFormula) {
     host.speeds(x, 800'000, 4000, 100, 200, 200, 1010, 0);
     host.mode(x, 3, 4);
     host.command(x, 0x22);
-    std::int64_t accelerating = 0, most_rate = 0;
+    std::int64_t accelerating = 0, max_rate = 0;
     while (host.twin.axis(0).gen.speed < 4000 && accelerating < 10'000'000) {
         host.twin.tick(), ++accelerating;
-        most_rate = std::max(most_rate, host.twin.axis(0).gen.rate);
+        max_rate = std::max(max_rate, host.twin.axis(0).gen.rate);
     }
     EXPECT_NEAR(static_cast<double>(accelerating) / second, 0.50209, 0.01);
     EXPECT_NEAR(static_cast<double>(host.twin.count(0)), 10'292.9, 200);
-    EXPECT_NEAR(static_cast<double>(most_rate), 124.3, 1);
+    EXPECT_NEAR(static_cast<double>(max_rate), 124.3, 1);
 }
 
 TEST(Mcx314Twin, MakesExactlyTheFixedPulsesWhateverTheParameters) {

@@ -55,7 +55,7 @@ Result<void> Engine::set_delays(const Delays& d) {
         std::int64_t ticks;
     };
     for (const Item& item : {Item{"Jump", d.jump}, Item{"Mark", d.mark}, Item{"Polygon", d.polygon},
-                             Item{"EdgeLevel", d.edge_level}, Item{"MinJumpDelay", d.least_jump}})
+                             Item{"EdgeLevel", d.edge_level}, Item{"MinJumpDelay", d.min_jump}})
         MOTIONRACK_CHECK(check_parameter("", item.name, static_cast<double>(item.ticks), Kind::ticks));
     const KindInfo laser = kind_info(Kind::half_us);
     MOTIONRACK_CHECK(check_parameter("", "LaserOnDelay", static_cast<double>(d.laser_on), Kind::half_us));

@@ -23,7 +23,7 @@ constexpr std::string_view manual_511 = "the RTC5 manual 1.9 e, page 511";
 constexpr std::string_view rtc6_703 = "the RTC6 manual 1.0.21, page 703";
 constexpr std::string_view changes_nothing = "taken and changes nothing: the laser is a gate here, on or off";
 
-constexpr double least_32 = -2147483648.0, greatest_32 = 2147483647, greatest_place = greatest_list_memory - 1;
+constexpr double min_32 = -2147483648.0, max_32 = 2147483647, max_place = max_list_memory - 1;
 
 constexpr ControlParam centre(std::string_view name) {
     constexpr KindInfo range = kind_info(Kind::centre);
@@ -71,7 +71,7 @@ Answered header_word(const Engine& engine, std::int64_t table, double word_numbe
 Answered set_delay_mode(Engine& engine, Numbers p) {
     Delays delays = engine.state().delays;
     delays.variable_polygon = p[0] != 0;
-    delays.edge_level = wide(p[2]), delays.least_jump = wide(p[3]), delays.jump_limit = p[4];
+    delays.edge_level = wide(p[2]), delays.min_jump = wide(p[3]), delays.jump_limit = p[4];
     return done(engine.set_delays(delays));
 }
 Answered set_extstartpos(Engine& engine, Numbers p) {
@@ -106,7 +106,7 @@ constexpr ControlCommand commands[] = {
     {"set_start_list_2", {}, 0, true, false, or_wrong,
      [](Engine& e, Numbers) { return done(e.set_start_list(2)); }, "list commands go to list 2 from here on",
      manual_70},
-    {"set_start_list_pos", {{{"ListNo"}, up_to("Pos", greatest_place)}}, 0, true, false, or_wrong,
+    {"set_start_list_pos", {{{"ListNo"}, up_to("Pos", max_place)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_start_list(word(p[0]), wide(p[1]))); },
      "list commands go to that position of list 1 (odd numbers) or 2 (even ones); behind its end it is 0", manual_70},
     {"get_input_pointer", {}, 1, true, false, or_wrong,
@@ -121,10 +121,10 @@ constexpr ControlCommand commands[] = {
     {"execute_list_2", {}, 0, true, false, or_busy,
      [](Engine& e, Numbers) { return done(e.execute_list(2)); },
      "starts list 2; refused while a list runs or the card moves", manual_70},
-    {"execute_list_pos", {{{"ListNo"}, up_to("Pos", greatest_place)}}, 0, true, false, or_busy,
+    {"execute_list_pos", {{{"ListNo"}, up_to("Pos", max_place)}}, 0, true, false, or_busy,
      [](Engine& e, Numbers p) { return done(e.execute_list(word(p[0]), wide(p[1]))); },
      "starts a list at a position of it; refused while a list runs or the card moves", manual_70},
-    {"execute_at_pointer", {{up_to("Pos", greatest_place)}}, 0, true, false, or_busy,
+    {"execute_at_pointer", {{up_to("Pos", max_place)}}, 0, true, false, or_busy,
      [](Engine& e, Numbers p) { return done(e.execute_at(wide(p[0]))); },
      "starts at a position over all lists; refused while a list runs or the card moves", manual_70},
     {"set_delay_mode",
@@ -167,7 +167,7 @@ constexpr ControlCommand commands[] = {
          return Answered(ControlAnswer{});
      },
      "how late the mirrors are; encoders are taken ahead by it", manual_428},
-    {"init_fly_2d", {{{"OffsetX", least_32, greatest_32, "counts"}, {"OffsetY", least_32, greatest_32, "counts"}}}, 0,
+    {"init_fly_2d", {{{"OffsetX", min_32, max_32, "counts"}, {"OffsetY", min_32, max_32, "counts"}}}, 0,
      true, false, or_wrong,
      [](Engine& e, Numbers p) {
          e.init_fly_2d(small(p[0]), small(p[1]));
@@ -181,10 +181,10 @@ constexpr ControlCommand commands[] = {
      true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_encoder_speed(small(p[0]), p[1], p[2])); },
      "target (taken as 100 to 16000 counts/ms) and smoothing of the speed of encoder 0, 1, or both (2, 3)", manual_419},
-    {"set_ext_start_delay", {{{"Delay", least_32, greatest_32, "counts"}, up_to("EncoderNo", 1)}}, 0, true, false,
+    {"set_ext_start_delay", {{{"Delay", min_32, max_32, "counts"}, up_to("EncoderNo", 1)}}, 0, true, false,
      or_wrong, [](Engine& e, Numbers p) { return done(e.set_ext_start_delay(small(p[0]), small(p[1]))); },
      "the track delay of external starts", manual_511},
-    {"set_extstartpos", {{up_to("Pos", greatest_place)}}, 0, true, false, or_wrong, set_extstartpos,
+    {"set_extstartpos", {{up_to("Pos", max_place)}}, 0, true, false, or_wrong, set_extstartpos,
      "where the list of an external start begins, over all lists", manual_511},
     {"simulate_ext_start_ctrl", {}, 0, true, false, or_wrong, plain<&Engine::external_start>,
      "as if the start line rose", manual_511},
@@ -213,7 +213,7 @@ constexpr ControlCommand commands[] = {
      "X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode "
      "2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3", page_198},
     {"set_multi_mcbsp_in", {{up_to("Ctrl", 255), {"P", 0, 4294967295.0, "/16384"},
-      {"Mode", least_32, greatest_32}}}, 0, true, false, or_wrong,
+      {"Mode", min_32, max_32}}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
      "McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn",
      rtc6_703},

@@ -13,8 +13,8 @@ namespace motionrack::rtc5 {
 namespace {
 
 constexpr std::size_t planes_at = 64, plane_bytes = std::size_t{grid_nodes} * 4;
-constexpr std::int32_t greatest_node = 1048575;
-constexpr std::int32_t greatest_gap = 65536;  // between neighbours: 16 steps of the grid
+constexpr std::int32_t max_node = 1048575;
+constexpr std::int32_t max_gap = 65536;  // between neighbours: 16 steps of the grid
 
 std::int32_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     std::uint32_t out = 0;
@@ -36,9 +36,9 @@ std::vector<std::int32_t> plane(std::span<const std::uint8_t> bytes, std::size_t
 int strange_node(const std::vector<std::int32_t>& nodes) {
     for (int i = 0; i < grid_nodes; ++i) {
         const std::int32_t node = nodes[static_cast<std::size_t>(i)];
-        if (node < 0 || node > greatest_node) return i;
-        if (i % grid_side > 0 && std::abs(node - nodes[static_cast<std::size_t>(i - 1)]) > greatest_gap) return i;
-        if (i >= grid_side && std::abs(node - nodes[static_cast<std::size_t>(i - grid_side)]) > greatest_gap) return i;
+        if (node < 0 || node > max_node) return i;
+        if (i % grid_side > 0 && std::abs(node - nodes[static_cast<std::size_t>(i - 1)]) > max_gap) return i;
+        if (i >= grid_side && std::abs(node - nodes[static_cast<std::size_t>(i - grid_side)]) > max_gap) return i;
     }
     return -1;
 }
@@ -50,8 +50,7 @@ tl::unexpected<Error> refusal(const std::string& name, std::string_view why) {
 bool is_one_to_one(const CorrectionFile& file) {
     for (std::size_t i = 0; i < grid_nodes; ++i) {
         const auto column = static_cast<std::int32_t>(i % grid_side), row = static_cast<std::int32_t>(i / grid_side);
-        if (file.x[i] != std::min(column * 4096, greatest_node) || file.y[i] != std::min(row * 4096, greatest_node))
-            return false;
+        if (file.x[i] != std::min(column * 4096, max_node) || file.y[i] != std::min(row * 4096, max_node)) return false;
     }
     return true;
 }
@@ -106,7 +105,7 @@ int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
 /// puts at the edge, because the mirrors do not reach it, is left out; but not all of it may be there.
 int folded_cell(const CorrectionFile& file) {
     const auto at_edge = [&](std::size_t node) {
-        const auto is_end = [](std::int32_t v) { return v <= 0 || v >= greatest_node; };
+        const auto is_end = [](std::int32_t v) { return v <= 0 || v >= max_node; };
         return is_end(file.x[node]) || is_end(file.y[node]);
     };
     int sense = 0;
@@ -123,7 +122,7 @@ int folded_cell(const CorrectionFile& file) {
 
 std::int32_t binary(double bits) {
     return static_cast<std::int32_t>(
-        std::clamp(std::floor(bits + grid_zero + 0.5), 0.0, static_cast<double>(greatest_node)));
+        std::clamp(std::floor(bits + grid_zero + 0.5), 0.0, static_cast<double>(max_node)));
 }
 
 /// The value of a plane at (x, y) bits inside the field.
@@ -161,8 +160,8 @@ Result<CorrectionFile> read_ct5(std::span<const std::uint8_t> bytes, const std::
                 name,
                 fmt::format(
                     "its {} value at column {}, row {} is {}, out of 0 to {} or further than {} from its neighbour",
-                    which, node % grid_side, node / grid_side, (*nodes)[static_cast<std::size_t>(node)], greatest_node,
-                    greatest_gap));
+                    which, node % grid_side, node / grid_side, (*nodes)[static_cast<std::size_t>(node)], max_node,
+                    max_gap));
     MOTIONRACK_CHECK(check_sum(out, bytes, name));
     MOTIONRACK_CHECK(check_header(out, name));
     if (const int cell = folded_cell(out); cell >= 0)
@@ -178,7 +177,7 @@ std::vector<std::uint8_t> written_ct5(const CorrectionFile& file) {
     out.reserve(ct5_bytes);
     for (const std::int32_t word : file.header) append(out, static_cast<std::uint32_t>(word));
     for (const auto* nodes : {&file.x, &file.y})
-        for (const std::int32_t node : *nodes) append(out, static_cast<std::uint32_t>(std::min(node, greatest_node)));
+        for (const std::int32_t node : *nodes) append(out, static_cast<std::uint32_t>(std::min(node, max_node)));
     for (const auto* nodes : {&file.inverse_x, &file.inverse_y})
         for (const std::int32_t node : *nodes) append(out, static_cast<std::uint32_t>(node));
     append(out, ct5_checksum(out));

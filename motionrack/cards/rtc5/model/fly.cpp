@@ -211,7 +211,7 @@ void Engine::settle_kind() {
 
 void Engine::turn(FlyKind kind, double resolution) {
     state_.fly = Fly{};
-    if (std::abs(resolution) < least_resolution) return;
+    if (std::abs(resolution) < min_resolution) return;
     state_.fly.kind = kind;
     state_.fly.resolution = resolution;
 }

@@ -72,10 +72,10 @@ void Engine::finish(std::int64_t tick) {
         std::int64_t delay = d.jump;
         const Point way = over.to - over.from;
         const double length = std::sqrt(way.x * way.x + way.y * way.y);
-        if (length < d.jump_limit && d.least_jump < d.jump)
+        if (length < d.jump_limit && d.min_jump < d.jump)
             delay = static_cast<std::int64_t>(
-                std::floor(static_cast<double>(d.least_jump) +
-                           static_cast<double>(d.jump - d.least_jump) * (length / d.jump_limit) + 0.5));
+                std::floor(static_cast<double>(d.min_jump) +
+                           static_cast<double>(d.jump - d.min_jump) * (length / d.jump_limit) + 0.5));
         begin_hold(delay);
     }
     if (ending != Ending::mark) return;

@@ -9,10 +9,10 @@
 namespace motionrack::rtc5 {
 
 Result<void> check(const Settings& s) {
-    if (s.list_memory < least_list_memory || s.list_memory > greatest_list_memory)
+    if (s.list_memory < min_list_memory || s.list_memory > max_list_memory)
         return fail(ErrorKind::refused,
                     fmt::format("a list memory of {} positions is outside {} to {}; nothing was changed", s.list_memory,
-                                least_list_memory, greatest_list_memory));
+                                min_list_memory, max_list_memory));
     if (s.list1 < 1 || s.list2 < 0 || s.list1 > s.list_memory - s.list2)
         return fail(ErrorKind::refused,
                     fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing was changed. List 1 "
@@ -38,9 +38,9 @@ Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
 namespace {
 
 Result<void> check_position(std::int64_t position) {
-    if (position >= 0 && position < greatest_list_memory) return {};
+    if (position >= 0 && position < max_list_memory) return {};
     return fail(ErrorKind::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed",
-                                                position, greatest_list_memory - 1));
+                                                position, max_list_memory - 1));
 }
 
 /// Hash of a command at its place; 0 where nothing was put.
@@ -196,8 +196,7 @@ void Engine::end_list(bool written, std::int64_t tick) {
 /// What cannot be called (-1: nothing is there) is a list_nop.
 void Engine::call(std::int64_t position, std::int64_t tick) {
     Lists& l = state_.lists;
-    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(greatest_depth))
-        return begin_hold(1);
+    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(max_depth)) return begin_hold(1);
     if (l.called_at != tick) l.calls = 0;
     l.called_at = tick;
     // Calls that take no time could follow each other for ever.

@@ -87,14 +87,14 @@ void Engine::check_flags(std::size_t n) {
     };
     const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
     const Bound bounds[] = {
-        {marking_bit("FLY_X_UNDERFLOW"), &b.x, field_least, e.least_x, e.greatest_x, false},
-        {marking_bit("FLY_X_OVERFLOW"), &b.x, field_greatest, e.least_x, e.greatest_x, true},
-        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, field_least, e.least_y, e.greatest_y, false},
-        {marking_bit("FLY_Y_OVERFLOW"), &b.y, field_greatest, e.least_y, e.greatest_y, true},
-        {marking_bit("LIMIT_X_MIN"), &b.x, limit(0), e.least_x, e.greatest_x, false},
-        {marking_bit("LIMIT_X_MAX"), &b.x, limit(1), e.least_x, e.greatest_x, true},
-        {marking_bit("LIMIT_Y_MIN"), &b.y, limit(2), e.least_y, e.greatest_y, false},
-        {marking_bit("LIMIT_Y_MAX"), &b.y, limit(3), e.least_y, e.greatest_y, true},
+        {marking_bit("FLY_X_UNDERFLOW"), &b.x, field_least, e.min_x, e.max_x, false},
+        {marking_bit("FLY_X_OVERFLOW"), &b.x, field_greatest, e.min_x, e.max_x, true},
+        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, field_least, e.min_y, e.max_y, false},
+        {marking_bit("FLY_Y_OVERFLOW"), &b.y, field_greatest, e.min_y, e.max_y, true},
+        {marking_bit("LIMIT_X_MIN"), &b.x, limit(0), e.min_x, e.max_x, false},
+        {marking_bit("LIMIT_X_MAX"), &b.x, limit(1), e.min_x, e.max_x, true},
+        {marking_bit("LIMIT_Y_MIN"), &b.y, limit(2), e.min_y, e.max_y, false},
+        {marking_bit("LIMIT_Y_MAX"), &b.y, limit(3), e.min_y, e.max_y, true},
     };
     for (const Bound& c : bounds) {
         if (!(c.upper ? c.max > c.bound : c.min < c.bound) || (state_.marking_info & c.flag)) continue;

@@ -21,13 +21,13 @@ struct Point {
 
 /// How far positions went; empty at first.
 struct Extent {
-    double least_x = std::numeric_limits<double>::infinity(), greatest_x = -std::numeric_limits<double>::infinity();
-    double least_y = std::numeric_limits<double>::infinity(), greatest_y = -std::numeric_limits<double>::infinity();
+    double min_x = std::numeric_limits<double>::infinity(), max_x = -std::numeric_limits<double>::infinity();
+    double min_y = std::numeric_limits<double>::infinity(), max_y = -std::numeric_limits<double>::infinity();
 
-    bool empty() const { return !(least_x <= greatest_x); }
+    bool empty() const { return !(min_x <= max_x); }
     void take(const Extent& e) {
-        least_x = std::min(least_x, e.least_x), greatest_x = std::max(greatest_x, e.greatest_x);
-        least_y = std::min(least_y, e.least_y), greatest_y = std::max(greatest_y, e.greatest_y);
+        min_x = std::min(min_x, e.min_x), max_x = std::max(max_x, e.max_x);
+        min_y = std::min(min_y, e.min_y), max_y = std::max(max_y, e.max_y);
     }
 };
 
@@ -133,7 +133,7 @@ struct Starts {
 struct Delays {
     std::int64_t jump = 0, mark = 0, polygon = 0;
     std::int64_t laser_on = 0, laser_off = 0;
-    std::int64_t variable_polygon = 0, edge_level = 0, least_jump = 0;
+    std::int64_t variable_polygon = 0, edge_level = 0, min_jump = 0;
     double jump_limit = 0;  ///< bits
 };
 
@@ -143,7 +143,7 @@ struct Lists {
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
     std::int64_t ended_unwritten = 0;                          ///< times that a list ran into a place never written
-    std::array<std::int64_t, greatest_depth> returns{};        ///< of calls: where they go on
+    std::array<std::int64_t, max_depth> returns{};             ///< of calls: where they go on
     std::int64_t depth = 0, calls = 0, called_at = -1;         ///< calls in the tick called_at
     std::array<std::int64_t, subroutine_count> subroutines{};  ///< their begins in list 3; 0: none
     std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine that is being loaded, from 1; places

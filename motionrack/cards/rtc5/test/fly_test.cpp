@@ -310,11 +310,11 @@ TEST(Rtc5Fly, TheExtentSaysHowMuchRoomAJobLeavesWhetherOneLooksOrNot) {
     };
     for (const double scale : {0.5, 100.0}) {
         const Extent seen = extent(scale, true), unseen = extent(scale, false);
-        EXPECT_NEAR(seen.greatest_x, unseen.greatest_x, 1e-6);
-        EXPECT_NEAR(seen.least_y, unseen.least_y, 1e-6);
-        EXPECT_NEAR(seen.least_y, -7000, 1e-6);
-        EXPECT_EQ(seen.greatest_y, 9000);
-        EXPECT_EQ(seen.greatest_x > field_greatest, scale == 100.0);
+        EXPECT_NEAR(seen.max_x, unseen.max_x, 1e-6);
+        EXPECT_NEAR(seen.min_y, unseen.min_y, 1e-6);
+        EXPECT_NEAR(seen.min_y, -7000, 1e-6);
+        EXPECT_EQ(seen.max_y, 9000);
+        EXPECT_EQ(seen.max_x > field_greatest, scale == 100.0);
     }
 }
 

@@ -239,7 +239,7 @@ class Pair {
                 static_cast<void>(c.set_delays(d));
                 t.jump_delay = d.jump, t.mark_delay = d.mark, t.polygon_delay = d.polygon, t.laser_on = d.laser_on,
                 t.laser_off = d.laser_off;
-                t.variable_polygon = d.variable_polygon, t.edge_level = d.edge_level, t.least_jump = d.least_jump,
+                t.variable_polygon = d.variable_polygon, t.edge_level = d.edge_level, t.min_jump = d.min_jump,
                 t.jump_limit = d.jump_limit;
                 return;
             }

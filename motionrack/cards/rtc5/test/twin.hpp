@@ -74,7 +74,7 @@ class Twin {
     double jump_speed = 1000, mark_speed = 1000;
     std::int64_t jump_delay = 0, mark_delay = 0, polygon_delay = 0, laser_on = 0, laser_off = 0;
     bool variable_polygon = false;
-    std::int64_t edge_level = 0, least_jump = 0;
+    std::int64_t edge_level = 0, min_jump = 0;
     double jump_limit = 0;
 
     struct Counter {

@@ -87,9 +87,9 @@ void Twin::after() {
     if (over.ending == 'j') {
         const double dx = over.to.x - over.from.x, dy = over.to.y - over.from.y, length = std::sqrt(dx * dx + dy * dy);
         std::int64_t delay = jump_delay;
-        if (jump_limit > 0 && length < jump_limit && least_jump < jump_delay)
-            delay = whole(std::floor(static_cast<double>(least_jump) +
-                                     static_cast<double>(jump_delay - least_jump) * (length / jump_limit) + 0.5));
+        if (jump_limit > 0 && length < jump_limit && min_jump < jump_delay)
+            delay = whole(std::floor(static_cast<double>(min_jump) +
+                                     static_cast<double>(jump_delay - min_jump) * (length / jump_limit) + 0.5));
         hold(delay);
     }
     if (over.ending != 'm') return;

@@ -40,7 +40,7 @@ CurvePeaks peaks_of(const std::vector<CubicSegment>& pieces) {
 }
 
 /// Greatest distance from one path.
-double greatest_distance(const std::vector<CubicSegment>& pieces, const std::vector<Geometry>& paths) {
+double max_distance(const std::vector<CubicSegment>& pieces, const std::vector<Geometry>& paths) {
     double most = 0;
     for (const CubicSegment& piece : pieces)
         for (int k = 0; k <= 8; ++k) {
@@ -84,7 +84,7 @@ TEST(Curve, RoundsACornerByItsTolerance) {
     EXPECT_EQ(pieces[3].curvature_rate, Point{});
     const double width = pieces[1].length + pieces[2].length;
     EXPECT_NEAR(width, 12 * 0.996 * tolerance / std::sqrt(2.0), 1e-6);
-    EXPECT_NEAR(greatest_distance(pieces, paths_of(moves)), 0.996 * tolerance / std::sqrt(2.0), 1e-6);
+    EXPECT_NEAR(max_distance(pieces, paths_of(moves)), 0.996 * tolerance / std::sqrt(2.0), 1e-6);
 }
 
 TEST(Curve, RestsWhereTheProgramSaysSo) {
@@ -199,7 +199,7 @@ TEST(Curve, OfAnArcHasItsBendAndNoMoreThanAThirteenthMoreAtItsJoints) {
                 EXPECT_EQ(rests_in(items), 1);
                 const auto pieces = pieces_of(items);
                 EXPECT_LT(peaks_of(pieces).curvature * radius, 1.08) << radius << " " << sweep;
-                EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.5 * tolerance) << radius << " " << sweep;
+                EXPECT_LT(max_distance(pieces, paths_of(moves)), 0.5 * tolerance) << radius << " " << sweep;
             }
 }
 
@@ -210,7 +210,7 @@ TEST(Curve, BeginsAnArcFromRestWithItsFullBend) {
     EXPECT_NEAR(xyz_size(pieces.front().curvature) * 10, 1, 0.01);
     EXPECT_LT(peaks_of(pieces).curvature * 10, 1.01);
     EXPECT_LT(pieces.size(), 40u);
-    EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.1 * 0.01 * 1.2);
+    EXPECT_LT(max_distance(pieces, paths_of(moves)), 0.1 * 0.01 * 1.2);
 }
 
 TEST(Curve, OfAHelixOfManyTurnsStaysOnIt) {
@@ -219,7 +219,7 @@ TEST(Curve, OfAHelixOfManyTurnsStaysOnIt) {
     move.end[5] = 720;
     const std::vector<Move> moves = numbered({move});
     const auto pieces = pieces_of(curve_of(moves));
-    EXPECT_LT(greatest_distance(pieces, paths_of(moves)), 0.0012);
+    EXPECT_LT(max_distance(pieces, paths_of(moves)), 0.0012);
     for (const CubicSegment& piece : pieces) EXPECT_NEAR(piece.start[5], piece.start[2] * 36, 1e-6);
 }
 

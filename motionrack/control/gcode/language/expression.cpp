@@ -348,8 +348,8 @@ bool ExpressionParser::parameter(const char*& at, ParameterName& name) {
         if (at == end_) return fail(begin, "this name is not closed: '>' is missing");
         ++at;
         skip(at);
-        if (name.name.empty() || name.name.size() > longest_name)
-            return fail(begin, fmt::format("a parameter's name has 1 to {} characters", longest_name));
+        if (name.name.empty() || name.name.size() > max_name_length)
+            return fail(begin, fmt::format("a parameter's name has 1 to {} characters", max_name_length));
         return true;
     }
     double number = 0;

@@ -17,7 +17,7 @@ namespace motionrack::control::gcode {
 /// Parameters are #1 to #5602.
 inline constexpr int last_parameter = 5602;
 /// Characters of a parameter's name, blanks not counted.
-inline constexpr std::size_t longest_name = 100;
+inline constexpr std::size_t max_name_length = 100;
 
 /// Where the values of parameters come from.
 class ParameterSource {

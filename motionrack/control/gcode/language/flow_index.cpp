@@ -243,7 +243,8 @@ OWordIndex index_owords(std::string_view text, bool block_delete) {
     for (std::string_view line; lines.next(line); before = lines) {
         if (end.is_at(line)) break;
         const std::size_t column = find_oword(line, block_delete);
-        if (column != std::string_view::npos && line.size() <= longest_line) indexer.line(line, column, before, lines);
+        if (column != std::string_view::npos && line.size() <= max_line_length)
+            indexer.line(line, column, before, lines);
     }
     indexer.finish();
     index.lines = lines.number();

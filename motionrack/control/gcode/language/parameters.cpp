@@ -22,14 +22,14 @@ void Parameters::set(const std::string& name, double value) {
 
 std::size_t Parameters::room_for(std::string_view name) const {
     const std::size_t kept = names_of(name).size();
-    return kept < most_names ? most_names - kept : 0;
+    return kept < max_names ? max_names - kept : 0;
 }
 
 bool Parameters::enter(std::span<const double> arguments) {
-    if (level() == deepest_call) return false;
+    if (level() == max_call_depth) return false;
     Call& call = calls_.emplace_back();
     call.keeps = true;
-    for (int i = 0; i < most_arguments; ++i) {
+    for (int i = 0; i < max_arguments; ++i) {
         const auto at = static_cast<std::size_t>(i);
         call.kept[at] = numbered(i + 1);
         const double argument = at < arguments.size() ? arguments[at] : 0;
@@ -39,13 +39,13 @@ bool Parameters::enter(std::span<const double> arguments) {
 }
 
 bool Parameters::enter() {
-    if (level() == deepest_call) return false;
+    if (level() == max_call_depth) return false;
     calls_.emplace_back();
     return true;
 }
 
 void Parameters::leave(std::optional<double> returned) {
-    for (int i = 0; i < most_arguments; ++i)
+    for (int i = 0; i < max_arguments; ++i)
         if (calls_.back().keeps && !numbered_.empty()) set(i + 1, calls_.back().kept[static_cast<std::size_t>(i)]);
     calls_.pop_back();
     returned_ = returned;

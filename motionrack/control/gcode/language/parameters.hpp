@@ -10,11 +10,11 @@
 namespace motionrack::control::gcode {
 
 /// A call has this many arguments at most; they are #1 to #30 of its own.
-inline constexpr int most_arguments = 30;
+inline constexpr int max_arguments = 30;
 /// Calls in calls.
-inline constexpr int deepest_call = 100;
+inline constexpr int max_call_depth = 100;
 /// Named parameters, global ones or those of one call.
-inline constexpr std::size_t most_names = 1000;
+inline constexpr std::size_t max_names = 1000;
 
 /// Names that begin with '_' are seen everywhere, others only in the call that set them.
 inline bool is_global(std::string_view name) {
@@ -32,7 +32,7 @@ class Parameters {
     /// How many more names there may be where this one goes.
     std::size_t room_for(std::string_view name) const;
 
-    /// A call begins: #1 .. #30 are its arguments, or 0, and it has names of its own. False: deepest_call.
+    /// A call begins: #1 .. #30 are its arguments, or 0, and it has names of its own. False: max_call_depth.
     bool enter(std::span<const double> arguments);
     /// The same without arguments: #1 .. #30 are those of the caller.
     bool enter();
@@ -48,7 +48,7 @@ class Parameters {
   private:
     using Names = std::map<std::string, double, std::less<>>;
     struct Call {
-        std::array<double, most_arguments> kept = {};
+        std::array<double, max_arguments> kept = {};
         bool keeps = false;  ///< #1 .. #30 of the caller are in `kept`
         Names names;
     };

@@ -18,7 +18,7 @@ ProgramFlow::ProgramFlow(std::string_view text, const Settings& settings, std::s
     : lines_(text),
       block_delete_(settings.block_delete),
       end_(settings.block_delete),
-      most_lines_(settings.most_lines),
+      max_lines_(settings.max_lines),
       subprogram_(settings.subprogram) {
     sources_.push_back(std::make_unique<Source>());
     source_ = sources_.back().get();
@@ -84,7 +84,7 @@ bool ProgramFlow::within_budget(const OWordLocation& place) {
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
     const Source& main = *sources_.front();
-    if (walked_ <= most_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
+    if (walked_ <= max_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(place, place.column,
                 fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever "

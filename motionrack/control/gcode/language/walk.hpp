@@ -125,7 +125,7 @@ class ProgramFlow {
     ProgramEndDetector end_;  ///< of the program's own text
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
-    std::int64_t most_lines_;
+    std::int64_t max_lines_;
     std::int64_t walked_ = 0;        ///< lines, up to the last jump
     std::int32_t counted_from_ = 0;  ///< line that it went to
     SubprogramSource subprogram_;

@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 namespace {
 
 /// Files of subprograms that one program may use.
-constexpr std::size_t most_files = 100;
+constexpr std::size_t max_files = 100;
 
 /// A name that is a file's in the program's own folder, and nowhere else.
 bool is_plain(std::string_view name) {
@@ -33,7 +33,7 @@ std::string text_of(const std::string& label, bool numbered) {
 }
 
 std::string too_deep(const std::string& asks) {
-    return fmt::format("{}: {} calls stand in each other; does the sub call itself without end?", asks, deepest_call);
+    return fmt::format("{}: {} calls stand in each other; does the sub call itself without end?", asks, max_call_depth);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ bool ProgramFlow::call(const OWordLocation& place, Interpreter& interpreter) {
     Target target{};
     std::vector<double> values;
     if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) ||
-        !arguments(place, most_arguments, interpreter, values))
+        !arguments(place, max_arguments, interpreter, values))
         return false;
     if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
@@ -150,9 +150,9 @@ bool ProgramFlow::load(const OWordLocation& place, const std::string& label, boo
                                 "digits, '_', '-' and '.')",
                                 asks, wanted));
     }
-    if (sources_.size() > most_files)
+    if (sources_.size() > max_files)
         return fail(place, place.column,
-                    fmt::format("a program may use {} files of subprograms; this is one more", most_files));
+                    fmt::format("a program may use {} files of subprograms; this is one more", max_files));
     Result<std::string> text = subprogram_(name);
     if (!text) {
         fail(place, place.column,

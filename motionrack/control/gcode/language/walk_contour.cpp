@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::size_t most_pieces = 10'000;
+constexpr std::size_t max_pieces = 10'000;
 /// A move that is shorter is none, mm.
 constexpr double shortest = 1e-6;
 
@@ -31,7 +31,7 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     if (!reader.parameters().enter({})) {
         fail(here, here.column,
              fmt::format("{} stands in {} calls; does the sub call itself without end?", name_of_g(block.g[g_motion]),
-                         deepest_call));
+                         max_call_depth));
         return failed();
     }
     std::vector<ContourSegment> contour;
@@ -87,8 +87,8 @@ bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, st
     while (const CanonCall* step = reader.pull()) {
         const Move& move = step->move;
         if (step->kind != CanonCallKind::move || move.kind == MoveKind::dwell) continue;
-        if (contour.size() >= most_pieces)
-            return fail(here, 0, fmt::format("a contour has at most {} moves; this is one more", most_pieces));
+        if (contour.size() >= max_pieces)
+            return fail(here, 0, fmt::format("a contour has at most {} moves; this is one more", max_pieces));
         const bool arc = move.kind == MoveKind::arc;
         if (arc && (move.first != 2 || std::abs(move.turns) != 1))
             return fail(here, 0, "a contour has arcs of less than a turn in the plane of X and Z (G18)");

@@ -37,7 +37,7 @@ class Search {
 
     double least(int steps) {
         double best = no_time;
-        const double top = greatest_peak();
+        const double top = max_peak();
         best = std::min(best, cruising(top));
         // closely at both ends, where branches begin
         std::vector<double> peaks;
@@ -120,7 +120,7 @@ class Search {
     }
 
     /// The peak with which the greatest speed is just reached.
-    double greatest_peak() const {
+    double max_peak() const {
         const auto fastest = [&](double peak) {
             const State s = up_to(peak);
             return s.v + (s.a > 0 ? 0.5 * s.a * s.a / j_ : 0);

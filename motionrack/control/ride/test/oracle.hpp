@@ -117,8 +117,8 @@ class Oracle {
 };
 
 /// Seconds.
-inline double quickest_seconds(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20,
-                               int of_curve = 4000) {
+inline double time_optimal_s(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20,
+                             int of_curve = 4000) {
     return Oracle(curve, limits, of_piece, of_curve).seconds();
 }
 

@@ -34,8 +34,8 @@ typedef struct {
 
 typedef struct {
     mr_rack* rack;
-    uint64_t longest_wait_ns; /* for Ready */
-    uint8_t tape[1024];       /* accesses to C2, C4 and DATA: the port, 40h added for IN, then the byte */
+    uint64_t max_wait_ns; /* for Ready */
+    uint8_t tape[1024];   /* accesses to C2, C4 and DATA: the port, 40h added for IN, then the byte */
     unsigned taped;
     char said[256]; /* what the program put on its screen */
     int gave_up;    /* "unit never ready", or a wait for an event that never came */
@@ -161,7 +161,7 @@ static void wait_ready(host* h, const listing* l) {
     unsigned look;
     for (look = 0; look < l->ready_looks; ++look) {
         if (in(h, STAT) & READY) {
-            if (mr_now_ns(h->rack) - from > h->longest_wait_ns) h->longest_wait_ns = mr_now_ns(h->rack) - from;
+            if (mr_now_ns(h->rack) - from > h->max_wait_ns) h->max_wait_ns = mr_now_ns(h->rack) - from;
             return;
         }
         pass(h, l->ready_look_ns);

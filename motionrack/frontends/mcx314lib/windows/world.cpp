@@ -142,8 +142,8 @@ class ChipsAlone final : public World {
 };
 
 Result<void> ChipsAlone::advance(std::uint64_t ns) {
-    const Duration time = nanoseconds(static_cast<std::int64_t>(std::min(ns, most_ns)));
-    if (ns > most_ns || kernel_.now() > latest - time)
+    const Duration time = nanoseconds(static_cast<std::int64_t>(std::min(ns, max_ns)));
+    if (ns > max_ns || kernel_.now() > latest - time)
         return fail(
             ErrorKind::refused,
             fmt::format("{} ns are more than one call may run, or the time ends: it is {:.0f} s. Nothing was run. "

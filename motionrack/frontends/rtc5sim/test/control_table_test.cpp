@@ -46,7 +46,7 @@ std::map<std::string, Declared> declared_commands() {
     return out;
 }
 
-std::vector<double> least_of(const ControlCommand& command) {
+std::vector<double> min_of(const ControlCommand& command) {
     std::vector<double> out;
     for (const ControlParam& param : command.params()) out.push_back(param.min);
     return out;
@@ -73,7 +73,7 @@ TEST(Rtc5ControlTable, HasTheNamesAndParametersOfTheHeader) {
 TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
-        const std::vector<double> least = least_of(command);
+        const std::vector<double> least = min_of(command);
         for (std::size_t i = 0; i < least.size(); ++i) {
             const ControlParam& param = command.params()[i];
             SCOPED_TRACE(param.name);
@@ -112,7 +112,7 @@ TEST(Rtc5ControlTable, EachCommandAnswersAsManyNumbersAsItSays) {
         ASSERT_TRUE(card.set_mcbsp_in(3, 0));
         card.receive(0x00010002);
         card.run_until(1);
-        const auto answer = command.run(card, least_of(command));
+        const auto answer = command.run(card, min_of(command));
         ASSERT_TRUE(answer) << answer.error().message;
         EXPECT_EQ(answer->size(), command.answers);
     }

@@ -116,7 +116,7 @@ const Row control_rows[] = {
     {"set_delay_mode", [] { set_delay_mode(1, 0, 40, 2, 900'000); },
      [](Engine& c) {
          rtc5::Delays d = c.state().delays;
-         d.variable_polygon = 1, d.edge_level = 40, d.least_jump = 2, d.jump_limit = 900'000;
+         d.variable_polygon = 1, d.edge_level = 40, d.min_jump = 2, d.jump_limit = 900'000;
          ASSERT_TRUE(c.set_delays(d));
      }},
     {"set_matrix", [] { set_matrix(1, 0.5, -0.25, 0.125, 0.75, 1); },
