@@ -57,13 +57,13 @@ def _widest(kind: str, size: int, counter: str) -> Callable[[dict], float]:
 
 AIMS = [
     Aim(
-        "four axes cruise at 4 Mpps, the host looks each ms: virtual seconds a second",
+        "four axes cruise at 4 Mpps, the host polls each ms: virtual seconds a second",
         _own("chip", "cruise/look_each_ms", "sim_s/s"),
         10_000,
         "{:,.0f}",
     ),
     Aim(
-        "a whole move with its ramps, nobody listening: times the twin",
+        "a whole move with its ramps, no listener: times the twin",
         _times("chip", "moves/servo", "moves_twin/servo"),
         1_000,
         "{:,.0f}",
@@ -72,13 +72,15 @@ AIMS = [
         "edges listened to and decoded: millions a second", _millions("chip", "edges_in_batches/4_Mpps"), 200, "{:,.0f}"
     ),
     Aim(
-        "a step of an axis' speed that a machine hears, ns",
+        "a step of an axis' speed with a machine listening, ns",
         _of("chip", "speed_steps/t_curve_machines"),
         60,
         "{:.1f}",
         True,
     ),
-    Aim("an edge at an even speed, made and decoded, ns", _of("chip", "edges_in_batches/4_Mpps"), 1, "{:.2f}", True),
+    Aim(
+        "an edge at an even speed, generated and decoded, ns", _of("chip", "edges_in_batches/4_Mpps"), 1, "{:.2f}", True
+    ),
     Aim("an edge on a line, ns", _of("chip", "path_edges/line"), 1, "{:.2f}", True),
     Aim("an edge on a circle, ns", _of("chip", "path_edges/arc"), 1, "{:.2f}", True),
     Aim(
@@ -107,7 +109,7 @@ AIMS = [
         1_000,
         "{:,.0f}",
     ),
-    Aim("200 WebSocket clients at 20 Hz: lateness that 99 % of the slices stay within, ms", _late, 5, "{:.1f}", True),
+    Aim("200 WebSocket clients at 20 Hz: lateness of 99 % of the slices, ms", _late, 5, "{:.1f}", True),
     Aim(
         "RTC5, a vector each tick with encoder correction and table: millions of ticks a second",
         _millions("rtc5", "run_card/micro_vectors_fly_table"),
@@ -115,7 +117,7 @@ AIMS = [
         "{:,.0f}",
     ),
     Aim(
-        "RTC5, long vectors that nobody looks at: millions of ticks a second",
+        "RTC5, long vectors, unobserved: millions of ticks a second",
         _millions("rtc5", "run_card/long_marks_unseen"),
         10_000,
         "{:,.0f}",

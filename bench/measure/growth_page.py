@@ -1,7 +1,7 @@
 """The page's tables of whole programs, and of what grows with what."""
 from kinds import belongs
 from table import PROGRAMS
-from text import bytes_of, count, digits, not_measured, table, time_of
+from text import bytes_of, count, digits, not_measured, paragraph, table, time_of
 
 
 def _each(cpu_s: float, things: float) -> str:
@@ -27,12 +27,12 @@ def whole_programs(results: dict) -> list[str]:
         "",
         "## Whole programs",
         "",
-        (
-            "The program from its start to its end, files in the page cache: the least CPU time of some runs, and the "
-            "peak of its resident memory."
+        *paragraph(
+            "The program from its start to its end, files in the page cache: the minimum CPU time of some runs, and "
+            "the peak of its resident memory."
         ),
         "",
-        *table(("what", "CPU time", "", "peak memory"), rows),
+        *table(("program", "CPU time", "", "peak memory"), rows),
     ]
 
 
@@ -50,11 +50,10 @@ def _lines(rows: list[dict]) -> list[str]:
     ]
     return [
         "",
-        (
-            "**Blocks.** A spiral of lines of 0.3 mm, by `motionrack check`, `run` (planned, driven, watched; no "
-            "report) and `plan` (jerk-limited): CPU time a line, start of the program"
+        *paragraph(
+            "**Blocks.** A spiral of lines of 0.3 mm, by `motionrack check`, `run` (planned, executed, monitored; no "
+            "report) and `plan` (jerk-limited): CPU time a line, start of the program included, and peak memory."
         ),
-        "included, and peak memory.",
         "",
         *table(("lines", "check, a line", "memory", "run, a line", "memory", "plan, a line", "memory"), cells),
     ]
@@ -74,11 +73,10 @@ def _edges(rows: list[dict]) -> list[str]:
     ]
     return [
         "",
-        (
+        *paragraph(
             "**Edges.** Encoder edges of a running axis written into a VCD file by `motionrack trace`, and counted "
-            "from it by `motionrack decode`: CPU time an edge, start of the program"
+            "from it by `motionrack decode`: CPU time an edge, start of the program included, and peak memory."
         ),
-        "included, and peak memory.",
         "",
         *table(("edges", "file", "trace, an edge", "memory", "decode, an edge", "memory"), cells),
     ]
@@ -101,25 +99,22 @@ def _clients(rows: list[dict]) -> list[str]:
     ]
     return [
         "",
-        (
-            "**Clients.** WebSocket clients that look 20 times a second at a job of four axes in step with real time "
-            "(`bench_serve`): how late slices of 2 ms of the rack's time were let go,"
-        ),
-        (
-            "what the server used of one core, what that is for each picture (the job, which runs anyway, included), "
-            "and its peak memory."
+        *paragraph(
+            "**Clients.** WebSocket clients that read snapshots 20 times a second from a job of four axes in step with "
+            "real time (`bench_serve`): the lateness of slices of 2 ms of the rack's time, the server's share of one "
+            "core, the same per snapshot (the job, which runs anyway, included), and its peak memory."
         ),
         "",
         *table(
             (
                 "clients",
-                "pictures a second",
+                "snapshots a second",
                 "lost",
                 "half of the slices within",
                 "99 %",
                 "the latest",
                 "of a core",
-                "a picture",
+                "a snapshot",
                 "memory",
             ),
             cells,
@@ -152,9 +147,11 @@ def _cards(results: dict) -> list[str]:
             )
     return [
         "",
-        f"**Axes and cards.** `bench_growth`. {program.text} Memory is that of the whole process.",
+        *paragraph(f"**Axes and cards.** `bench_growth`. {program.text} Memory is that of the whole process."),
         "",
-        *table(("bench", "what", "each", "instructions", "virtual seconds a second", "snapshot", "peak memory"), cells),
+        *table(
+            ("bench", "content", "each", "instructions", "virtual seconds a second", "snapshot", "peak memory"), cells
+        ),
     ]
 
 

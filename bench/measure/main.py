@@ -26,14 +26,14 @@ def options(argv: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="bench/page",
         description="Runs every benchmark, counts instructions, measures a build, memory, growth and peers, and writes "
-        "docs/reference/performance.md. Takes some 35 minutes on a machine that has nothing else to do; progress is "
-        "told on the way.",
+        "docs/reference/performance.md. Takes some 35 minutes on an otherwise idle machine; progress is "
+        "reported during the run.",
         epilog="Example: bench/page --quick    a small run of everything, into build/bench/performance.md",
     )
     parser.add_argument(
         "--quick",
         action="store_true",
-        help="a small run, whose times say little: each bench once, small files; the page goes to "
+        help="a small run, whose times are not reliable: each bench once, small files; the page goes to "
         "build/bench/performance.md; no build is measured",
     )
     parser.add_argument(
@@ -79,7 +79,7 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
     if results["machine"]["load"] > 0.5:
         say(
             f"the machine is busy (load {results['machine']['load']:.1f}): times and ratios of peers will be off; end "
-            "what else runs, or take them as they are"
+            "other programs, or accept that"
         )
     binaries, program = folder / "bench", folder / "bin/motionrack"
     if not names and not quick:

@@ -5,7 +5,7 @@ from growth_page import growth, whole_programs
 from kinds import Bench, Program, bench_of
 from peers_page import peers
 from table import PROGRAMS
-from text import count, ratio, table, time_of
+from text import count, paragraph, ratio, table, time_of
 
 
 def _head(results: dict) -> list[str]:
@@ -14,11 +14,11 @@ def _head(results: dict) -> list[str]:
     return [
         "# Performance",
         "",
-        (
-            "Made by one command, [`bench/page`](../../bench/README.md), which runs everything here one after the "
-            "other; each ratio is between two numbers of the same run."
+        *paragraph(
+            "Made by one command, [`bench/page`](../../bench/README.md), which measures everything here one after "
+            "the other; each ratio is between two numbers of the same run. Every number is of one core, except those "
+            "of a build."
         ),
-        "Every number is of one core, but for those of a build.",
         "",
         *table(
             ("", ""),
@@ -34,20 +34,17 @@ def _head(results: dict) -> list[str]:
                     "made",
                     f"{machine['day']}, version {machine['version']}, load {machine['load']:.1f} at the start, "
                     f"{results['minutes']:.0f} minutes"
-                    + ("; **a quick run, whose times say little**" if results["quick"] else ""),
+                    + ("; **a quick run, whose times are not reliable**" if results["quick"] else ""),
                 ),
             ],
         ),
         "",
-        (
-            "*each*: the time of one pulse, edge, frame or whatever the row is of: the median of five repetitions, and "
-            "the greatest distance of a repetition from it."
+        *paragraph(
+            "*each*: the time of one pulse, edge, frame or other unit of the row: the median of five repetitions, and "
+            "the maximum distance of a repetition from it. *instructions*: for the same unit, counted by callgrind, so "
+            "that other work on the machine does not change them. *times as fast*: compared with the row named, or "
+            "with the baseline inside the bench; below 1 the baseline is faster."
         ),
-        (
-            "*instructions*: of the same thing, counted by callgrind, so that other work on the machine does not "
-            "change them. *times as fast*: as the row named, or as the"
-        ),
-        "baseline inside the bench; below 1 the baseline is faster.",
     ]
 
 
@@ -115,13 +112,13 @@ def _below(program: Program, measured: dict[str, dict]) -> list[str]:
 def _program(program: Program, results: dict) -> list[str]:
     measured = results["benches"].get(program.key, {})
     if program.prefix and not measured:
-        return ["", f"### {program.title}", "", f"{program.text} Not measured in this run."]
-    heads = ("bench", "what", "of one", "each", "instructions", "times as fast")
+        return ["", f"### {program.title}", "", *paragraph(f"{program.text} Not measured in this run.")]
+    heads = ("bench", "content", "of one", "each", "instructions", "times as fast")
     return [
         "",
         f"### {program.title}",
         "",
-        f"`bench_{program.name}`. {program.text}",
+        *paragraph(f"`bench_{program.name}`. {program.text}"),
         "",
         *table(heads, _bench_rows(program, measured)),
         *_below(program, measured),
@@ -132,7 +129,7 @@ def page(results: dict) -> str:
     """The page as Markdown."""
     lines = _head(results) + _aims(results) + peers(results) + whole_programs(results) + growth(results)
     lines += building(results)
-    lines += ["", "## Every bench", "", "What the programs are is said in [bench/README.md](../../bench/README.md)."]
+    lines += ["", "## Every bench", "", "The programs are described in [bench/README.md](../../bench/README.md)."]
     for program in PROGRAMS:
         if program.name != "growth":
             lines += _program(program, results)

@@ -1,5 +1,5 @@
 """The page's tables of others on the same work, and what differs."""
-from text import bytes_of, count, not_measured, ratio, table, time_of
+from text import bytes_of, count, not_measured, paragraph, ratio, table, time_of
 
 
 def _rows_of(ours: dict, theirs: dict, names: tuple[str, str], things: float) -> list[tuple[str, ...]]:
@@ -34,7 +34,7 @@ def _verilator(results: dict) -> list[str]:
         )
         for name, how in (
             ("every_wire_watched", "the virtual cards, every wire listened to"),
-            ("alone", "the virtual cards, nobody looks"),
+            ("alone", "the virtual cards, no observer"),
         ):
             row = frames.get(f"frames_of_cards/{name}")
             if row:
@@ -45,17 +45,13 @@ def _verilator(results: dict) -> list[str]:
         "",
         "### verilator: the same logic, clocked",
         "",
-        (
-            "Compiled from the Verilog writings of the cards' rules (`tests/verilog`), one thread, `-O3`. Same work: "
-            "the pulses of both, and the frames of both, are compared before or after the"
-        ),
-        (
-            "measurement, pulses to the tick of 125 ns. What differs: verilator evaluates the logic at each clock and "
-            "could show every register at each of them; the virtual cards work out what"
-        ),
-        (
-            "happens until the next instant that anybody asked for. The Verilog was written to be read, not to be "
-            "fast, and has one axis, without registers, interpolation or encoders."
+        *paragraph(
+            "Compiled from the Verilog implementations of the cards' rules (`tests/verilog`), one thread, `-O3`. Same "
+            "work: the pulses of both, and the frames of both, are compared before or after the measurement, pulses to "
+            "the tick of 125 ns. The difference: verilator evaluates the logic at each clock and could show every "
+            "register at each of them; the virtual cards compute the result up to the next requested instant. The "
+            "Verilog was written to be read, not to be fast, and has one axis, without registers, interpolation or "
+            "encoders."
         ),
         "",
         *table(("work", "by", "each", "times as fast"), rows),
@@ -83,24 +79,17 @@ def _linuxcnc(results: dict) -> list[str]:
             rows.append((how, time_of(chip[name]["ns"]), ratio(theirs / chip[name]["ns"])))
     return [
         *out,
-        (
+        *paragraph(
             "Four axes at 20,000 steps a second, each step one edge of a quadrature encoder that is counted. "
-            f"LinuxCNC's thread of 40 us makes {got['steps_a_period']:.2f} steps a period. What differs: HAL runs"
+            f"LinuxCNC's thread of 40 us makes {got['steps_a_period']:.2f} steps a period. The difference: HAL runs in "
+            "step with the clock and cannot run faster, so its time is the CPU time that its own two functions report "
+            f"(of the fastest nine tenths of {count(got['periods'])} periods, "
+            f"{'with' if got['realtime'] else 'without'} a real-time kernel), without the thread that wakes them, "
+            f"which takes {time_of(got['thread_ns'])} a period in all, sampling included. It pays for each period "
+            "whether a step falls into it or not; at fewer steps a second a step costs it more. It must end within "
+            "each period and drives real pins; the virtual chip has no such constraint, and so may generate edges in "
+            "batches. The chip puts each pulse on a tick of 125 ns, stepgen on a period of its thread."
         ),
-        (
-            "in step with the clock and cannot be let go faster, so that its time is the CPU time that its own two "
-            f"functions tell (of the quickest nine tenths of {count(got['periods'])} periods, "
-            f"{'with' if got['realtime'] else 'without'} a real-time kernel), without the"
-        ),
-        (
-            f"thread that wakes them, which takes {time_of(got['thread_ns'])} a period in all, sampling included. It "
-            "pays for each period whether a step falls into it or not; at fewer steps a second a step costs it more."
-        ),
-        (
-            "It has to end within the period, each time, and drives real pins; the virtual chip has no such duty, and "
-            "so may make edges in batches. The chip puts each pulse on a tick of 125 ns,"
-        ),
-        "stepgen on a period of its thread.",
         "",
         *table(("by", "a step", "times as fast"), rows),
     ]
@@ -113,14 +102,11 @@ def _sigrok(results: dict) -> list[str]:
         return [*out, not_measured(got)]
     return [
         *out,
-        (
+        *paragraph(
             f"One VCD file of {count(got['edges'])} encoder edges ({bytes_of(got['file_bytes'])}, 1 us a tick), "
-            "counted by the decoder `graycode` and by `motionrack decode`; both ended at the same count. "
-            "What differs: sigrok's"
-        ),
-        (
-            "decoder is written in Python and gets each sample of 1 us, and sigrok prints each count; `motionrack "
-            "decode` prints the sums. Many other protocols are what sigrok is for."
+            "counted by the decoder `graycode` and by `motionrack decode`; both ended at the same count. The "
+            "difference: sigrok's decoder is written in Python and gets each sample of 1 us, and sigrok prints each "
+            "count; `motionrack decode` prints the sums. The strength of sigrok is its many other protocols."
         ),
         "",
         *table(
@@ -137,11 +123,11 @@ def _rs274(results: dict) -> list[str]:
         return [*out, not_measured(got)]
     return [
         *out,
-        (
+        *paragraph(
             f"A program of {count(got['lines'])} short lines read and printed as canonical calls, by `rs274 -g` and by "
-            "`motionrack canon --numbered`, whose moves are compared. What differs: `motionrack canon` knows the"
+            "`motionrack canon --numbered`, whose moves are compared. The difference: `motionrack canon` knows the "
+            "program's whole text before it begins, `rs274` reads line by line from the file."
         ),
-        "program's whole text before it begins, `rs274` reads line by line from the file.",
         "",
         *table(
             ("by", "a line, CPU time", "peak memory", "times as fast"),

@@ -25,22 +25,20 @@ PLAN, CALL, RUN, MIB64 = Unit("plan"), Unit("call"), Unit("run"), Unit("64 MiB")
 NEVER = ""
 
 _NETWORK = (
-    "frames of so many scales, each so many us (0: as fast as they go), from the publisher to the listener's queue"
+    "frames of a number of scales, at a period in us (0: unthrottled), from the publisher to the listener's queue"
 )
 
 PROGRAMS = [
     Program(
         "chip",
         "The virtual MCX314",
-        "Four axes unless it says otherwise. *Machines*: with a motor and an encoder on each axis, which hear every "
-        "step of the speed. The *twin* is the same chip written to be plainly right, tick by tick; a tuned ticking "
-        "model would be faster.",
+        "Four axes unless it says otherwise. *Machines*: with a motor and an encoder on each axis, which are "
+        "notified of every step of the speed. The *twin* is a simple tick-by-tick implementation of the same chip; a "
+        "tuned ticking model would be faster.",
         [
-            Bench("cruise/look_each_second", "4 Mpps for a second between two looks of the host", PULSE, "cruise_twin"),
+            Bench("cruise/look_each_second", "4 Mpps for a second between two polls of the host", PULSE, "cruise_twin"),
             Bench("cruise/look_each_second_machines", "the same with machines", PULSE, "cruise_twin"),
-            Bench(
-                "cruise/look_each_ms", "4 Mpps, a look each ms: cruising costs what looking costs", PULSE, "cruise_twin"
-            ),
+            Bench("cruise/look_each_ms", "4 Mpps, a poll each ms: cruising costs the polls only", PULSE, "cruise_twin"),
             Bench("cruise/look_each_ms_machines", "the same with machines", PULSE, "cruise_twin"),
             Bench("cruise_twin", "the twin at the same speed", PULSE),
             Bench(
@@ -63,13 +61,13 @@ PROGRAMS = [
             Bench("moves_twin/stepper", "the twin's", PULSE),
             Bench("moves/stepper_s", "the same with S-curves", PULSE, "moves_twin/stepper_s"),
             Bench("moves_twin/stepper_s", "the twin's", PULSE),
-            Bench("speed_steps/t_curve", "a ramp of one axis that nobody hears", STEP),
+            Bench("speed_steps/t_curve", "a ramp of one axis without a listener", STEP),
             Bench("speed_steps/t_curve_machines", "the same with machines: each step is an event", STEP),
-            Bench("speed_steps/s_curve", "an S-curve that nobody hears", STEP),
+            Bench("speed_steps/s_curve", "an S-curve without a listener", STEP),
             Bench("speed_steps/s_curve_machines", "the same with machines", STEP),
             Bench(
                 "edges_in_batches/20_kpps",
-                "pulses that turn encoders whose edges are all made, and decoded in batches",
+                "pulses that turn encoders whose edges are all generated, and decoded in batches",
                 EDGE,
                 "edges_one_by_one/20_kpps",
             ),
@@ -81,7 +79,7 @@ PROGRAMS = [
             Bench("edges_one_by_one/4_Mpps", "the same at full speed", EDGE),
             Bench("decode_only<sim::BatchDecoder>", "the decoder alone, in batches", EDGE, "decode_only<OneByOne>"),
             Bench("decode_only<OneByOne>", "the decoder alone, one by one", EDGE),
-            Bench("path_edges/line", "interpolated lines of two axes, every edge made and decoded", EDGE),
+            Bench("path_edges/line", "interpolated lines of two axes, every edge generated and decoded", EDGE),
             Bench("path_edges/arc", "full circles", EDGE),
             Bench("path_edges/arc_at_constant_vector_speed", "full circles at constant vector speed", EDGE),
             Bench("snapshot", "the state of a chip with machines, taken", CALL),
@@ -91,8 +89,8 @@ PROGRAMS = [
     Program(
         "axis",
         "One axis beside verilator",
-        "One drive from rest to rest. *Heard*: the instant of every pulse is made and handed over; else pulses are "
-        "counted. *Clocked*: what verilator makes of `tests/verilog/mcx314_axis.v`. Before anything is measured, the "
+        "One drive from rest to rest. *Heard*: the instant of every pulse is computed and delivered; else pulses "
+        "are counted. *Clocked*: `tests/verilog/mcx314_axis.v` compiled by verilator. Before the measurement, the "
         "pulses of both are compared, to the tick.",
         [
             Bench(
@@ -119,11 +117,11 @@ PROGRAMS = [
     Program(
         "grating",
         "Frames of the grating bus",
-        "Eight moving scales, a host and ten slaves, 200 us a period; *clocked*: what verilator makes of "
-        "`hdl/grating_bus`, 20,000 clocks a period.",
+        "Eight moving scales, a host and ten slaves, 200 us a period; *clocked*: `hdl/grating_bus` "
+        "compiled by verilator, 20,000 clocks a period.",
         [
             Bench("frames_clocked", "the same frames, clocked", PERIOD),
-            Bench("frames_of_cards/alone", "nobody looks: a frame is one step", PERIOD, "frames_clocked"),
+            Bench("frames_of_cards/alone", "no observer: a frame is one step", PERIOD, "frames_clocked"),
             Bench(
                 "frames_of_cards/every_card_claims",
                 "the processor of every card claims every frame and reads its sequence",
@@ -138,12 +136,13 @@ PROGRAMS = [
         "Sampled encoder lines",
         "The ratio is to a table of 16 transitions (four axes: of 65,536), the best of many runs. The last number of a "
         "name is the bytes of the data: in the first cache, in the second, in memory; of planes, the bytes of one "
-        "line. Each kind of CPU's kernels that there is; valgrind knows no AVX-512.",
+        "line. Every available kernel is measured; valgrind "
+        "does not support AVX-512.",
         [
             Bench("one_axis_bytes", "A and B of one axis in each byte", SAMPLE, counted="16384$"),
             Bench(
                 "reading_alone",
-                "the bytes read and nothing else: the most that data of this size allows",
+                "the bytes read and nothing else: the upper bound for data of this size",
                 MIB64,
                 counted=NEVER,
             ),
@@ -159,7 +158,7 @@ PROGRAMS = [
         [
             Bench(
                 "read_with_meaning/G1_X_Y_F",
-                "`G1 X1.234 Y-5.678 F1000`, read, understood and checked",
+                "`G1 X1.234 Y-5.678 F1000`, read, interpreted and checked",
                 LINE,
                 "tokenise_naively/G1_X_Y_F",
             ),
@@ -181,15 +180,15 @@ PROGRAMS = [
             Bench("trapezoid_plan_between_speeds", "between two speeds", PLAN),
             Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
             Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
-            Bench("s_curve_plan_by_bisection", "its top speed found by bisection", PLAN),
+            Bench("s_curve_plan_by_bisection", "its peak velocity found by bisection", PLAN),
             Bench(
                 "sample_s_curve",
-                "where four axes are at an instant, for each of them",
+                "the positions of four axes at an instant, for each of them",
                 AXIS_SAMPLE,
                 "sample_s_curve_through_all_phases",
             ),
             Bench("sample_trapezoid", "the same of trapezoids", AXIS_SAMPLE),
-            Bench("sample_s_curve_through_all_phases", "one axis, its phases run through from the start", CALL),
+            Bench("sample_s_curve_through_all_phases", "one axis, evaluating its phases from the start", CALL),
             Bench(
                 "look_ahead_0_1_mm",
                 "blocks of 0.1 mm into a window of 1,024",
@@ -199,7 +198,7 @@ PROGRAMS = [
             ),
             Bench(
                 "look_ahead_2_um",
-                "blocks of 2 um: stopping takes more than the window holds",
+                "blocks of 2 um: the stopping distance is longer than the window",
                 ITEM_BLOCK,
                 "look_ahead_with_full_passes",
                 counted=NEVER,
@@ -218,28 +217,31 @@ PROGRAMS = [
     Program(
         "profile",
         "Motions between any two states",
-        "8,192 random tasks for one axis, with limits of speed, acceleration and jerk.",
+        "8,192 random tasks for one axis, with limits of velocity, acceleration and jerk.",
         [
-            Bench("s_curve_from_rest_to_rest", "the S-curve, which knows rest to rest alone", PLAN),
+            Bench("s_curve_from_rest_to_rest", "the S-curve, for rest to rest alone", PLAN),
             Bench(
-                "travel_from_rest_to_rest", "the quickest motion, from rest to rest", PLAN, "s_curve_from_rest_to_rest"
+                "travel_from_rest_to_rest",
+                "the time-optimal motion, from rest to rest",
+                PLAN,
+                "s_curve_from_rest_to_rest",
             ),
-            Bench("travel_between_any_states", "between any two speeds and accelerations", PLAN),
+            Bench("travel_between_any_states", "between any two velocities and accelerations", PLAN),
             Bench(
                 "travel_between_any_states_near", "to near targets, where nearly each needs an equation solved", PLAN
             ),
-            Bench("travel_from_outside", "from up to twice the speed and acceleration that are allowed", PLAN),
-            Bench("change_of_speed", "to another speed, wherever that is", PLAN),
-            Bench("stop_of_any_motion", "to rest, wherever that is", PLAN),
-            Bench("sample_of_a_travel", "where it is at an instant", CALL),
+            Bench("travel_from_outside", "from up to twice the allowed velocity and acceleration", PLAN),
+            Bench("change_of_speed", "to another velocity, at any position", PLAN),
+            Bench("stop_of_any_motion", "to standstill, at any position", PLAN),
+            Bench("sample_of_a_travel", "its position at an instant", CALL),
         ],
     ),
     Program(
         "curve",
         "Jerk-limited paths",
-        "*Curve*: moves made into cubic pieces. *Ride*: the speed along 20,000 blocks, planned as one. *Rider*: block "
-        "by block through a window, which plans all that it knows when it has to; its slowest block in a thousand is "
-        "told below the table.",
+        "*Curve*: moves converted into cubic segments. *Ride*: the velocity along 20,000 blocks, planned as one. "
+        "*Rider*: block by block through a window, which plans all known blocks when it must; the table below gives "
+        "its slowest block in a thousand.",
         [
             Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, counted=NEVER),
             Bench(
@@ -283,7 +285,7 @@ PROGRAMS = [
     Program(
         "recording",
         "Recordings",
-        "`watched_by` 0: nobody, 1: a VCD file with exact ticks, 2: a recording (HDF5) of everything.",
+        "`watched_by` 0: no observer, 1: a VCD file with exact ticks, 2: a recording (HDF5) of everything.",
         [
             Bench("write_events", "a million pulses and counts into a recording", EVENT),
             Bench("compare_events", "two such recordings compared", EVENT),
@@ -293,8 +295,8 @@ PROGRAMS = [
     Program(
         "rtc5",
         "The virtual RTC5",
-        "Two lists in a loop. *Fly*: positions corrected by an encoder. *Table*: a field correction. *Unseen*: nobody "
-        "asks for the samples.",
+        "Two lists in a loop. *Fly*: positions corrected by an encoder. *Table*: a field correction. *Unseen*: the "
+        "samples are not requested.",
         [
             Bench("run_card/micro_vectors_plain", "a vector each tick", TICK),
             Bench("run_card/micro_vectors_fly", "with fly", TICK),
@@ -305,9 +307,7 @@ PROGRAMS = [
             Bench("run_card/long_marks_rotary_table", "long marks, with a rotary correction and table", TICK),
             Bench("run_card/short_marks_unseen", "marks of some ticks, unseen", TICK),
             Bench("run_card/long_marks_unseen", "long marks, unseen", TICK, "run_twin/long_marks_fly_table"),
-            Bench(
-                "run_recorded/short_marks_ideal", "with a work piece that keeps what was marked, ideal mirrors", TICK
-            ),
+            Bench("run_recorded/short_marks_ideal", "with a work piece that stores the marks, ideal mirrors", TICK),
             Bench("run_recorded/short_marks_mirrors", "with mirrors that lag", TICK),
             Bench("run_recorded/short_marks_mirrors_lens", "and a lens", TICK),
             Bench("run_twin/micro_vectors_fly_table", "the tick-by-tick twin, a vector each tick, with both", TICK),
@@ -317,11 +317,11 @@ PROGRAMS = [
     Program(
         "dds",
         "Frames between two processes",
-        "Over Cyclone DDS on the loopback; the ages of the frames are told below the table. A time here is real time "
-        "between two frames, so that at 200 us it says only that none was late for long.",
+        "Over Cyclone DDS on the loopback; the table below gives the ages of the frames. A time here is real time "
+        "between two frames; at 200 us it shows only that no frame was late for long.",
         [
             Bench("network", _NETWORK, FRAME, counted=NEVER),
-            Bench("judging", "a frame judged: its CRC, its place in the order", FRAME),
+            Bench("judging", "a frame validated: its CRC, its place in the order", FRAME),
         ],
     ),
     Program(
@@ -337,13 +337,15 @@ PROGRAMS = [
     Program(
         "growth",
         "Growth of a rack",
-        "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. What "
-        "stays the same down the rows grows with the work and no faster. More cards cost more a pulse: for each event "
-        "the kernel looks through all devices for the one that is next.",
+        "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. A "
+        "value that is the same in all rows grows with the work and no faster. More cards cost more a pulse: for each "
+        "event the kernel searches all devices for the next one.",
         [
-            Bench("axes", "so many axes of one card", ONE_PULSE),
-            Bench("cards", "all four axes of so many cards in one kernel", ONE_PULSE, counted="/(1|8)$"),
-            Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, counted=NEVER),
+            Bench("axes", "a number of axes of one card", ONE_PULSE),
+            Bench("cards", "all four axes of a number of cards in one kernel", ONE_PULSE, counted="/(1|8)$"),
+            Bench(
+                "frames", "a grating bus with that number of slaves and scales, no observer", CARD_FRAME, counted=NEVER
+            ),
         ],
     ),
 ]

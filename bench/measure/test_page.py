@@ -173,7 +173,7 @@ class ABuild(unittest.TestCase):
             "| wall time | 200 s | at most 240 s on 2 cores |",
             "| CPU time | 481 s | at most 480 s |",
             "| compilations | 12, of 36 sources |  |",
-            "| the greatest peak memory of one | 1,200 MB: room_11, 3 sources |  |",
+            "| the maximum peak memory of one | 1,200 MB: room_11, 3 sources |  |",
             "| second start, wall time | 500 ms | at most 1 s |",
             "| room_0, 3 sources | 40.0 s | 100 MB |",
             "| room_9, 3 sources | 31.0 s | 1,000 MB |",

@@ -1,5 +1,9 @@
 """Numbers and tables as a page shows them: three digits, thousands with commas."""
+import re
+import textwrap
 from collections.abc import Sequence
+
+_COLUMNS = 118
 
 _SCALES = ((1e9, "s"), (1e6, "ms"), (1e3, "us"), (1, "ns"))
 
@@ -41,6 +45,13 @@ def ratio(value: float) -> str:
 def not_measured(got: dict) -> str:
     """Why a part of the page is empty, of its results."""
     return "Not measured in this run" + (f": {got['missing']}" if got else ".")
+
+
+def paragraph(text: str) -> list[str]:
+    """The lines of a paragraph; text in backquotes stays on one line."""
+    joined = re.sub(r"`[^`]*`", lambda code: code[0].replace(" ", "\0"), text)
+    lines = textwrap.wrap(joined, _COLUMNS, break_long_words=False, break_on_hyphens=False)
+    return [line.replace("\0", " ") for line in lines]
 
 
 def table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
