@@ -36,7 +36,7 @@ Result<void> two_axes(mcx314::Driver& card, const mcx314::HomeSettings& s) {
     MOTIONRACK_CHECK(x.start(s, host.now()));
     MOTIONRACK_CHECK(y.start(s, host.now()));
     while (x.running() || y.running()) {
-        x.step(host.now());  // looks once, never waits; how often does not change where it ends
+        x.step(host.now());  // polls once, never waits; the polling rate does not change the end
         y.step(host.now());
         host.pass(milliseconds(1));
     }

@@ -27,7 +27,7 @@ double swing(const Record& record) {
 }  // namespace
 
 Result<std::string> lock() {
-    Bench hunting(0, milliseconds(4)), settling(0, milliseconds(4));  // a firmware that looks every 4 ms
+    Bench hunting(0, milliseconds(4)), settling(0, milliseconds(4));  // a firmware pass every 4 ms
     MOTIONRACK_CHECK(hunting.card().connect());
     MOTIONRACK_CHECK(hunting.card().set_rate(16'302));  // 5 V: 500 mm/s at once, and 5 mm of overrun
     MOTIONRACK_CHECK(hunting.card().set_deviation(5));  // the window: 0.05 mm
@@ -47,7 +47,7 @@ Result<std::string> lock() {
         MOTIONRACK_CHECK(card.lock());
         bench->record();
         bench->run(milliseconds(500));
-        bench->push(1'000);  // somebody shoves the carriage 10 mm aside
+        bench->push(1'000);  // pushes the carriage 10 mm aside
         bench->run(milliseconds(2'000));
         MOTIONRACK_TRY(const double mm, card.position_mm());
         fmt::print("at {:.2f} mm; in the last second it swings by {:.2f} mm\n", mm, swing(bench->recorded()));

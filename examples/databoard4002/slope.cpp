@@ -27,7 +27,7 @@ std::string slope_picture(const SlopeMotion& empty, const SlopeMotion& loaded, c
 }  // namespace
 
 Result<std::string> slope() {
-    SpeedScale scale{.analog = true, .counts_per_volt = 10'000};  // what the servo does with a volt
+    SpeedScale scale{.analog = true, .counts_per_volt = 10'000};  // the servo's velocity per volt
     SlopeDemand demand;
     demand.top_speed = 50'000;  // counts/s: 500 mm/s
     demand.acceleration = 100'000, demand.deceleration = 60'000;
