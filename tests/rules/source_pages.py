@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from found import files_of, finish, text_of
+from pages import cell, link, stale
 
 ROOT = Path(sys.argv[1])
 FOLDER = Path("docs/sources")
@@ -77,14 +78,6 @@ def problems(name: str, number: int, one: Statement) -> list[str]:
     return wrong
 
 
-def cell(text: str) -> str:
-    return " ".join(str(text).split()).replace("|", "\\|").replace("<", "&lt;")
-
-
-def link(path: Path | str, text: str) -> str:
-    return f"[{cell(text)}](../../{path})"
-
-
 def row(number: int, one: Statement) -> str:
     file = link(one["file"], Path(one["file"]).name) if "file" in one else ""
     found = test_file(one["test"]) if "test" in one else None
@@ -134,11 +127,7 @@ def main() -> None:
     index = FOLDER / "README.md"
     head, begin, rest = text_of(ROOT / index).partition("<!-- statements -->\n")
     pages[index] = head + begin + overview(sources) + "\n" + rest.partition("\n\n")[2]
-    if "--write" in sys.argv:
-        for path, text in pages.items():
-            (ROOT / path).write_text(text, encoding="utf-8")
-    stale = [f"{path} is out of date" for path, text in pages.items() if text_of(ROOT / path) != text]
-    finish(stale, REMEDY, f"{count} statements of {len(sources)} sources")
+    finish(stale(ROOT, pages, "--write" in sys.argv), REMEDY, f"{count} statements of {len(sources)} sources")
 
 
 if __name__ == "__main__":
