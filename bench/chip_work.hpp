@@ -8,7 +8,7 @@
 #include <motionrack/cards/mcx314/test/chip_bench.hpp>
 #include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <optional>
 #include <string>
 

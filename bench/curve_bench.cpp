@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
-#include <motionrack/control/curve/curve.hpp>
-#include <motionrack/control/ride/ride.hpp>
-#include <motionrack/control/ride/rider.hpp>
+#include <motionrack/control/path/path_builder.hpp>
+#include <motionrack/control/trajectory/offline_trajectory.hpp>
+#include <motionrack/control/trajectory/trajectory_generator.hpp>
 #include <vector>
 
 namespace motionrack::control {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <sstream>
 #include <string>
 

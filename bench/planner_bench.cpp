@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <motionrack/base/trig.hpp>
-#include <motionrack/control/path.hpp>
-#include <motionrack/control/profile.hpp>
+#include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
 #include <random>
 #include <vector>
 
@@ -126,8 +126,8 @@ void sample_four_axes(benchmark::State& state, const std::array<Profile, 4>& axe
 }
 
 void sample_s_curve(benchmark::State& state) {
-    sample_four_axes<SCurveProfile>(state, {SCurveProfile(20, 100, 1000, 2e4), SCurveProfile(15, 80, 800, 2e4), SCurveProfile(12, 90, 900, 1e4),
-                                     SCurveProfile(30, 120, 1500, 3e4)});
+    sample_four_axes<SCurveProfile>(state, {SCurveProfile(20, 100, 1000, 2e4), SCurveProfile(15, 80, 800, 2e4),
+                                            SCurveProfile(12, 90, 900, 1e4), SCurveProfile(30, 120, 1500, 3e4)});
 }
 BENCHMARK(sample_s_curve);
 

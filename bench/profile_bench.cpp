@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <motionrack/control/profile/travel.hpp>
+#include <motionrack/control/axis_profile/axis_profile.hpp>
 #include <random>
 #include <vector>
 
@@ -87,7 +87,8 @@ void travel_from_outside(benchmark::State& state) {
 BENCHMARK(travel_from_outside);
 
 void change_of_speed(benchmark::State& state) {
-    solve_all(state, tasks(1), [](const Task& t) { return velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits); });
+    solve_all(state, tasks(1),
+              [](const Task& t) { return velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits); });
 }
 BENCHMARK(change_of_speed);
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <motionrack/mark/job.hpp>
+#include <motionrack/mark/marking_job.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/stop_reactions.hpp>

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <vector>
 
 namespace motionrack::test {

@@ -1,7 +1,7 @@
 // A program that comes line by line, held, slowed and let go on at random instants: it ends where it would have ended,
 // on its path, within all limits. MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many.
 #include <cstdlib>
-#include <motionrack/control/stream.hpp>
+#include <motionrack/control/stream_executor.hpp>
 #include <random>
 #include <vector>
 

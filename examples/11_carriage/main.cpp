@@ -8,7 +8,7 @@
 
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
-#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/trace/svg.hpp>
 
 using namespace motionrack;

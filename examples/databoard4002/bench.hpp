@@ -8,9 +8,9 @@
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
-#include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <string>
 #include <vector>

@@ -11,10 +11,10 @@
 #include <motionrack/cards/ioflex02/driver/speed.hpp>
 #include <motionrack/cards/ioflex02/driver/units.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
-#include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 #include <string_view>
 
 namespace howto {

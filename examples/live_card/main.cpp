@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
-#include <motionrack/live/port.hpp>
+#include <motionrack/live/card_port.hpp>
 
 using namespace motionrack;
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
-#include <motionrack/control/home.hpp>
+#include <motionrack/control/homing.hpp>
 
 namespace motionrack::control {
 

@@ -1,7 +1,7 @@
 // A move planned by itself.
 #include <fmt/format.h>
 
-#include <motionrack/control/planner_for.hpp>
+#include <motionrack/control/make_planner.hpp>
 #include <motionrack/control/probing.hpp>
 
 namespace motionrack::control {

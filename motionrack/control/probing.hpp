@@ -1,9 +1,9 @@
 // What a probing move needs beside the path: its own plan, and words for how it ended.
 #pragma once
 
-#include <motionrack/control/gcode/step.hpp>
-#include <motionrack/control/path.hpp>
-#include <motionrack/control/path_axes.hpp>
+#include <motionrack/control/axis_group.hpp>
+#include <motionrack/control/gcode/canon_call.hpp>
+#include <motionrack/control/look_ahead_planner.hpp>
 #include <string>
 
 namespace motionrack::control {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <motionrack/dds/judge.hpp>
+#include <motionrack/dds/frame_validator.hpp>
 #include <string>
 
 namespace motionrack::dds {

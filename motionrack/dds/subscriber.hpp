@@ -4,7 +4,7 @@
 
 #include <functional>
 #include <memory>
-#include <motionrack/dds/judge.hpp>
+#include <motionrack/dds/frame_validator.hpp>
 #include <string>
 
 namespace motionrack::dds {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <motionrack/decode/capture.hpp>
 #include <motionrack/decode/channel.hpp>
-#include <motionrack/decode/choice.hpp>
+#include <motionrack/decode/channel_selection.hpp>
 #include <optional>
 
 namespace motionrack::decode {

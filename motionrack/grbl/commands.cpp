@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <motionrack/control/gcode/number.hpp>
+#include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/grbl/line_rules.hpp>
-#include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
 

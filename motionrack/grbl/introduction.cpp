@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <motionrack/control/gcode/number.hpp>
-#include <motionrack/grbl/intake.hpp>
+#include <motionrack/grbl/input_parser.hpp>
 #include <motionrack/grbl/introduction.hpp>
 #include <utility>
 

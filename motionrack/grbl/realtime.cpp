@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/grbl/machine_view.hpp>
-#include <motionrack/grbl/session.hpp>
 
 namespace motionrack::grbl {
 

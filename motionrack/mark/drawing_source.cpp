@@ -6,9 +6,9 @@
 #include <iterator>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/gcode_drawing.hpp>
-#include <motionrack/mark/job.hpp>
+#include <motionrack/mark/marking_job.hpp>
+#include <motionrack/mark/stroke_font.hpp>
 #include <motionrack/mark/svg.hpp>
-#include <motionrack/mark/text.hpp>
 
 namespace motionrack::mark {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <motionrack/base/trig.hpp>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/mark/gcode_drawing.hpp>
 
 namespace motionrack::mark {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/job_check.hpp>
-#include <motionrack/mark/text.hpp>
+#include <motionrack/mark/stroke_font.hpp>
 
 namespace motionrack::mark {
 

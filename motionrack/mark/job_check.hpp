@@ -1,7 +1,7 @@
 // What must hold between the keys of a job that are good by themselves.
 #pragma once
 
-#include <motionrack/mark/job.hpp>
+#include <motionrack/mark/marking_job.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::mark {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <motionrack/mark/job.hpp>
+#include <motionrack/mark/marking_job.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::mark::fields {

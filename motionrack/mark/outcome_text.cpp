@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
-#include <motionrack/mark/show.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/mark/render.hpp>
+#include <motionrack/rack/count_noun.hpp>
 
 namespace motionrack::mark {
 

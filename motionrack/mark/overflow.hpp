@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/rtc5/model/engine.hpp>
-#include <motionrack/sim/parts/track.hpp>
+#include <motionrack/sim/parts/conveyor.hpp>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/render.hpp>
 
 namespace motionrack::mark {
 

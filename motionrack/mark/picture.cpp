@@ -11,8 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/mark/plot.hpp>
-#include <motionrack/mark/show.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/mark/render.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/plan.hpp>
-#include <motionrack/mark/waits.hpp>
+#include <motionrack/mark/wait_batches.hpp>
 
 namespace motionrack::mark {
 

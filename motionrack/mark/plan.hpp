@@ -4,7 +4,7 @@
 #include <memory>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
-#include <motionrack/mark/job.hpp>
+#include <motionrack/mark/marking_job.hpp>
 #include <vector>
 
 namespace motionrack::mark {

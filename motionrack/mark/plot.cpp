@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/mark/plot.hpp>
+#include <motionrack/trace/decimated_path.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
-#include <motionrack/trace/thin.hpp>
 
 namespace motionrack::mark {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <motionrack/mark/line.hpp>
+#include <motionrack/mark/marking_host.hpp>
 #include <motionrack/mark/overflow.hpp>
 #include <motionrack/mark/plan.hpp>
 #include <motionrack/sim/parts/workpiece.hpp>

@@ -1,6 +1,6 @@
 // Rows as messages: a head, then "name value", a line a cell.
 #include <algorithm>
-#include <motionrack/nats/machines.hpp>
+#include <motionrack/nats/distributed_sweep.hpp>
 
 namespace motionrack::nats {
 

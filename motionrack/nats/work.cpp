@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <motionrack/nats/machines.hpp>
+#include <motionrack/nats/distributed_sweep.hpp>
 #include <motionrack/nats/queue.hpp>
 #include <mutex>
 #include <thread>

@@ -13,8 +13,8 @@
 #include <motionrack/base/function_library.hpp>
 #include <motionrack/base/port.hpp>
 #include <motionrack/base/result.hpp>
+#include <motionrack/live/card_port.hpp>
 #include <motionrack/live/clock.hpp>
-#include <motionrack/live/port.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <optional>

@@ -50,10 +50,13 @@ void tell_stop(const StopReport& report, std::string& why,
     for (const auto& call : listeners) call(report);
 }
 
+tl::unexpected<Error> not_now(std::string text) {
+    return fail(ErrorKind::refused, std::move(text));
+}
+
 Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
     if (!latch.latched()) return {};
-    return fail(ErrorKind::refused,
-                fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+    return not_now(fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
 }
 
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
@@ -102,11 +105,11 @@ void Machine::quit() {
 
 // ---- what may be asked
 
-/// InitialAxisState and enabled.
+/// At standstill and enabled.
 Result<void> Machine::ready(const char* what) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
-        return fail(ErrorKind::refused, fmt::format("{}: {}. Nothing was moved.", what, why));
+        return not_now(fmt::format("{}: {}. Nothing was moved.", what, why));
     };
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
     if (state_ == MachineState::error_stop)
@@ -126,13 +129,12 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
 /// Enabled, and what was declared of positions is carried out: it holds of where the axes stood.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
-        return fail(
-            ErrorKind::refused,
+        return not_now(
             fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
-            return fail(ErrorKind::refused,
-                        fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
+            return not_now(
+                fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
     return {};
 }
 
@@ -143,10 +145,10 @@ Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!position_valid(axis))
-            return fail(ErrorKind::refused,
-                        fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
-                                    "where it stands. Nothing was moved.",
-                                    what, axis.letter));
+            return not_now(
+                fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
+                            "where it stands. Nothing was moved.",
+                            what, axis.letter));
     return {};
 }
 
@@ -203,18 +205,16 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
 
 Result<void> Machine::hold() {
     if (state_ != MachineState::moving)
-        return fail(ErrorKind::refused,
-                    fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.",
-                                name_of(state_)));
+        return not_now(fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.",
+                                   name_of(state_)));
     stream_->hold();
     return {};
 }
 
 Result<void> Machine::resume() {
     if (state_ != MachineState::hold)
-        return fail(ErrorKind::refused,
-                    fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
-                                name_of(state_)));
+        return not_now(fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
+                                   name_of(state_)));
     MOTIONRACK_CHECK(may_start("Not resumed"));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
     MOTIONRACK_CHECK(door_.check_closed("Not resumed"));
@@ -261,9 +261,9 @@ namespace {
 /// The axis refuses it, too, but only when the order is begun: who gave it has his answer then.
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_velocity) return {};
-    return fail(ErrorKind::refused,
-                fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
-                            std::fabs(speed), axis.unit(), axis.max_velocity, axis.letter));
+    return not_now(
+        fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
+                    std::fabs(speed), axis.unit(), axis.max_velocity, axis.letter));
 }
 
 }  // namespace
@@ -293,10 +293,10 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     const double travel = found->max_position - found->min_position;
     if (position_valid(*found) && std::fabs(distance) > travel)
-        return fail(ErrorKind::refused,
-                    fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
-                                "was moved.",
-                                std::fabs(distance), found->unit(), axis, travel));
+        return not_now(
+            fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
+                        "was moved.",
+                        std::fabs(distance), found->unit(), axis, travel));
     jogs_.move(axis, distance, speed);
     enter(MachineState::jogging);
     return {};
@@ -305,8 +305,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
-    if (!stream_->has_room())
-        return fail(ErrorKind::refused, "Not jogged: there is no room for another jog until others are driven.");
+    if (!stream_->has_room()) return not_now("Not jogged: there is no room for another jog until others are driven.");
     if (!std::isfinite(speed) || !(speed > 0))
         return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
@@ -320,10 +319,9 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
                         fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.",
                                     control::axis_letters[i], target[i]));
         if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.", control::axis_letters[i],
-                            limits[i].min_position, limits[i].max_position, target[i]));
+            return not_now(fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.",
+                                       control::axis_letters[i], limits[i].min_position, limits[i].max_position,
+                                       target[i]));
         ++moving;
         move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_velocity);
     }
@@ -371,8 +369,7 @@ void Machine::set_coolant(bool mist, bool flood) {
 
 Result<void> Machine::clear_offsets() {
     if (stream_->has_work())
-        return fail(ErrorKind::refused,
-                    "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
+        return not_now("The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
     stream_->clear_offsets();
     return {};
 }
@@ -390,7 +387,7 @@ void Machine::forbid_starts(std::string source, std::string text) {
 
 Result<void> Machine::may_start(const char* what) const {
     if (no_starts_.empty()) return {};
-    return fail(ErrorKind::refused, fmt::format("{}: {}", what, no_starts_));
+    return not_now(fmt::format("{}: {}", what, no_starts_));
 }
 
 bool Machine::acknowledge(std::int64_t alarm) {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/base/time.hpp>
-#include <motionrack/control/gcode/step.hpp>
+#include <motionrack/control/gcode/canon_call.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

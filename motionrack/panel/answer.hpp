@@ -1,7 +1,7 @@
 // Who asks, and what is answered: the words between the panel and whoever carries them over a network.
 #pragma once
 
-#include <motionrack/authority/role.hpp>
+#include <motionrack/auth/role.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace motionrack::panel {
 
 struct Caller {
     std::string user;
-    authority::Role role = authority::Role::none;
+    auth::Role role = auth::Role::none;
     std::string session;       ///< one connection or token: what holds the control lease
     std::string address = {};  ///< where it came from, for the journal
 };

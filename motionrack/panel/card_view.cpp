@@ -5,7 +5,7 @@
 #include <bit>
 #include <cctype>
 #include <motionrack/panel/card_view.hpp>
-#include <motionrack/panel/channels.hpp>
+#include <motionrack/panel/channel_registry.hpp>
 
 namespace motionrack::panel {
 

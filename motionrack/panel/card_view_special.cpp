@@ -4,7 +4,7 @@
 #include <motionrack/panel/card_view.hpp>
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/databoard4002_card.hpp>
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 
 namespace motionrack::panel {
 

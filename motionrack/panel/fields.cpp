@@ -3,7 +3,7 @@
 
 #include <charconv>
 #include <cmath>
-#include <motionrack/panel/tables.hpp>
+#include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::panel {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/panel/answer.hpp>
-#include <motionrack/panel/tables.hpp>
+#include <motionrack/panel/operation_specs.hpp>
 
 namespace motionrack::panel {
 
@@ -57,8 +57,8 @@ json schema_of(const FieldSpec& field) {
 }
 
 std::string who_may(const OperationSpec& row) {
-    if (row.role == authority::Role::none) return "Anybody, without a token.";
-    return fmt::format("Needs the role {}{}.", authority::name_of(row.role), row.lease ? " and the control lease" : "");
+    if (row.role == auth::Role::none) return "Anybody, without a token.";
+    return fmt::format("Needs the role {}{}.", auth::name_of(row.role), row.lease ? " and the control lease" : "");
 }
 
 json operation_of(const OperationSpec& row) {
@@ -72,7 +72,7 @@ json operation_of(const OperationSpec& row) {
                       {"summary", row.text},
                       {"description", who_may(row)},
                       {"responses", std::move(answers)}};
-    if (row.role == authority::Role::none) operation["security"] = json::array();
+    if (row.role == auth::Role::none) operation["security"] = json::array();
     return operation;
 }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <motionrack/operate/service.hpp>
-#include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/panel_context.hpp>
 
 namespace motionrack::panel {
 

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <motionrack/base/fnv.hpp>
-#include <motionrack/operate/logbook.hpp>
-#include <motionrack/panel/desk.hpp>
+#include <motionrack/operate/journal_writer.hpp>
 #include <motionrack/panel/panel.hpp>
+#include <motionrack/panel/panel_context.hpp>
 #include <motionrack/panel/record_loss.hpp>
 #include <motionrack/panel/status_text.hpp>
 #include <utility>
@@ -32,7 +32,7 @@ std::string session_mark(std::string_view session) {
 /// The motion thread's side.
 class Panel::Inside {
   public:
-    Inside(Panel& panel, operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
+    Inside(Panel& panel, operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
         : panel_(panel),
           desk_(machine, lease, std::move(settings)),
           writer_(machine),
@@ -120,7 +120,7 @@ class Panel::Inside {
                 Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
         Answer answer = done(std::move(*result));
-        const bool told = row.role != authority::Role::observe && !row.high_rate && !answer.body.value("again", false);
+        const bool told = row.role != auth::Role::observe && !row.high_rate && !answer.body.value("again", false);
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
         taken_.push_back(
@@ -178,7 +178,7 @@ class Panel::Inside {
     std::uint64_t told_ = 0;
 };
 
-Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
+Panel::Panel(operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
     : inside_(std::make_unique<Inside>(*this, machine, lease, std::move(settings))) {}
 
 Panel::~Panel() = default;
@@ -190,10 +190,10 @@ void Panel::ask(const Caller& caller, std::string_view name, const json& fields,
             refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
     if (caller.role < row->role)
         return reply(
-            refused_answer(caller.role == authority::Role::none ? 401 : 403, "denied",
+            refused_answer(caller.role == auth::Role::none ? 401 : 403, "denied",
                            fmt::format("{} needs the role {}; {} has the role {}. Nothing was done.", row->name,
-                                       authority::name_of(row->role), caller.user.empty() ? "the caller" : caller.user,
-                                       authority::name_of(caller.role))));
+                                       auth::name_of(row->role), caller.user.empty() ? "the caller" : caller.user,
+                                       auth::name_of(caller.role))));
     if (const Result<void> good = check_fields(*row, fields); !good) return reply(error_answer(good.error()));
     if (row->external) {
         const auto& handlers = inside_->desk().settings.external;

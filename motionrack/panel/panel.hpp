@@ -14,16 +14,16 @@
 #include <map>
 #include <memory>
 #include <motionrack/journal/journal.hpp>
+#include <motionrack/operate/clock_pacer.hpp>
 #include <motionrack/operate/machine.hpp>
-#include <motionrack/operate/pacer.hpp>
 #include <motionrack/panel/answer.hpp>
-#include <motionrack/panel/picture.hpp>
+#include <motionrack/panel/status_snapshot.hpp>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace motionrack::authority {
+namespace motionrack::auth {
 class ControlLease;
 }
 
@@ -65,7 +65,7 @@ class Panel {
     static constexpr std::size_t max_channels = 64;
 
     /// Before Machine::run; machine and lease must outlive it, and it the run.
-    Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings);
+    Panel(operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings);
     ~Panel();
 
     // ---- any thread

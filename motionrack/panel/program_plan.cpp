@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
-#include <motionrack/control/path.hpp>
+#include <motionrack/control/look_ahead_planner.hpp>
 #include <motionrack/panel/program_plan.hpp>
 
 namespace motionrack::panel {

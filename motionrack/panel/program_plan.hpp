@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/panel/polyline.hpp>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/panel/card_view.hpp>
-#include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/panel_context.hpp>
 #include <motionrack/panel/status_text.hpp>
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/homing.hpp>

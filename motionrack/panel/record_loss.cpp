@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 12> taken_without_record = {
     "jog",  "jog_by", "jog_stop", "take_control", "release_control", "keep_control"};
 
 bool is_taken_without_record(const OperationSpec& row) {
-    return row.role == authority::Role::observe ||
+    return row.role == auth::Role::observe ||
            std::find(taken_without_record.begin(), taken_without_record.end(), row.name) != taken_without_record.end();
 }
 

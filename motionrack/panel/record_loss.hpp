@@ -1,7 +1,7 @@
 // What the panel does where the journal fails: the machine holds, and what would begin something is refused.
 #pragma once
 
-#include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/panel_context.hpp>
 
 namespace motionrack::panel {
 

@@ -12,7 +12,7 @@
 #include <deque>
 #include <memory>
 #include <motionrack/operate/machine.hpp>
-#include <motionrack/panel/channels.hpp>
+#include <motionrack/panel/channel_registry.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>

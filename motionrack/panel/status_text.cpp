@@ -1,8 +1,8 @@
 // What the page shows always.
 #include <algorithm>
 #include <cmath>
-#include <motionrack/operate/pacer.hpp>
-#include <motionrack/panel/desk.hpp>
+#include <motionrack/operate/clock_pacer.hpp>
+#include <motionrack/panel/panel_context.hpp>
 #include <motionrack/panel/status_text.hpp>
 #include <motionrack/rack/card_types.hpp>
 #include <utility>
@@ -24,7 +24,7 @@ constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0},
 struct Noted {
     std::vector<std::vector<std::pair<std::string_view, bool>>> leds;  // by axis
     bool estop_pressed = false;
-    std::optional<authority::ControlLease::Holder> holder;
+    std::optional<auth::ControlLease::Holder> holder;
     std::optional<double> remaining_s;  // of the program, at its overrides
     json link, clock;
 };

@@ -6,7 +6,7 @@
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
-#include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/axes/chip_axis_group.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
 #include <motionrack/cards/mcx314/chip/by_name.hpp>
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>

@@ -5,12 +5,12 @@
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/function_library.hpp>
 #include <motionrack/control/axis.hpp>
-#include <motionrack/control/path_axes.hpp>
+#include <motionrack/control/axis_group.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 #include <optional>

@@ -158,7 +158,7 @@ struct RackSwitches {
 
 enum class HomingDirection : std::uint8_t { minus, plus };
 
-/// How an axis is homed; see control/home.hpp.
+/// How an axis is homed; see control/homing.hpp.
 struct RackHoming {
     std::int64_t type = 2;                               ///< 1 .. 4: control::HomeType
     HomingDirection direction = HomingDirection::minus;  ///< in which the home switch is searched

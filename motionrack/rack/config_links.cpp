@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/rack/config_parts.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <tuple>
 
 namespace motionrack::rack {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
-#include <motionrack/sim/parts/word_source.hpp>
+#include <motionrack/sim/parts/serial_word_source.hpp>
 
 namespace motionrack::rack {
 

@@ -3,7 +3,7 @@
 
 #include <motionrack/rack/optics_fields.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
-#include <motionrack/sim/parts/position_sender.hpp>
+#include <motionrack/sim/parts/serial_position_source.hpp>
 #include <optional>
 #include <string>
 #include <string_view>

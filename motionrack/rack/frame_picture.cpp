@@ -1,7 +1,7 @@
 // A frame as waves.
 #include <fmt/format.h>
 
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 #include <motionrack/trace/svg_waves.hpp>
 

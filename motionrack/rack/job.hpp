@@ -4,11 +4,11 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <motionrack/control/controller.hpp>
+#include <motionrack/control/program_executor.hpp>
+#include <motionrack/rack/command_schedule.hpp>
 #include <motionrack/rack/homing.hpp>
-#include <motionrack/rack/live_drive.hpp>
+#include <motionrack/rack/interactive_run.hpp>
 #include <motionrack/rack/monitor.hpp>
-#include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/position_reference.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <optional>

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/probing.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/rack/job_report.hpp>
-#include <motionrack/rack/path_segment.hpp>
+#include <motionrack/rack/report_segment.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::rack {

@@ -7,11 +7,11 @@
 
 #include <memory>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/sim/parts/conveyor_drive.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/parts/part_sensor.hpp>
 #include <motionrack/sim/parts/scan_head.hpp>
-#include <motionrack/sim/parts/track_drive.hpp>
-#include <motionrack/sim/parts/word_source.hpp>
+#include <motionrack/sim/parts/serial_word_source.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

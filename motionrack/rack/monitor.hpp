@@ -8,15 +8,15 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <motionrack/control/path_axes.hpp>
-#include <motionrack/control/plan.hpp>
+#include <motionrack/control/axis_group.hpp>
+#include <motionrack/control/planned_move.hpp>
 #include <motionrack/rack/breaches.hpp>
 #include <motionrack/rack/programmed_path.hpp>
 #include <motionrack/rack/top_speed.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
-#include <motionrack/trace/sample_keeper.hpp>
+#include <motionrack/sim/position_function.hpp>
+#include <motionrack/trace/decimating_buffer.hpp>
 #include <vector>
 
 namespace motionrack::rack {

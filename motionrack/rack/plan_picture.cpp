@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <motionrack/control/path.hpp>
-#include <motionrack/control/profile.hpp>
-#include <motionrack/control/ride/ride.hpp>
-#include <motionrack/rack/path_segment.hpp>
+#include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+#include <motionrack/control/trajectory/offline_trajectory.hpp>
 #include <motionrack/rack/plan_picture.hpp>
+#include <motionrack/rack/report_segment.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <vector>
 

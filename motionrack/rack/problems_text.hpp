@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <motionrack/control/gcode/reader.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <string>
 
 namespace motionrack::rack {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/grating_card.hpp>
-#include <motionrack/rack/history.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/trace_hash_log.hpp>
 
 namespace motionrack::rack {
 

@@ -10,7 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/job_recorder.hpp>
 #include <motionrack/rack/wave_recorder.hpp>

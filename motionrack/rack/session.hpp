@@ -18,7 +18,7 @@
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
-#include <motionrack/rack/wire_desk.hpp>
+#include <motionrack/rack/wire_access.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -4,13 +4,13 @@
 #include <cctype>
 #include <filesystem>
 #include <motionrack/base/read_whole_file.hpp>
-#include <motionrack/control/gcode/reader.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/problems_text.hpp>
 #include <motionrack/rack/raised_flag.hpp>
 #include <motionrack/rack/session.hpp>
-#include <motionrack/rack/subprograms.hpp>
+#include <motionrack/rack/subprogram_files.hpp>
 
 namespace motionrack::rack {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <motionrack/rack/wave_recorder.hpp>
-#include <motionrack/rack/wire_desk.hpp>
+#include <motionrack/rack/wire_access.hpp>
 
 namespace motionrack::rack {
 

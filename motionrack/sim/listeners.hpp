@@ -7,7 +7,7 @@
 
 #include <array>
 #include <motionrack/base/result.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/range.hpp>
 
 namespace motionrack::sim {

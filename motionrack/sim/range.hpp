@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 
 namespace motionrack::sim {
 

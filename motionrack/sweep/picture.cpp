@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <motionrack/base/numbers.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/sweep/picture.hpp>
 #include <motionrack/trace/csv_rows.hpp>
 #include <motionrack/trace/svg_scatter.hpp>

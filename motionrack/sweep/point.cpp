@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <motionrack/authority/secrets.hpp>
+#include <motionrack/auth/secrets.hpp>
 #include <motionrack/sweep/point.hpp>
 #include <optional>
 
@@ -101,7 +101,7 @@ Result<PointText> read_point(std::string_view text) {
 }
 
 std::string key_of(std::string_view text) {
-    return authority::hash_of(text).substr(0, 32);
+    return auth::hash_of(text).substr(0, 32);
 }
 
 }  // namespace motionrack::sweep

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/sweep/sweep.hpp>
 #include <set>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/sweep/sweep_fields.hpp>
 #include <sstream>
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/trace/decimating_buffer.hpp>
 #include <motionrack/trace/recording.hpp>
 #include <motionrack/trace/recording_parts.hpp>
 #include <motionrack/trace/report_json.hpp>
-#include <motionrack/trace/sample_keeper.hpp>
 
 namespace motionrack::trace {
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/trace/decimated_path.hpp>
 #include <motionrack/trace/report_parts.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
-#include <motionrack/trace/thin.hpp>
 
 namespace motionrack::trace {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <motionrack/disk/new_file.hpp>
+#include <motionrack/trace/decimated_path.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
-#include <motionrack/trace/thin.hpp>
 
 namespace motionrack::trace {
 

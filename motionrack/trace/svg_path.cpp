@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
+#include <motionrack/trace/decimated_path.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <motionrack/trace/svg_parts.hpp>
 #include <motionrack/trace/text.hpp>
-#include <motionrack/trace/thin.hpp>
 
 namespace motionrack::trace {
 

@@ -7,7 +7,7 @@
 #include <motionrack/rack/register_view.hpp>
 #include <python/src/bindings.hpp>
 #include <python/src/map_dict.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -6,7 +6,7 @@
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -1,6 +1,6 @@
 // Errors become the exceptions of motionrack.errors.
 #include <python/src/bindings.hpp>
-#include <python/src/raised.hpp>
+#include <python/src/python_error.hpp>
 
 namespace motionrack::python {
 

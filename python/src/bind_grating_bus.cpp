@@ -3,10 +3,10 @@
 #include <pybind11/stl.h>
 
 #include <motionrack/cards/grating_bus/driver/grating_card.hpp>
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/grating_card.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -3,7 +3,7 @@
 
 #include <motionrack/rack/homing.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -6,7 +6,7 @@
 #include <motionrack/cards/ioflex02/driver/speed.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -9,7 +9,7 @@
 #include <motionrack/trace/report.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -6,8 +6,8 @@
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/operated.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
+#include <python/src/stepped_machine.hpp>
 
 namespace motionrack::python {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

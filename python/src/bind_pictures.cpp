@@ -4,7 +4,7 @@
 
 #include <motionrack/trace/svg.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/raised.hpp>
+#include <python/src/python_error.hpp>
 
 namespace motionrack::python {
 

@@ -9,7 +9,7 @@
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/template.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
 

@@ -10,9 +10,9 @@
 #include <memory>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/cards/mcx314/library/library.hpp>
-#include <motionrack/live/port.hpp>
+#include <motionrack/live/card_port.hpp>
 #include <python/src/host.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 #include <string>
 
 namespace motionrack::python {

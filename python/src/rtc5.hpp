@@ -4,7 +4,7 @@
 #include <motionrack/cards/rtc5/model/control_commands.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
 #include <python/src/bindings.hpp>
-#include <python/src/turn.hpp>
+#include <python/src/rack_lock.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -7,7 +7,7 @@
 
 #include <functional>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/rack/wire_desk.hpp>
+#include <motionrack/rack/wire_access.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

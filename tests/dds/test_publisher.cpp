@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/dds/clock.hpp>
-#include <motionrack/dds/publishing.hpp>
+#include <motionrack/dds/frame_publisher.hpp>
 #include <motionrack/dds/wire.hpp>
 #include <nlohmann/json.hpp>
 #include <string>

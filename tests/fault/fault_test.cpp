@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <motionrack/rack/scheduled_text.hpp>
 #include <motionrack/rack/session.hpp>
-#include <motionrack/rack/timed_text.hpp>
 #include <motionrack/trace/recording.hpp>
 #include <nlohmann/json.hpp>
 #include <tests/fault/cases.hpp>

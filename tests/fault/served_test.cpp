@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/faults.hpp>
-#include <motionrack/rack/timed_text.hpp>
+#include <motionrack/rack/scheduled_text.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <tests/fault/cases.hpp>
 #include <tests/source_root.hpp>

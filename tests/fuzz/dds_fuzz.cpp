@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <motionrack/dds/test/judge_fuzz.hpp>
+#include <motionrack/dds/test/frame_validator_fuzz.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     motionrack::fuzz::Bytes bytes({data, size});

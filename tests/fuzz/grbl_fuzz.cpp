@@ -2,7 +2,7 @@
 // What comes back is lines of ASCII; after a reset the machine comes to rest, and an empty line is answered with ok.
 #include <cstdint>
 #include <memory>
-#include <motionrack/grbl/session.hpp>
+#include <motionrack/grbl/grbl_session.hpp>
 #include <string>
 #include <tests/fuzz/require.hpp>
 

@@ -16,8 +16,8 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <motionrack/frontends/server/door_orders.hpp>
 #include <motionrack/frontends/server/socket.hpp>
+#include <motionrack/frontends/server/user_commands.hpp>
 #include <motionrack/rack/config.hpp>
 #include <string>
 #include <string_view>
@@ -39,9 +39,9 @@ class ServedConnection {
             return true;
         };
         machine_ = *operate::Machine::make(config(), std::move(settings));
-        authority::AuthSettings door;
+        auth::AuthSettings door;
         door.on_start_code = [](const std::string&) {};
-        door_ = *authority::Authenticator::open(std::move(door));
+        door_ = *auth::Authenticator::open(std::move(door));
         token_ = door_->pair(door_->start_code(), "anna", "127.0.0.1", now())->token;
         users_ = door_->users().size();
         panel::PanelSettings panel;
@@ -111,9 +111,7 @@ class ServedConnection {
         out.clock = [this] { return now(); };
         return out;
     }
-    authority::Timestamps now() const {
-        return {authority::WallTime(passed_), std::chrono::steady_clock::time_point(passed_)};
-    }
+    auth::Timestamps now() const { return {auth::WallTime(passed_), std::chrono::steady_clock::time_point(passed_)}; }
     void connect() {
         int ends[2] = {};
         require(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0, "a pair of sockets can be made");
@@ -160,9 +158,9 @@ class ServedConnection {
         machine_->quit();
     }
 
-    authority::ControlLease lease_;
+    auth::ControlLease lease_;
     std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Authenticator> door_;
+    std::unique_ptr<auth::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<boost::asio::io_context> io_ = std::make_unique<boost::asio::io_context>(1);
     std::shared_ptr<server::Post> post_;

@@ -2,7 +2,7 @@
 // written and read again is the same.
 #include <cmath>
 #include <cstdint>
-#include <motionrack/control/gcode/lines.hpp>
+#include <motionrack/control/gcode/program_lines.hpp>
 #include <motionrack/control/gcode/tools.hpp>
 #include <tests/fuzz/require.hpp>
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <motionrack/authority/doorkeeper.hpp>
-#include <motionrack/authority/secrets.hpp>
+#include <motionrack/auth/authenticator.hpp>
+#include <motionrack/auth/secrets.hpp>
 #include <tests/fuzz/scratch_file.hpp>
 
 namespace {
 
 using namespace motionrack;
-using namespace motionrack::authority;
+using namespace motionrack::auth;
 using fuzz::require;
 using fuzz::ScratchFile;
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <tests/invariants/invariants.hpp>
 #include <utility>
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/test/contract_port.hpp>
-#include <motionrack/live/port.hpp>
+#include <motionrack/live/card_port.hpp>
 #include <optional>
 #include <tests/live/mapped_file.hpp>
 #include <tests/live/served_clock.hpp>

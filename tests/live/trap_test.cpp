@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <motionrack/cards/mcx314/map.hpp>
-#include <motionrack/live/port.hpp>
+#include <motionrack/live/card_port.hpp>
 #include <tests/live/mapped_file.hpp>
 #include <tests/live/trap.hpp>
 

@@ -10,7 +10,7 @@
 #include <future>
 #include <motionrack/base/fnv.hpp>
 #include <motionrack/journal/test/bad_disk.hpp>
-#include <motionrack/operate/logbook.hpp>
+#include <motionrack/operate/journal_writer.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/template.hpp>
 #include <tests/environment.hpp>

@@ -1,7 +1,7 @@
 // Centres and extreme points of arcs.
 #include <cmath>
 #include <motionrack/control/gcode/arc.hpp>
-#include <motionrack/control/gcode/planar.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
 
 namespace motionrack::control::gcode {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/control/gcode/language/expression.hpp>
+#include <motionrack/control/gcode/language/expression_parser.hpp>
 #include <motionrack/control/gcode/problem.hpp>
 #include <string_view>
 #include <vector>

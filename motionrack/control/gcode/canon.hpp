@@ -8,7 +8,7 @@
 #pragma once
 
 #include <functional>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <string>
 #include <string_view>
 

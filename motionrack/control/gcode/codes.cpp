@@ -3,7 +3,7 @@
 
 #include <array>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/turning.hpp>
+#include <motionrack/control/gcode/lathe_cycle.hpp>
 
 namespace motionrack::control::gcode {
 

@@ -2,8 +2,8 @@
 
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/empty_program.hpp>
-#include <motionrack/control/gcode/language/flow_line.hpp>
-#include <motionrack/control/gcode/lines.hpp>
+#include <motionrack/control/gcode/language/oword.hpp>
+#include <motionrack/control/gcode/program_lines.hpp>
 
 namespace motionrack::control::gcode {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
-#include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/language/machine_parameters.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
 
 namespace motionrack::control::gcode {
@@ -138,10 +138,9 @@ bool Interpreter::check_values() {
     }
     if (block_.has('T')) {
         if (!need_integer('T', 0, 1e9, "a tool number")) return false;
-        if (block_['T'] > largest_tool) {
+        if (block_['T'] > largest_tool)
             return fail_word('T', GrblStatus::value_too_large,
                              fmt::format("{}: tools are T0 to T99999", word_text('T')));
-        }
         if (!require_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
     }
     return true;

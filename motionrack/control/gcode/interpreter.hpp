@@ -29,15 +29,15 @@
 #pragma once
 
 #include <motionrack/control/gcode/arc.hpp>
+#include <motionrack/control/gcode/biarc_approximator.hpp>
 #include <motionrack/control/gcode/block.hpp>
-#include <motionrack/control/gcode/cycle.hpp>
-#include <motionrack/control/gcode/frame.hpp>
-#include <motionrack/control/gcode/held.hpp>
+#include <motionrack/control/gcode/canon_call.hpp>
+#include <motionrack/control/gcode/compensation_queue.hpp>
+#include <motionrack/control/gcode/drill_cycle.hpp>
 #include <motionrack/control/gcode/language/parameters.hpp>
+#include <motionrack/control/gcode/lathe_cycle.hpp>
 #include <motionrack/control/gcode/settings.hpp>
-#include <motionrack/control/gcode/spline.hpp>
-#include <motionrack/control/gcode/step.hpp>
-#include <motionrack/control/gcode/turning.hpp>
+#include <motionrack/control/gcode/work_frame.hpp>
 
 namespace motionrack::control::gcode {
 

@@ -6,7 +6,7 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
-#include <motionrack/control/gcode/planar.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
 
 namespace motionrack::control::gcode {
 

@@ -5,7 +5,7 @@
 #include <bit>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
-#include <motionrack/control/gcode/planar.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
 
 namespace motionrack::control::gcode {
 

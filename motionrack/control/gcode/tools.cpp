@@ -5,8 +5,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <motionrack/control/gcode/lines.hpp>
 #include <motionrack/control/gcode/number.hpp>
+#include <motionrack/control/gcode/program_lines.hpp>
 #include <motionrack/control/gcode/tools.hpp>
 
 namespace motionrack::control::gcode {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <span>
 #include <string>
 #include <string_view>

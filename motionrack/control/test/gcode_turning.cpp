@@ -3,8 +3,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <motionrack/control/gcode/cutter.hpp>
-#include <motionrack/control/gcode/planar.hpp>
+#include <motionrack/control/gcode/cutter_geometry.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
 #include <optional>
 
 #include "gcode_support.hpp"

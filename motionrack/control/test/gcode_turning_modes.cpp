@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <motionrack/control/gcode/cutter.hpp>
-#include <motionrack/control/gcode/planar.hpp>
+#include <motionrack/control/gcode/cutter_geometry.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
 
 #include "gcode_support.hpp"
 

@@ -1,7 +1,7 @@
 // What goes to a virtual card, the publishing loop, and what is refused before any network is touched.
 #include <gtest/gtest.h>
 
-#include <motionrack/dds/publishing.hpp>
+#include <motionrack/dds/frame_publisher.hpp>
 #include <motionrack/dds/remote_feed.hpp>
 #include <motionrack/dds/test/samples.hpp>
 #include <vector>

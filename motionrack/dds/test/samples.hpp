@@ -1,7 +1,7 @@
 // Samples for tests: whose positions tell their number.
 #pragma once
 
-#include <motionrack/dds/judge.hpp>
+#include <motionrack/dds/frame_validator.hpp>
 
 namespace motionrack::dds {
 

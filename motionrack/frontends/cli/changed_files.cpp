@@ -5,7 +5,7 @@
 #include <motionrack/base/fnv.hpp>
 #include <motionrack/frontends/cli/changed_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/subprograms.hpp>
+#include <motionrack/rack/subprogram_files.hpp>
 
 namespace motionrack::cli {
 

@@ -8,7 +8,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <nlohmann/json.hpp>

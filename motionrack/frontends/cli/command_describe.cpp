@@ -7,8 +7,8 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/mark/job.hpp>
-#include <motionrack/panel/tables.hpp>
+#include <motionrack/mark/marking_job.hpp>
+#include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/stop_reactions.hpp>

@@ -3,14 +3,14 @@
 
 #include <memory>
 #include <motionrack/dds/clock.hpp>
-#include <motionrack/dds/publishing.hpp>
+#include <motionrack/dds/frame_publisher.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/fault_plan.hpp>
-#include <motionrack/rack/frame_tap.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
+#include <motionrack/rack/frame_stepper.hpp>
 #include <motionrack/rack/job.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -8,11 +8,11 @@
 #include <motionrack/dds/clock.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/fault_plan.hpp>
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 

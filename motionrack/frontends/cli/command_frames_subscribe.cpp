@@ -10,7 +10,7 @@
 #include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 
 namespace motionrack::cli {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <vector>
 

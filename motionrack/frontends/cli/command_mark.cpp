@@ -6,11 +6,11 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/png.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/render.hpp>
 #include <motionrack/trace/report.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>

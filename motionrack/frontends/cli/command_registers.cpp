@@ -6,7 +6,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/live/port.hpp>
+#include <motionrack/live/card_port.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/register_view.hpp>

@@ -6,8 +6,8 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/recorded_job.hpp>
 #include <motionrack/trace/diff.hpp>

@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <motionrack/authority/private_files.hpp>
-#include <motionrack/authority/secrets.hpp>
+#include <motionrack/auth/private_files.hpp>
+#include <motionrack/auth/secrets.hpp>
 #include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/line_output.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/system_service.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/frontends/server/served_rack.hpp>
-#include <motionrack/operate/logbook.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/operate/journal_writer.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <optional>
 
 namespace motionrack::cli {
@@ -82,7 +82,7 @@ class Serving {
         settings.factor = options_.speed;
         settings.meanwhile = [this] { stop_if_asked(); };
         settings.version = MOTIONRACK_VERSION;
-        settings.boot = authority::random_token().substr(0, 8);
+        settings.boot = auth::random_token().substr(0, 8);
         settings.door = door_settings();
         // A journal behind a link is written where it is: it is never made anew.
         std::error_code none;
@@ -105,7 +105,7 @@ class Serving {
     }
 
     Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
-        MOTIONRACK_CHECK(authority::check_writers(options_.journal, "The journal"));
+        MOTIONRACK_CHECK(auth::check_writers(options_.journal, "The journal"));
         journal::JournalSettings book;
         book.max_bytes = options_.journal_megabytes * 1'000'000;
         book.on_quota = [this](const std::string& sentence) { say(sentence); };
@@ -118,8 +118,8 @@ class Serving {
         return {};
     }
 
-    authority::AuthSettings door_settings() {
-        authority::AuthSettings settings;
+    auth::AuthSettings door_settings() {
+        auth::AuthSettings settings;
         const fs::path folder = options_.users.empty() ? state_folder() : fs::path();
         settings.users_file = !options_.users.empty() ? fs::path(options_.users)
                               : folder.empty()        ? fs::path()
@@ -139,7 +139,7 @@ class Serving {
         if (!options_.certificate.empty()) settings.tls = server::TlsFiles{options_.certificate, options_.key};
         settings.hosts = options_.hosts;
         settings.origins = options_.origins;
-        if (options_.no_pairing) settings.loopback_role = authority::Role::maintain;
+        if (options_.no_pairing) settings.loopback_role = auth::Role::maintain;
         return settings;
     }
 

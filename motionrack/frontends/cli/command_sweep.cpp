@@ -7,13 +7,13 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
-#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/nats/machines.hpp>
-#include <motionrack/rack/counted.hpp>
+#include <motionrack/nats/distributed_sweep.hpp>
+#include <motionrack/rack/count_noun.hpp>
 #include <motionrack/sweep/picture.hpp>
-#include <motionrack/sweep/work.hpp>
+#include <motionrack/sweep/worker.hpp>
 #include <string>
 #include <thread>
 #include <vector>

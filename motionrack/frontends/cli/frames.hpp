@@ -4,7 +4,7 @@
 
 #include <motionrack/dds/subscriber.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 #include <string>
 
 namespace motionrack::cli {

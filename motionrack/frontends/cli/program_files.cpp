@@ -9,7 +9,7 @@
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/problems_text.hpp>
-#include <motionrack/rack/subprograms.hpp>
+#include <motionrack/rack/subprogram_files.hpp>
 #include <motionrack/rack/template.hpp>
 
 namespace motionrack::cli {

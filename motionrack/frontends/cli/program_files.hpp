@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <motionrack/base/result.hpp>
-#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/rack/config.hpp>
 #include <optional>
 #include <string>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <motionrack/frontends/calls/calls.hpp>
-#include <motionrack/frontends/mcx314lib/bench.hpp>
+#include <motionrack/frontends/mcx314lib/chip_table.hpp>
 #include <string_view>
 
 namespace motionrack::mcx314lib {

@@ -8,7 +8,7 @@
 
 namespace motionrack::server {
 
-using authority::Role;
+using auth::Role;
 using nlohmann::json;
 
 namespace {
@@ -57,7 +57,7 @@ void Client::opened() {
                          {{"version", settings.version},
                           {"rack", settings.rack},
                           {"boot", settings.boot},
-                          {"role", authority::name_of(role())},
+                          {"role", auth::name_of(role())},
                           {"user", user_},
                           {"session", panel::session_mark(session_)},
                           {"simulation", true}}}};
@@ -116,7 +116,7 @@ void Client::token(const Request& request) {
     token_id_ = who->id;
     seen_ = true;
     allow_for(who->role);
-    answer(request.id, panel::done({{"role", authority::name_of(who->role)}, {"user", who->user}}));
+    answer(request.id, panel::done({{"role", auth::name_of(who->role)}, {"user", who->user}}));
 }
 
 void Client::subscribe(const Request& request) {

@@ -1,7 +1,7 @@
 // One WebSocket client: what it says, what it looks at, what waits to be sent to it.
 //
 //   message ─► token, subscribe, order, query ─► answers ─┐
-//   tick ─► picture, unless two wait already (then one more is lost) ─┼─► [ queue ] ─► MessageSink::write, one at a time
+//   tick ─► picture, unless two wait already (then one more is lost) ─┼─► [ queue ] ─► MessageSink::write, one by one
 //   event ────────────────────────────────────────────────┘      too long a queue: the client is let go
 //
 // The network thread's.
@@ -64,11 +64,11 @@ class Client : public std::enable_shared_from_this<Client> {
         nlohmann::json id;
         nlohmann::json fields;
     };
-    authority::Role role() const;
+    auth::Role role() const;
     panel::Caller caller() const { return {user_, role(), session_}; }
     void token(const Request& request);
     /// Who may operate may send whole programs.
-    void allow_for(authority::Role role);
+    void allow_for(auth::Role role);
     void subscribe(const Request& request);
     void ask(const Request& request, const std::string& name, bool query);
     void answer(const nlohmann::json& id, panel::Answer answer);
@@ -79,7 +79,7 @@ class Client : public std::enable_shared_from_this<Client> {
     Peer peer_;
     std::string session_, user_, token_id_;
     MessageSink* wire_;
-    authority::RateLimit messages_;
+    auth::RateLimit messages_;
     std::size_t asks_ = 0;
     // what it looks at
     std::shared_ptr<panel::ChannelSet> channels_;

@@ -8,8 +8,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
-#include <motionrack/authority/rate_limit.hpp>
-#include <motionrack/frontends/server/grbl_line.hpp>
+#include <motionrack/auth/rate_limit.hpp>
+#include <motionrack/frontends/server/grbl_connection.hpp>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/frontends/server/sender_port.hpp>
@@ -43,7 +43,7 @@ struct Visitor {
 /// Everything but construction happens on the network thread.
 class GrblPorts::Inside {
   public:
-    Inside(const GrblPortSettings& settings, operate::Machine& machine, authority::ControlLease& lease)
+    Inside(const GrblPortSettings& settings, operate::Machine& machine, auth::ControlLease& lease)
         : settings_(settings), machine_(machine), lease_(lease) {}
     ~Inside() {
         io_->stop();
@@ -258,7 +258,7 @@ class GrblPorts::Inside {
 
     const GrblPortSettings settings_;
     operate::Machine& machine_;
-    authority::ControlLease& lease_;
+    auth::ControlLease& lease_;
     std::shared_ptr<asio::io_context> io_ = std::make_shared<asio::io_context>(1);
     tcp::acceptor acceptor_{*io_};
     asio::steady_timer pause_{*io_};
@@ -266,7 +266,7 @@ class GrblPorts::Inside {
     std::shared_ptr<SenderPort> tcp_port_, terminal_port_;
     std::vector<std::shared_ptr<Visitor>> visitors_;  ///< in the order in which they came
     Visitor* writer_ = nullptr;
-    authority::RateLimit strangers_{1, 1};
+    auth::RateLimit strangers_{1, 1};
     /// What a client wrote may come a little after it has gone. Nobody is heard or greeted so soon after another,
     /// who may still write into the void.
     static constexpr std::chrono::milliseconds settling{50};
@@ -286,7 +286,7 @@ GrblPorts::GrblPorts(std::unique_ptr<Inside> inside) : inside_(std::move(inside)
 GrblPorts::~GrblPorts() = default;
 
 Result<std::unique_ptr<GrblPorts>> GrblPorts::open(const GrblPortSettings& settings, operate::Machine& machine,
-                                                   authority::ControlLease& lease) {
+                                                   auth::ControlLease& lease) {
     auto inside = std::make_unique<Inside>(settings, machine, lease);
     MOTIONRACK_CHECK(inside->open());
     return std::unique_ptr<GrblPorts>(new GrblPorts(std::move(inside)));

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/auth/control_lease.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <optional>
@@ -42,7 +42,7 @@ class GrblPorts {
     /// Opens what the settings name and begins to serve on a thread of its own. Before Machine::run; machine and lease
     /// must outlive it. Errors: io, the port is taken, no pseudo-terminal, the link's path is something else.
     static Result<std::unique_ptr<GrblPorts>> open(const GrblPortSettings& settings, operate::Machine& machine,
-                                                   authority::ControlLease& lease);
+                                                   auth::ControlLease& lease);
     /// Closes all connections, takes the link away and ends the thread. The machine is not touched.
     ~GrblPorts();
 

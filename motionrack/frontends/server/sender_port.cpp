@@ -5,7 +5,7 @@
 
 namespace motionrack::server {
 
-SenderPort::SenderPort(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings)
+SenderPort::SenderPort(operate::Machine& machine, auth::ControlLease& lease, const GrblPortSettings& settings)
     : machine_(machine), lease_(lease), resets_stop_all_(settings.resets_stop_all) {
     grbl::SessionSettings session;
     session.axes = settings.axes;

@@ -3,10 +3,10 @@
 
 #include <functional>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/frontends/server/grbl_line.hpp>
+#include <motionrack/auth/control_lease.hpp>
+#include <motionrack/frontends/server/grbl_connection.hpp>
 #include <motionrack/frontends/server/grbl_ports.hpp>
-#include <motionrack/grbl/session.hpp>
+#include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <string>
 
@@ -14,7 +14,7 @@ namespace motionrack::server {
 
 class SenderPort : public std::enable_shared_from_this<SenderPort> {
   public:
-    SenderPort(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings);
+    SenderPort(operate::Machine& machine, auth::ControlLease& lease, const GrblPortSettings& settings);
 
     /// Where output goes; on the motion thread. Set before Machine::run.
     std::function<void(PortMessage)> send;
@@ -37,7 +37,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     void see_control();
 
     operate::Machine& machine_;
-    authority::ControlLease& lease_;
+    auth::ControlLease& lease_;
     const bool resets_stop_all_;
     std::unique_ptr<grbl::GrblSession> session_;
     std::string user_ = "a sender", address_, id_ = "grbl";  ///< of who writes

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <motionrack/frontends/server/door_orders.hpp>
 #include <motionrack/frontends/server/served_rack.hpp>
+#include <motionrack/frontends/server/user_commands.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -41,7 +41,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
     };
     settings.machine.wall = [this] { return clock_.now(); };
     MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings.machine)));
-    MOTIONRACK_TRY(door_, authority::Authenticator::open(std::move(settings.door)));
+    MOTIONRACK_TRY(door_, auth::Authenticator::open(std::move(settings.door)));
     if (settings.grbl) {
         if (journal_ != nullptr) {
             settings.grbl->on_setting = [this](const std::string& sender, const std::string& text) {

@@ -8,17 +8,17 @@
 
 #include <functional>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/authority/doorkeeper.hpp>
-#include <motionrack/authority/rate_limit.hpp>
+#include <motionrack/auth/authenticator.hpp>
+#include <motionrack/auth/control_lease.hpp>
+#include <motionrack/auth/rate_limit.hpp>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/server.hpp>
 #include <motionrack/frontends/server/settings.hpp>
 #include <motionrack/journal/journal.hpp>
 #include <motionrack/live/clock.hpp>
+#include <motionrack/operate/clock_pacer.hpp>
 #include <motionrack/operate/machine.hpp>
-#include <motionrack/operate/pacer.hpp>
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/rack/config.hpp>
 #include <optional>
@@ -35,7 +35,7 @@ struct ServedSettings {
     journal::Journal* journal = nullptr;  ///< what happens, what is asked and who asked is written to it
     std::string version = {}, boot = {};  ///< as the server greets
     operate::MachineSettings machine = {};
-    authority::AuthSettings door = {};
+    auth::AuthSettings door = {};
     panel::PanelSettings panel = {};
     std::optional<GrblPortSettings> grbl = {};
     ServerSettings server = {};
@@ -53,9 +53,9 @@ class ServedRack {
     void stop();
 
     operate::ClockPacer& pacer() { return pacer_; }
-    authority::ControlLease& lease() { return lease_; }
+    auth::ControlLease& lease() { return lease_; }
     operate::Machine& machine() { return *machine_; }
-    authority::Authenticator& door() { return *door_; }
+    auth::Authenticator& door() { return *door_; }
     panel::Panel& panel() { return *panel_; }
     Server& server() { return *server_; }
     const GrblPorts* grbl() const { return grbl_.get(); }  ///< nullptr: none were asked for
@@ -67,11 +67,11 @@ class ServedRack {
 
     live::MonotonicClock clock_;
     operate::ClockPacer pacer_{clock_, operate::ClockMode::real, 1};
-    authority::ControlLease lease_;
+    auth::ControlLease lease_;
     journal::Journal* journal_ = nullptr;
-    authority::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token
+    auth::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token
     std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Authenticator> door_;
+    std::unique_ptr<auth::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<Server> server_;
     std::unique_ptr<GrblPorts> grbl_;

@@ -5,7 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <motionrack/authority/private_files.hpp>
+#include <motionrack/auth/private_files.hpp>
 #include <motionrack/frontends/server/listener.hpp>
 #include <motionrack/frontends/server/server.hpp>
 #include <thread>
@@ -21,7 +21,7 @@ namespace {
 constexpr std::chrono::seconds close_timeout{1};
 
 Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
-    MOTIONRACK_CHECK(authority::check_readers(files.key, "The key"));
+    MOTIONRACK_CHECK(auth::check_readers(files.key, "The key"));
     auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
     error_code error;
     ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);
@@ -72,7 +72,7 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
 
 class Server::Inside {
   public:
-    Inside(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door, authority::ControlLease& lease,
+    Inside(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
            Page page)
         : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
           hall_(std::make_shared<ConnectionPool>(
@@ -148,9 +148,8 @@ Server::Server(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
 
 Server::~Server() = default;
 
-Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel,
-                                             authority::Authenticator& door, authority::ControlLease& lease,
-                                             Page page) {
+Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
+                                             auth::ControlLease& lease, Page page) {
     auto inside = std::make_unique<Inside>(std::move(settings), panel, door, lease, std::move(page));
     MOTIONRACK_CHECK(inside->open());
     return std::unique_ptr<Server>(new Server(std::move(inside)));

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/auth/authenticator.hpp>
+#include <motionrack/auth/control_lease.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/settings.hpp>
@@ -18,9 +18,8 @@ class Server {
     /// Takes the port and begins to serve. Before Machine::run; panel, door and lease must outlive it.
     /// Errors: io (the port is taken, a TLS file cannot be used), refused (another address than loopback without TLS),
     /// bad_input (no address).
-    static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel,
-                                                authority::Authenticator& door, authority::ControlLease& lease,
-                                                Page page);
+    static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
+                                                auth::ControlLease& lease, Page page);
     ~Server();
 
     /// Says close_with_reason to all and ends the thread; takes a second at most.

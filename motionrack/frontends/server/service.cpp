@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <motionrack/frontends/server/door_orders.hpp>
 #include <motionrack/frontends/server/service.hpp>
+#include <motionrack/frontends/server/user_commands.hpp>
 
 namespace motionrack::server {
 
-using authority::Role;
+using auth::Role;
 using nlohmann::json;
 
 namespace {
@@ -57,8 +57,8 @@ bool is_query(const panel::OperationSpec& row) {
     return &row >= queries.data() && &row < queries.data() + queries.size();
 }
 
-Service::Service(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door,
-                 authority::ControlLease& lease, Page page, std::shared_ptr<Post> post)
+Service::Service(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
+                 Page page, std::shared_ptr<Post> post)
     : settings_(std::move(settings)),
       panel_(panel),
       door_(door),
@@ -221,17 +221,17 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
     panel::Answer answer;
     if (paired) {
         answer = panel::done({{"token", paired->token},
-                              {"role", authority::name_of(paired->identity.role)},
+                              {"role", auth::name_of(paired->identity.role)},
                               {"user", paired->identity.user},
                               {"expires", utc_text(paired->identity.expires)}});
     } else {
-        using Why = authority::AuthError::Why;
+        using Why = auth::AuthError::Why;
         const Why why = paired.error().reason;
         answer = why == Why::too_many ? panel::refused_answer(429, "limit", paired.error().sentence)
                  : why == Why::failed ? panel::refused_answer(500, "io", paired.error().sentence)
                                       : panel::refused_answer(403, "denied", paired.error().sentence);
     }
-    audit(authority::name_problem(name).empty() ? name : "", head.peer.address, "pair", answer, paired.has_value());
+    audit(auth::name_problem(name).empty() ? name : "", head.peer.address, "pair", answer, paired.has_value());
     return http_answer(answer);
 }
 
@@ -245,7 +245,7 @@ HttpAnswer Service::forget(const RequestHead& head) {
     return http_answer(answer);
 }
 
-authority::AuthResult<authority::Identity> Service::authenticate(const std::string& token, const Peer& peer) {
+auth::AuthResult<auth::Identity> Service::authenticate(const std::string& token, const Peer& peer) {
     auto who = door_.authenticate(token, now().wall);
     if (!who) audit("", peer.address, "token", panel::refused_answer(401, "denied", who.error().sentence), false);
     return who;

@@ -9,16 +9,16 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/authority/doorkeeper.hpp>
-#include <motionrack/authority/rate_limit.hpp>
-#include <motionrack/frontends/server/guard.hpp>
+#include <motionrack/auth/authenticator.hpp>
+#include <motionrack/auth/control_lease.hpp>
+#include <motionrack/auth/rate_limit.hpp>
 #include <motionrack/frontends/server/http.hpp>
+#include <motionrack/frontends/server/origin_policy.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/settings.hpp>
 #include <motionrack/frontends/server/stranger_log.hpp>
+#include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/panel/panel.hpp>
-#include <motionrack/panel/tables.hpp>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -55,8 +55,8 @@ bool is_query(const panel::OperationSpec& row);
 
 class Service {
   public:
-    Service(ServerSettings settings, panel::Panel& panel, authority::Authenticator& door,
-            authority::ControlLease& lease, Page page, std::shared_ptr<Post> post);
+    Service(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
+            Page page, std::shared_ptr<Post> post);
 
     // ---- HTTP
     Admission admit(const RequestHead& head);
@@ -75,10 +75,10 @@ class Service {
     /// A connection has ended.
     void left(const std::string& session);
     /// The role of who comes without a token.
-    authority::Role role_without_token(const Peer& peer) const {
-        return peer.loopback ? settings_.loopback_role : authority::Role::none;
+    auth::Role role_without_token(const Peer& peer) const {
+        return peer.loopback ? settings_.loopback_role : auth::Role::none;
     }
-    authority::AuthResult<authority::Identity> authenticate(const std::string& token, const Peer& peer);
+    auth::AuthResult<auth::Identity> authenticate(const std::string& token, const Peer& peer);
 
     /// `is_known`: asked by who may; else by a stranger, who may not fill the audit.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
@@ -86,10 +86,10 @@ class Service {
     /// What time brings; every few ms.
     void tick() { strangers_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
-    authority::Timestamps now() const { return settings_.clock(); }
+    auth::Timestamps now() const { return settings_.clock(); }
     panel::Panel& panel() { return panel_; }
-    authority::Authenticator& door() { return door_; }
-    authority::ControlLease& lease() { return lease_; }
+    auth::Authenticator& door() { return door_; }
+    auth::ControlLease& lease() { return lease_; }
     const std::shared_ptr<Post>& post() const { return post_; }
 
   private:
@@ -101,12 +101,12 @@ class Service {
 
     ServerSettings settings_;
     panel::Panel& panel_;
-    authority::Authenticator& door_;
-    authority::ControlLease& lease_;
+    auth::Authenticator& door_;
+    auth::ControlLease& lease_;
     Page page_;
     OriginPolicy guard_;
     std::shared_ptr<Post> post_;
-    authority::RateLimit requests_, told_;
+    auth::RateLimit requests_, told_;
     StrangerLog strangers_;
     std::string openapi_;
 };

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <motionrack/authority/doorkeeper.hpp>
-#include <motionrack/authority/role.hpp>
+#include <motionrack/auth/authenticator.hpp>
+#include <motionrack/auth/role.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,13 +58,13 @@ struct ServerSettings {
     std::optional<TlsFiles> tls = {};
     std::vector<std::string> hosts =
         {};  ///< names that this computer is called by, besides localhost and its addresses
-    std::vector<std::string> origins = {};  ///< "http://localhost:5173": pages from elsewhere that may ask
-    authority::Role loopback_role = authority::Role::observe;  ///< of who comes from this computer without a token
+    std::vector<std::string> origins = {};           ///< "http://localhost:5173": pages from elsewhere that may ask
+    auth::Role loopback_role = auth::Role::observe;  ///< of who comes from this computer without a token
     std::string version = {}, rack = {}, boot = {};
     Limits limits = {};
     std::function<void(const AuditEntry&)> audit = {};  ///< on the network thread; must not wait
-    std::function<authority::Timestamps()> clock = [] {
-        return authority::Timestamps{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
+    std::function<auth::Timestamps()> clock = [] {
+        return auth::Timestamps{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
     };
 };
 

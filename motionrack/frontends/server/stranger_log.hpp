@@ -8,7 +8,7 @@
 #include <chrono>
 #include <functional>
 #include <map>
-#include <motionrack/authority/rate_limit.hpp>
+#include <motionrack/auth/rate_limit.hpp>
 #include <motionrack/frontends/server/settings.hpp>
 #include <string>
 
@@ -34,7 +34,7 @@ class StrangerLog {
         AuditEntry last;
     };
     Write write_;
-    authority::RateLimit of_a_network_{20, 0.1}, of_all_{100, 1};
+    auth::RateLimit of_a_network_{20, 0.1}, of_all_{100, 1};
     std::map<std::string, Counted> counted_;
     Time begun_{};  ///< of the period
 };

@@ -9,7 +9,7 @@
 #include <condition_variable>
 #include <deque>
 #include <memory>
-#include <motionrack/grbl/session.hpp>
+#include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/rack/template.hpp>
 #include <mutex>
 #include <optional>

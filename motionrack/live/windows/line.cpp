@@ -1,7 +1,7 @@
 // Windows brings no interrupt of a card to a program without the card's own driver.
 #include <fmt/format.h>
 
-#include <motionrack/live/line.hpp>
+#include <motionrack/live/interrupt_line.hpp>
 
 namespace motionrack::live {
 

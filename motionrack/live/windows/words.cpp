@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/base/late_library.hpp>
-#include <motionrack/live/words.hpp>
+#include <motionrack/live/word_access.hpp>
 
 // How the library's functions are called by programs of 32 bits; those of 64 bits have one way.
 #if defined(__i386__)

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/render.hpp>
 #include <string>
 
 namespace motionrack::mark {

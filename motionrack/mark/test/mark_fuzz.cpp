@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/mark/gcode_drawing.hpp>
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/render.hpp>
+#include <motionrack/mark/stroke_font.hpp>
 #include <motionrack/mark/svg.hpp>
 #include <motionrack/mark/test/mark_fuzz.hpp>
-#include <motionrack/mark/text.hpp>
 
 namespace motionrack::mark::fuzz {
 

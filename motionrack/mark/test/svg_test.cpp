@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <motionrack/mark/stroke_font.hpp>
 #include <motionrack/mark/svg.hpp>
-#include <motionrack/mark/text.hpp>
 #include <random>
 
 namespace motionrack::mark {

@@ -7,9 +7,9 @@
 #include <condition_variable>
 #include <deque>
 #include <fstream>
-#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/auth/control_lease.hpp>
+#include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/panel/panel.hpp>
-#include <motionrack/panel/tables.hpp>
 #include <motionrack/rack/config.hpp>
 #include <sstream>
 #include <string>
@@ -43,8 +43,8 @@ inline rack::RackConfig two_axes() {
         "\"m\"\nchannel = \"y\"\n");
 }
 
-inline const Caller anna{"anna", authority::Role::maintain, "w1"}, bert{"bert", authority::Role::operate, "w2"},
-    eve{"eve", authority::Role::observe, "w3"}, nobody{"", authority::Role::none, "w4"};
+inline const Caller anna{"anna", auth::Role::maintain, "w1"}, bert{"bert", auth::Role::operate, "w2"},
+    eve{"eve", auth::Role::observe, "w3"}, nobody{"", auth::Role::none, "w4"};
 
 class Asked {
   public:
@@ -90,7 +90,7 @@ class Asked {
     double x() const { return machine->status().axes[0].commanded; }
 
     /// Its clock stands: control does not run out where a busy machine takes long.
-    authority::ControlLease lease{[] { return authority::Moment{}; }};
+    auth::ControlLease lease{[] { return auth::Moment{}; }};
     std::unique_ptr<operate::Machine> machine;
     std::unique_ptr<Panel> panel;
 
@@ -101,7 +101,7 @@ class Asked {
     };
     bool pace(double now) {
         if (!machine || !panel) return true;
-        // BackgroundWorker and journal answer in the computer's time; an access to a bus needs the rack's.
+        // Worker and journal answer in the computer's time; an access to a bus needs the rack's.
         if (open_ == 0) waiting_since_ = std::chrono::steady_clock::now();
         if (open_ > 0 && std::chrono::steady_clock::now() - waiting_since_ < std::chrono::milliseconds(200)) {
             std::this_thread::yield();

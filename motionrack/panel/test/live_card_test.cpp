@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <motionrack/live/test/zero_card.hpp>
-#include <motionrack/operate/pacer.hpp>
+#include <motionrack/operate/clock_pacer.hpp>
 
 #include "asked.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/auth/control_lease.hpp>
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/panel/test/panel_fuzz.hpp>
 #include <motionrack/rack/config.hpp>
@@ -50,7 +50,7 @@ class Asker {
   private:
     void ask(const std::string& name, const json& fields) {
         ++asked_;
-        panel_->ask({"anna", authority::Role::maintain, "w1"}, name, fields, [this, name](const Answer& answer) {
+        panel_->ask({"anna", auth::Role::maintain, "w1"}, name, fields, [this, name](const Answer& answer) {
             ++answered_;
             if (answer.body.contains("done") == answer.body.contains("error"))
                 problem_ = name + " was answered by neither done nor error";
@@ -72,7 +72,7 @@ class Asker {
 std::string check_orders(std::string_view bytes) {
     static const rack::RackConfig config = *rack::read_rack_text(rack_text).config;
     Asker asker(bytes);
-    authority::ControlLease lease;
+    auth::ControlLease lease;
     {
         operate::MachineSettings settings;
         settings.pace = [&asker](Instant) {

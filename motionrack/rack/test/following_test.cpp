@@ -1,4 +1,4 @@
-// ConveyorTracking errors of axes with an encoder: what is told, what stops the machine, what is refused in a rack
+// Following errors of axes with an encoder: what is told, what stops the machine, what is refused in a rack
 // file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

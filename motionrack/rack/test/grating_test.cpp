@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/grating_bus/map.hpp>
-#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>

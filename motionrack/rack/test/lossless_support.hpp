@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <motionrack/rack/order_plan.hpp>
+#include <motionrack/rack/command_schedule.hpp>
 #include <string>
 #include <tests/journey.hpp>
 #include <tests/pulse_referee.hpp>

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <functional>
-#include <motionrack/control/stream.hpp>
+#include <motionrack/control/stream_executor.hpp>
+#include <motionrack/rack/command_schedule.hpp>
 #include <motionrack/rack/job.hpp>
-#include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 
 namespace motionrack::rack {

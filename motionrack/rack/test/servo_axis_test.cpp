@@ -8,7 +8,7 @@
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 #include <motionrack/rack/test/servo_helpers.hpp>
-#include <motionrack/rack/wire_desk.hpp>
+#include <motionrack/rack/wire_access.hpp>
 
 namespace motionrack::rack {
 namespace {

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <motionrack/base/time.hpp>
 #include <motionrack/sim/listeners.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 
 namespace motionrack::sim {
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 
 namespace motionrack::sim {
 

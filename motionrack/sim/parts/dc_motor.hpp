@@ -16,8 +16,8 @@
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
-#include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <optional>
 #include <span>
 #include <string>

@@ -9,8 +9,8 @@
 
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/line_output.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <string>
 #include <string_view>
 

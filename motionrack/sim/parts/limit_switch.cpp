@@ -1,5 +1,5 @@
 // Thresholds and bounce of a switch.
-#include <motionrack/base/mixed_bits.hpp>
+#include <motionrack/base/hash_bits.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/limit_switch.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 #include <motionrack/base/time.hpp>
-#include <motionrack/sim/parts/axle.hpp>
+#include <motionrack/sim/parts/transmission.hpp>
 #include <optional>
 
 namespace motionrack::parts {

@@ -16,11 +16,11 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/sim/edge_row.hpp>
+#include <motionrack/sim/edge_batcher.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
-#include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <span>
 #include <string>
 #include <string_view>

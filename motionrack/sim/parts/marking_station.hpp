@@ -7,9 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/sim/parts/conveyor.hpp>
 #include <motionrack/sim/parts/galvo.hpp>
 #include <motionrack/sim/parts/laser_gate.hpp>
-#include <motionrack/sim/parts/track.hpp>
 #include <motionrack/sim/parts/workpiece.hpp>
 #include <optional>
 #include <span>

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <string>
 
 namespace motionrack::parts {

@@ -9,7 +9,7 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/sim/blocks/held_state.hpp>
+#include <motionrack/sim/blocks/snapshot_state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
 #include <string>

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/range.hpp>
 #include <string>
 

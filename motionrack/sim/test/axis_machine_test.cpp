@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <motionrack/sim/junction.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 
 namespace motionrack::parts {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/parts/emergency_button.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>

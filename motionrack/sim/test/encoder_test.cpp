@@ -4,7 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/test/allocation_count.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <string>
 #include <vector>
 

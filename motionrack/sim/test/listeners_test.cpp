@@ -1,7 +1,7 @@
 // What motions have in common: ranges and intervals, who hears of them, edges in batches.
 #include <gtest/gtest.h>
 
-#include <motionrack/sim/edge_row.hpp>
+#include <motionrack/sim/edge_batcher.hpp>
 #include <motionrack/sim/listeners.hpp>
 #include <vector>
 

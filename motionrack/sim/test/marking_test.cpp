@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/sim/parts/marking_station.hpp>
-#include <motionrack/sim/parts/position_sender.hpp>
+#include <motionrack/sim/parts/serial_position_source.hpp>
 
 namespace motionrack::parts {
 namespace {
@@ -65,8 +65,8 @@ TEST(Conveyor, TravelIsTheIntegralOfTheProfile) {
 
 TEST(Conveyor, CountsOfABlockAreThoseOfItsTicksOneByOne) {
     const Conveyor track = *Conveyor::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}},
-                                      .counts_per_unit = 777.7,
-                                      .jitter_counts = 0.5});
+                                            .counts_per_unit = 777.7,
+                                            .jitter_counts = 0.5});
     std::vector<std::int32_t> block(700), one(1);
     track.counts(-50, block);
     for (std::size_t i = 0; i < block.size(); ++i) {

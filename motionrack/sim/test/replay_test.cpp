@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/sim/input_log.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 

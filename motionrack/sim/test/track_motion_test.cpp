@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <limits>
+#include <motionrack/sim/parts/conveyor_drive.hpp>
+#include <motionrack/sim/parts/conveyor_position.hpp>
 #include <motionrack/sim/parts/part_sensor.hpp>
-#include <motionrack/sim/parts/track_drive.hpp>
-#include <motionrack/sim/parts/track_motion.hpp>
-#include <motionrack/sim/parts/word_source.hpp>
+#include <motionrack/sim/parts/serial_word_source.hpp>
 #include <vector>
 
 namespace motionrack::parts {

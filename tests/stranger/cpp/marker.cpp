@@ -1,6 +1,6 @@
 // A marking job in a stranger's program.
 #include <cstdio>
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/render.hpp>
 
 int main() {
     using namespace motionrack::mark;

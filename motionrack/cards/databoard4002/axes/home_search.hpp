@@ -12,7 +12,7 @@
 #include <motionrack/base/switch_edges.hpp>
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
-#include <motionrack/control/home.hpp>
+#include <motionrack/control/homing.hpp>
 #include <string>
 #include <string_view>
 

@@ -18,7 +18,7 @@
 #include <motionrack/cards/databoard4002/model/state.hpp>
 #include <motionrack/sim/byte_device.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <span>
 #include <string>
 #include <string_view>

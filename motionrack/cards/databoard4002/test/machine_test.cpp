@@ -11,11 +11,11 @@
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/cards/databoard4002/test/host.hpp>
-#include <motionrack/sim/junction.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/parts/emergency_button.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 #include <vector>
 
 namespace motionrack::databoard4002 {

@@ -1,6 +1,6 @@
 // The sequence S0 .. S12 of a card, step by step, and what comes of a frame.
 #include <algorithm>
-#include <motionrack/base/mixed_bits.hpp>
+#include <motionrack/base/hash_bits.hpp>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 

@@ -7,10 +7,10 @@
 #include <motionrack/cards/ioflex02/driver/encoder_check.hpp>
 #include <motionrack/cards/ioflex02/driver/speed.hpp>
 #include <motionrack/cards/ioflex02/test/rig.hpp>
-#include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/parts/resolver.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 
 namespace motionrack::ioflex02 {
 namespace {

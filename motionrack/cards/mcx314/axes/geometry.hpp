@@ -8,7 +8,7 @@
 #include <motionrack/cards/mcx314/axes/segment.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
-#include <motionrack/control/plan.hpp>
+#include <motionrack/control/planned_move.hpp>
 #include <optional>
 
 namespace motionrack::mcx314 {

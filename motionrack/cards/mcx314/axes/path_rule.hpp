@@ -2,7 +2,7 @@
 #pragma once
 
 #include <motionrack/cards/mcx314/axes/geometry.hpp>
-#include <motionrack/control/path_planner.hpp>
+#include <motionrack/control/trajectory_planner.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -7,7 +7,7 @@
 // So the place does not depend on the feed, and not on when the host looks.
 #include <fmt/format.h>
 
-#include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/axes/chip_axis_group.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {

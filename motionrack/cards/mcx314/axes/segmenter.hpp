@@ -16,8 +16,8 @@
 #include <motionrack/base/time.hpp>
 #include <motionrack/cards/mcx314/axes/geometry.hpp>
 #include <motionrack/cards/mcx314/axes/segment.hpp>
+#include <motionrack/control/axis_group.hpp>
 #include <motionrack/control/geometry.hpp>
-#include <motionrack/control/path_axes.hpp>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/cards/mcx314/axes/geometry.hpp>
-#include <motionrack/cards/mcx314/axes/set_up.hpp>
+#include <motionrack/cards/mcx314/axes/initialise.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
 
 namespace motionrack::mcx314 {

@@ -16,7 +16,7 @@
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/commands.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <string>
 #include <vector>
 

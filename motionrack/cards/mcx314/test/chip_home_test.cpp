@@ -8,8 +8,8 @@
 
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/test/chip_bench.hpp>
-#include <motionrack/sim/junction.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 #include <vector>
 
 namespace motionrack::mcx314::outside {

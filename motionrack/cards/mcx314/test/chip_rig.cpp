@@ -4,7 +4,7 @@
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/chip_rig.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/position_function.hpp>
 #include <string>
 #include <utility>
 #include <vector>

@@ -9,9 +9,9 @@
 #include <memory>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/driver/home_series.hpp>
-#include <motionrack/sim/junction.hpp>
-#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <motionrack/sim/wire_connections.hpp>
 #include <string>
 #include <vector>
 

@@ -10,7 +10,7 @@
 #include <array>
 #include <motionrack/cards/rtc5/model/conditions.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
-#include <motionrack/sim/blocks/held_state.hpp>
+#include <motionrack/sim/blocks/snapshot_state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <string>
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
-#include <motionrack/sim/parts/position_sender.hpp>
+#include <motionrack/sim/parts/serial_position_source.hpp>
 
 namespace motionrack::rtc5 {
 namespace {

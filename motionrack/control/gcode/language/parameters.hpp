@@ -3,7 +3,7 @@
 
 #include <array>
 #include <map>
-#include <motionrack/control/gcode/language/expression.hpp>
+#include <motionrack/control/gcode/language/expression_parser.hpp>
 #include <span>
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/language/machine_parameters.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
 
 namespace motionrack::control::gcode {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <motionrack/control/gcode/interpreter.hpp>
-#include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/language/machine_parameters.hpp>
 #include <motionrack/control/gcode/number.hpp>
 
 namespace motionrack::control::gcode {

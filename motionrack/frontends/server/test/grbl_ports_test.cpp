@@ -129,7 +129,7 @@ class SenderPorts : public testing::Test {
     const std::filesystem::path folder_ =
         std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
     GrblPortSettings settings_;
-    authority::ControlLease lease_;
+    auth::ControlLease lease_;
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<GrblPorts> ports_;
     std::thread thread_;

@@ -6,7 +6,7 @@
 namespace motionrack::server {
 namespace {
 
-using authority::Role;
+using auth::Role;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 

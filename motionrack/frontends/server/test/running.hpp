@@ -38,8 +38,7 @@ class Running {
         settings.server.limits.requests_at_once = settings.server.limits.messages_at_once = 1e9;
         settings.server.clock = [this] {
             const std::lock_guard<std::mutex> alone(lock);
-            return authority::Timestamps{std::chrono::system_clock::now() + later,
-                                         std::chrono::steady_clock::now() + later};
+            return auth::Timestamps{std::chrono::system_clock::now() + later, std::chrono::steady_clock::now() + later};
         };
         settings.server.audit = [this](const AuditEntry& entry) {
             const std::lock_guard<std::mutex> alone(lock);
@@ -60,10 +59,10 @@ class Running {
     std::uint16_t port() const { return served->server().port(); }
     WebClient client() const { return WebClient(port()); }
     /// A token of this role for a name.
-    std::string token(const std::string& name, authority::Role role = authority::Role::maintain) {
-        const authority::Timestamps now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
+    std::string token(const std::string& name, auth::Role role = auth::Role::maintain) {
+        const auth::Timestamps now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
         const std::string code =
-            role == authority::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
+            role == auth::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
         return served->door().pair(code, name, "127.0.0.1", now)->token;
     }
     /// A WebSocket with this token, past hello.

@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 
 #include <list>
-#include <motionrack/frontends/server/guard.hpp>
+#include <motionrack/frontends/server/origin_policy.hpp>
 #include <motionrack/frontends/server/seats.hpp>
 #include <motionrack/frontends/server/stranger_log.hpp>
 
@@ -152,7 +152,7 @@ TEST(AStranger, PairsWithAShortNameOnly) {
 }
 
 TEST(AStranger, SendsShortMessagesOnly) {
-    Running running([](ServerSettings& settings) { settings.loopback_role = authority::Role::none; });
+    Running running([](ServerSettings& settings) { settings.loopback_role = auth::Role::none; });
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);
     client.send_frame(1, std::string(5'000, 'x'));

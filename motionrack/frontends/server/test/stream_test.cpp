@@ -6,7 +6,7 @@
 namespace motionrack::server {
 namespace {
 
-using authority::Role;
+using auth::Role;
 using nlohmann::json;
 using testing::HasSubstr;
 

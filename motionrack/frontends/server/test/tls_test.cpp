@@ -141,7 +141,7 @@ TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
     EXPECT_EQ(status("GET", "/api/status"), 401);
     EXPECT_EQ(status("GET", "/api/openapi.json"), 401);
     EXPECT_EQ(status("POST", "/api/enable"), 401);
-    EXPECT_EQ(status("GET", "/api/status", running.token("anna", authority::Role::observe)), 0);
+    EXPECT_EQ(status("GET", "/api/status", running.token("anna", auth::Role::observe)), 0);
     head.host = "localhost";
     EXPECT_EQ(status("GET", "/"), 403) << "that name is for this computer";
 }

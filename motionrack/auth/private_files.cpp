@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <motionrack/auth/private_files.hpp>
+
+namespace motionrack::auth {
+
+namespace {
+
+tl::unexpected<Error> not_seen(const std::string& path, const std::string& subject) {
+    return fail(ErrorKind::io,
+                fmt::format("{} cannot be looked at: {}. Nothing was started; name another file, or put right what is "
+                            "in the way.",
+                            subject, std::strerror(errno)),
+                {}, path);
+}
+
+/// A group of one's own, as many systems give each user, is no other.
+bool is_open_to_others(const struct stat& about) {
+    if ((about.st_mode & S_ISVTX) != 0) return false;  // as /tmp: each may replace his own files only
+    return (about.st_mode & S_IWOTH) != 0 || ((about.st_mode & S_IWGRP) != 0 && about.st_gid != ::getegid());
+}
+
+Result<void> check_folder(const std::string& path, const std::string& subject) {
+    const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
+    struct stat about {};
+    if (::stat(folder.c_str(), &about) != 0) return errno == ENOENT ? Result<void>() : not_seen(path, subject);
+    if (!is_open_to_others(about)) return {};
+    return fail(ErrorKind::invalid_input,
+                fmt::format("Others may replace {}: its folder {} is open to them (mode {:o}). Nothing was started; "
+                            "chmod go-w the folder, or name a file elsewhere.",
+                            subject, folder, about.st_mode & 0777),
+                {}, path);
+}
+
+std::string lower_first(std::string text) {
+    if (text.compare(0, 4, "The ") == 0) text[0] = 't';
+    return text;
+}
+
+}  // namespace
+
+Result<void> check_writers(const std::string& path, const std::string& subject) {
+    struct stat about {};
+    const bool there = ::stat(path.c_str(), &about) == 0;
+    if (!there && errno != ENOENT) return not_seen(path, subject);
+    if (there && (about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("Others may write {} (mode {:o}); they could let themselves in, or have wrong "
+                                "positions trusted. Nothing was started; look at its content, then chmod 600 it.",
+                                lower_first(subject), about.st_mode & 0777),
+                    {}, path);
+    return check_folder(path, lower_first(subject));
+}
+
+Result<void> check_readers(const std::string& path, const std::string& subject) {
+    struct stat about {};
+    if (::stat(path.c_str(), &about) != 0) return not_seen(path, subject);
+    const mode_t open = about.st_uid == 0 ? S_IWGRP | S_IXGRP | S_IRWXO : S_IRWXG | S_IRWXO;
+    if ((about.st_mode & open) == 0) return {};
+    return fail(ErrorKind::invalid_input,
+                fmt::format("Others may read {} (mode {:o}). Nothing was started; chmod 600 it, and make a new key if "
+                            "a stranger can have read this one.",
+                            lower_first(subject), about.st_mode & 0777),
+                {}, path);
+}
+
+}  // namespace motionrack::auth

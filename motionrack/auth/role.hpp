@@ -1,0 +1,28 @@
+// What a caller may do at most: each role may do what those before it may.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace motionrack::auth {
+
+enum class Role : std::uint8_t {
+    none,     ///< STOP, and pairing
+    observe,  ///< looks
+    operate,  ///< moves the machine
+    maintain  ///< breaks it on purpose, writes registers, lets others in
+};
+
+inline constexpr std::array<std::string_view, 4> role_names = {"nobody", "observe", "operate", "maintain"};
+constexpr std::string_view name_of(Role role) {
+    return role_names[static_cast<std::size_t>(role)];
+}
+constexpr std::optional<Role> role_named(std::string_view name) {
+    for (std::size_t i = 0; i < role_names.size(); ++i)
+        if (role_names[i] == name) return static_cast<Role>(i);
+    return std::nullopt;
+}
+
+}  // namespace motionrack::auth

@@ -1,0 +1,172 @@
+// The fourth axis: steered on its own speed generator beside three interpolated ones.
+//
+//   speed      ___   ____                 one V a segment, so that it is where it should be at the segment's end
+//          ___/   \_/    \__              pulses: all that are known; from `brakes at` on the chip falls
+//        |  1  | 2 | 3 |  4 |             to SV by itself
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <motionrack/cards/mcx314/axes/chip_axis_group.hpp>
+
+namespace motionrack::mcx314 {
+
+/// Sets a channel up as the auxiliary; it stands.
+Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
+    auxiliary_ = channel;
+    companion_target_ = companion_from_ = at;
+    double acceleration = max_units, start = 1, top = max_units;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        if (map_.channel[i] != channel) continue;
+        const control::AxisLimits& limits = map_.limits[i];
+        const double units = limits.pulses_per_unit * range_ / rules::clock_hz;
+        acceleration = limits.max_accel * units / rules::rate_unit;
+        start = 0.5 * limits.max_velocity_step * units;
+        top = limits.max_velocity * units;
+    }
+    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, max_units)); };
+    companion_start_speed_ = whole(start);
+    companion_acceleration_ = whole(acceleration);
+    companion_top_speed_ = whole(top);
+    const unsigned axis = 1u << channel;
+    MOTIONRACK_CHECK(driver_.WriteRange(axis, range_));
+    MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));
+    MOTIONRACK_CHECK(driver_.SetA(axis, companion_acceleration_));
+    driver_.SetSCurve(axis, false);
+    return {};
+}
+
+namespace {
+
+/// From the look at its place to the speed that comes of it.
+constexpr double accesses_to_speed = 11;
+/// The chip's slopes are whole steps of whole clocks: one that must have fallen at a place falls by so much more.
+constexpr double sure = 1.02;
+
+/// Of the longest axis; with constant vector speed those in which both axes step take longer.
+double basic_pulses(const Segment& segment) {
+    std::int64_t most = 0, least = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < segment.axis_count; ++i) {
+        const std::int64_t pulses = std::llabs(segment.finish[i]);
+        most = std::max(most, pulses);
+        least = std::min(least, pulses);
+    }
+    const bool longer = segment.constant_vector && segment.kind == SegmentKind::line;
+    return static_cast<double>(most) + (longer ? both_axes_extra * static_cast<double>(least) : 0.0);
+}
+
+}  // namespace
+
+/// About how long the segment takes: from a V to its own, then on.
+double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const {
+    const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
+    const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
+    const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
+    if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
+    const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
+    return 2 * length / (v0 + end);
+}
+
+Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
+    const int c = segment.companion_channel;
+    const std::int64_t at = driver_.ReadLPS(c);
+    if (auxiliary_ != c) MOTIONRACK_CHECK(take_companion(c, at));
+    companion_target_ += segment.companion_pulses;
+    expected_[static_cast<std::size_t>(c)] = companion_target_;
+    const bool driving = driver_.status().driving(1u << c);
+    if (segment.even) return steer_evenly(segment, driving, at);
+    const std::int64_t left = companion_target_ - at;
+    if (!driving && left != 0) companion_negative_ = left < 0;  // it turns round only at a standstill
+    const int direction = companion_negative_ ? -1 : 1;
+    const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
+    if (direction * (goal - at) <= 0) return {};
+    const double mean = std::max(0.0, static_cast<double>(direction * left)) /
+                        segment_seconds(segment, driver_.ReadCV(generator_)) * range_ / rules::clock_hz;
+    const std::int32_t v = companion_speed(mean);
+    if (!driving) return drive_companion(at, goal, v);
+    // Once it brakes it goes on to the end that it had; what is left is driven from there.
+    if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};
+    const std::int64_t pulses = goal - companion_from_;
+    companion_brakes_at_ = companion_fall_from(pulses, v);
+    MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
+    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_brakes_at_));
+    return driver_.SetV(1u << c, v);
+}
+
+std::int32_t ChipAxisGroup::companion_speed(double v) const {
+    return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
+}
+
+/// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks
+/// pulses. The ride slows down for its rests, so the chip need not. One that is too fast for its place stands a little
+/// beyond it, and comes back when all stand.
+Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
+    const unsigned axis = 1u << auxiliary_;
+    if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
+    const int direction = companion_negative_ ? -1 : 1;
+    const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(auxiliary_, direction);
+    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_,
+                 start = companion_start_speed_;
+    const double from = driving ? driver_.ReadCV(auxiliary_) : start;
+    const auto left = static_cast<double>(direction * (companion_target_ - at));
+    if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
+    const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
+                 late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
+    const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
+    const double planned = segment.companion_speed / pulses_per_v;
+    double wished = planned + way / seconds - (from + planned) / 2, end = std::max(planned, start);
+    if (ahead <= 0) end = wished = start;
+    const std::int32_t v = companion_speed(wished);
+    double slope = std::fabs(v - from) / seconds;
+    if (v < from && from > end)
+        slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
+                        : most;  // one that is ahead is there before its time
+    MOTIONRACK_CHECK(driver_.SetA(
+        axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
+    const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
+    const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
+                                                        static_cast<std::int64_t>(std::ceil(falls_in)));
+    if (!driving) return drive_companion(at, goal, v, false);
+    MOTIONRACK_CHECK(driver_.SetV(axis, v));
+    companion_brakes_at_ = std::llabs(goal - companion_from_);
+    MOTIONRACK_CHECK(driver_.Pulse(axis, goal - companion_from_));
+    return driver_.SetDecPoint(axis, companion_brakes_at_);
+}
+
+/// The pulse from which its speed must fall to have the start speed at the end.
+std::int64_t ChipAxisGroup::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
+    const std::int64_t all = std::llabs(pulses);
+    if (v <= companion_start_speed_) return all;
+    const double top = v, low = companion_start_speed_;
+    const double phase = speed_carry / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
+    return std::max<std::int64_t>(0, all - static_cast<std::int64_t>(phase / range_) - 2);
+}
+
+/// From where it stands.
+Result<void> ChipAxisGroup::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
+    const unsigned axis = 1u << auxiliary_;
+    const std::int64_t pulses = to - from;
+    if (pulses == 0) return {};
+    companion_from_ = from;
+    companion_negative_ = pulses < 0;
+    companion_brakes_at_ = brakes ? companion_fall_from(pulses, v) : std::llabs(pulses);
+    MOTIONRACK_CHECK(driver_.SetV(axis, v));
+    MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_brakes_at_));
+    MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
+    driver_.Drive(axis, companion_negative_);
+    return {};
+}
+
+/// The others stand and it does: what it still lacks.
+Result<void> ChipAxisGroup::finish_companion() {
+    const std::int64_t at = driver_.ReadLPS(auxiliary_);
+    if (driver_.status().error(xyzu)) return {};  // what has ended the path has ended it for all
+    const std::int64_t target = expected_[static_cast<std::size_t>(auxiliary_)];
+    const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
+    const double half =
+        0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
+    MOTIONRACK_CHECK(driver_.SetA(1u << auxiliary_, companion_acceleration_));
+    return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
+}
+
+}  // namespace motionrack::mcx314

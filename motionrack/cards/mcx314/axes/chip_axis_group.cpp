@@ -1,0 +1,339 @@
+// Playing segments: starting chains, queueing behind the running segment, rewriting speed at joints, standing still
+// exactly.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <motionrack/cards/mcx314/axes/chip_axis_group.hpp>
+#include <motionrack/cards/mcx314/axes/initialise.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+// R of the second axis for R of the first: both axes step together, the path is sqrt(2) pulses long.
+constexpr double both_axes_factor = 1 + both_axes_extra;
+constexpr Duration joint_timeout = whole_seconds(3600);
+constexpr Duration brake_look = microseconds(5);  // less than any piece takes
+constexpr std::int64_t pulses_past_joint = 16;    // more than are driven until it is looked at
+
+/// True if the line is active. A wish to stop ends each wait at once, so that braking axes are looked at now and then.
+bool wait_for_interrupt(Interrupt& host, bool brakes) {
+    if (!brakes) return host.wait(joint_timeout);
+    host.pass(brake_look);
+    return false;
+}
+
+/// The queue has room behind a joint, and where a switch ahead of an axis has the chip decelerate within its segment:
+/// it drops the queued one then. No speed of that may be written while it brakes.
+bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
+    for (int c = 0; c < channel_count; ++c) {
+        if (c == auxiliary) continue;
+        if (std::llabs(joint[static_cast<std::size_t>(c)] - driver.ReadLPS(c)) > pulses_past_joint) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+ChipAxisGroup::ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host)
+    : driver_(driver), map_(map), host_(host), rule_(map, host), range_(Segmenter::best_range(map)) {}
+
+Result<void> ChipAxisGroup::set_up(const control::Point& position) {
+    MOTIONRACK_CHECK(prepare_chip(driver_));
+    const Pulses4 at = map_.pulses(position);
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        const int channel = map_.channel[i];
+        if (channel < 0) continue;
+        MOTIONRACK_CHECK(driver_.LPS(1u << channel, at[static_cast<std::size_t>(channel)]));
+        MOTIONRACK_CHECK(write_travel(driver_, channel, map_.limits[i]));
+        driver_.WriteMode2(1u << channel, static_cast<std::uint16_t>(driver_.mode2(channel) | software_limits));
+    }
+    clear_interrupts();
+    return {};
+}
+
+Result<void> ChipAxisGroup::begin() {
+    for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
+    notes_ = take_path_warnings();
+    segmenter_.emplace(map_, range_, expected_, host_);
+    starts_.clear();
+    last_block_ = -2;
+    segments_ = 0;
+    chain_running_ = false;
+    auxiliary_ = -1;
+    driver_.WriteMode1(xyzu, field("WR1", "DEND").mask);
+    clear_interrupts();
+    return {};
+}
+
+Result<void> ChipAxisGroup::follow(const control::PlannedMove& move) {
+    segmenter_->add(move);
+    return play_ready(1);
+}
+
+Result<void> ChipAxisGroup::finish() {
+    segmenter_->finish();
+    MOTIONRACK_CHECK(play_ready(0));
+    MOTIONRACK_CHECK(wait_for_standstill());
+    starts_.push_back({-1, current_line_, driver_.interrupt().now()});
+    return {};
+}
+
+Result<void> ChipAxisGroup::play_ready(std::size_t keep) {
+    while (segmenter_->ready() > keep) {
+        const Segment segment = (*segmenter_)[0];
+        segmenter_->pop();
+        MOTIONRACK_CHECK(play(segment));
+    }
+    return {};
+}
+
+Result<void> ChipAxisGroup::play(const Segment& segment) {
+    if (segment.kind == SegmentKind::pause) return play_pause(segment);
+    if (segment.starts_chain || !chain_running_) {
+        MOTIONRACK_CHECK(wait_for_standstill());
+        if (driver_.interrupt().stop_requested()) return stopped_by_user();
+        MOTIONRACK_CHECK(start_chain(segment));
+    } else {
+        MOTIONRACK_CHECK(queue(segment));
+        MOTIONRACK_CHECK(wait_for_joint(segment));
+        MOTIONRACK_CHECK(write_speed(segment));
+    }
+    ++segments_;
+    MOTIONRACK_CHECK(begin_segment(segment));
+    chain_running_ = !segment.ends_chain;
+    return {};
+}
+
+Result<void> ChipAxisGroup::play_pause(const Segment& segment) {
+    MOTIONRACK_CHECK(wait_for_standstill());
+    starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
+    last_block_ = segment.block;
+    current_line_ = segment.line;
+    const Instant end = driver_.interrupt().now() + from_seconds(segment.seconds);
+    while (driver_.interrupt().now() < end) {
+        if (driver_.interrupt().stop_requested()) return stopped_by_user();
+        driver_.interrupt().pass(std::min<Duration>(milliseconds(50), end - driver_.interrupt().now()));
+    }
+    return {};
+}
+
+// ---- chains
+
+Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
+    generator_ = segment.axes[0];
+    s_curve_ = segment.s_curve;
+    even_ = segment.even;
+    braking_ = false;
+    const unsigned own = 1u << generator_;
+    MOTIONRACK_CHECK(driver_.WriteRange(own, range_));
+    MOTIONRACK_CHECK(driver_.WriteRange(xyzu & ~own, std::llround(range_ * both_axes_factor)));
+    MOTIONRACK_CHECK(driver_.SetSV(own, segment.initial_speed));
+    driver_.SetSCurve(own, segment.s_curve);
+    if (segment.s_curve) {
+        MOTIONRACK_CHECK(driver_.AutoDec(own));
+        MOTIONRACK_CHECK(driver_.SetAA(own, segment.jerk));
+        MOTIONRACK_CHECK(driver_.SetAO(own, segment.offset));
+    }
+    driver_.EnableDeceleration(segment.s_curve);
+    written_speed_ = written_acceleration_ = 0;
+    running_speed_ = segment.initial_speed;
+    MOTIONRACK_CHECK(write_speed(segment));
+    return command(segment);
+}
+
+/// Puts the segment behind the running one. If the host came too late, the chip stands at the joint and it starts from
+/// there.
+Result<void> ChipAxisGroup::queue(const Segment& segment) {
+    const MainStatus status = driver_.status();
+    if (status.interpolating()) return command(segment);
+    if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
+    if (braking_) return stopped_by_user();  // it stands already
+    tell_late(segment);
+    return command(segment);
+}
+
+/// The chip stood before it had this segment.
+void ChipAxisGroup::tell_late(const Segment& segment) {
+    const Instant now = driver_.interrupt().now();
+    notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
+                      std::min(now, runs_until_)});
+    clear_interrupts();
+}
+
+Result<void> ChipAxisGroup::command(const Segment& segment) {
+    driver_.SetInterpolationAxes(segment.axes[0], segment.axes[1], segment.axis_count > 2 ? segment.axes[2] : -1,
+                                 segment.constant_vector, true);
+    if (segment.kind == SegmentKind::line) {
+        std::array<Finish, 3> ends{};
+        for (std::size_t i = 0; i < segment.axis_count; ++i) ends[i] = {segment.axes[i], segment.finish[i], 0};
+        return driver_.Line(ends.data(), segment.axis_count);
+    }
+    return driver_.Arc({{segment.axes[0], segment.finish[0], segment.centre[0]},
+                        {segment.axes[1], segment.finish[1], segment.centre[1]}},
+                       segment.kind == SegmentKind::arc_cw);
+}
+
+/// Until the queued segment is driven.
+Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
+    bool woken = false;
+    for (bool first = true;; first = false) {
+        const MainStatus status = driver_.status();
+        if (status.can_queue()) {
+            if (status.error(xyzu) && !are_at(driver_, expected_, auxiliary_)) return stopped_by_machine();
+            // What is driven at once may have begun from rest: the chip may have stood when the last word came.
+            if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
+            return {};
+        }
+        if (!status.interpolating()) {
+            if (status.error(xyzu)) return stopped_by_machine();
+            ran_alone_ = true;  // it has run and ended already
+            return {};
+        }
+        if (std::exchange(woken, false)) {
+            // Something else woke us, a auxiliary's end. What was cleared with it may have been the room in the queue.
+            clear_interrupts();
+            continue;
+        }
+        const bool brakes = driver_.interrupt().stop_requested();
+        if (brakes) MOTIONRACK_CHECK(decelerate());
+        // The next piece is queued as soon as there is room for it, while the axes decelerate too.
+        woken = wait_for_interrupt(driver_.interrupt(), brakes);
+    }
+}
+
+Result<void> ChipAxisGroup::write_speed(const Segment& segment) {
+    const unsigned own = 1u << generator_;
+    rest_speed_ = segment.rest_speed;
+    const std::int32_t speed = braking_ ? std::min(segment.speed, rest_speed_) : segment.speed;
+    if (speed != written_speed_) MOTIONRACK_CHECK(driver_.SetV(own, speed));
+    written_speed_ = speed;
+    braking_acceleration_ = segment.braking;
+    return write_acceleration(braking_ ? segment.braking : segment.acceleration);
+}
+
+Result<void> ChipAxisGroup::write_acceleration(std::int32_t acceleration) {
+    if (acceleration != written_acceleration_) MOTIONRACK_CHECK(driver_.SetA(1u << generator_, acceleration));
+    written_acceleration_ = acceleration;
+    return {};
+}
+
+/// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the
+/// speed is written down, segments go on being queued, and the command comes when it has fallen. One look at it; the
+/// S-curve's stop fits into its line, and pieces of a ride go on until the ride has slowed down.
+Result<void> ChipAxisGroup::decelerate() {
+    if (even_) return {};
+    if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
+    if (!braking_ && written_speed_ > rest_speed_) {
+        MOTIONRACK_CHECK(write_acceleration(braking_acceleration_));
+        MOTIONRACK_CHECK(driver_.SetV(1u << generator_, rest_speed_));
+        written_speed_ = rest_speed_;
+    }
+    braking_ = true;
+    if (driver_.ReadCV(generator_) <= rest_speed_) return stopped_by_user();
+    return {};
+}
+
+Result<void> ChipAxisGroup::begin_segment(const Segment& segment) {
+    if (segment.block != last_block_) starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
+    last_block_ = segment.block;
+    current_line_ = segment.line;
+    const Instant now = driver_.interrupt().now(),
+                  begun = std::exchange(ran_alone_, false) ? std::min(now, runs_until_) : now;
+    runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
+    running_speed_ = segment.speed;
+    for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
+    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(update_auxiliary_velocity(segment));
+    return {};
+}
+
+Result<void> ChipAxisGroup::wait_until_all_stand() {
+    while (true) {
+        const MainStatus status = driver_.status();
+        if (!status.driving(xyzu) && !status.interpolating()) break;
+        // The path was ended by a switch or an alarm; a fourth axis has not heard of it.
+        if (!status.interpolating() && status.error(xyzu)) driver_.SlowStop(xyzu);
+        const bool brakes = driver_.interrupt().stop_requested();
+        if (brakes) MOTIONRACK_CHECK(decelerate());
+        if (wait_for_interrupt(driver_.interrupt(), brakes)) clear_interrupts();
+    }
+    clear_interrupts();
+    return {};
+}
+
+Result<void> ChipAxisGroup::wait_for_standstill() {
+    chain_running_ = false;
+    MOTIONRACK_CHECK(wait_until_all_stand());
+    if (auxiliary_ >= 0) {
+        MOTIONRACK_CHECK(finish_companion());
+        MOTIONRACK_CHECK(wait_until_all_stand());
+    }
+    auxiliary_ = -1;
+    for (int c = 0; c < channel_count; ++c)
+        if (driver_.ReadLPS(c) != expected_[static_cast<std::size_t>(c)]) return stopped_by_machine();
+    return {};
+}
+
+// ---- stops
+
+void ChipAxisGroup::stop(bool immediate) {
+    if (immediate)
+        driver_.QuickStop(xyzu);
+    else
+        driver_.SlowStop(xyzu);
+    chain_running_ = false;
+    if (segmenter_) segmenter_.emplace(map_, range_, expected_, host_);
+}
+
+void ChipAxisGroup::clear_interrupts() {
+    for (int c = 0; c < channel_count; ++c) driver_.read_interrupts(c);
+    driver_.ClearInterpolationInterrupt();
+}
+
+tl::unexpected<Error> ChipAxisGroup::stopped_by_machine() {
+    driver_.SlowStop(xyzu);
+    while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
+    std::string why;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        if (map_.channel[i] < 0) continue;
+        const std::string cause = driver_.axis_status(map_.channel[i]).why_stopped();
+        if (!cause.empty())
+            why += fmt::format("{}axis {}: {}", why.empty() ? "" : "; ", control::axis_letters[i], cause);
+    }
+    if (why.empty()) why = "the chip's counters are not where the path ends";
+    chain_running_ = false;
+    return fail(ErrorKind::machine,
+                fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
+                            "clear the cause, move back and start again.",
+                            current_line_, why, control::position_text(commanded_position(), map_.limits)),
+                {current_line_, 1});
+}
+
+tl::unexpected<Error> ChipAxisGroup::stopped_by_user() {
+    braking_ = false;
+    driver_.SlowStop(xyzu);
+    while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
+    chain_running_ = false;
+    return control::stopped_on_request(current_line_, commanded_position(), map_.limits);
+}
+
+// ---- looking
+
+control::Point ChipAxisGroup::commanded_position() {
+    control::Point out = {};
+    for (std::size_t i = 0; i < map_.channel.size(); ++i)
+        if (map_.channel[i] >= 0) out[i] = driver_.ReadLPS(map_.channel[i]) / map_.limits[i].pulses_per_unit;
+    return out;
+}
+
+std::vector<control::PathWarning> ChipAxisGroup::take_path_warnings() {
+    std::vector<control::PathWarning> out = std::exchange(notes_, {});
+    if (segmenter_)
+        for (control::PathWarning& note : segmenter_->take_path_warnings()) out.push_back(std::move(note));
+    return out;
+}
+
+}  // namespace motionrack::mcx314

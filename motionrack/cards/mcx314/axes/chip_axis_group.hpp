@@ -1,0 +1,125 @@
+// The chip's axes as the controller sees them: follows planned moves by continuous interpolation, rewriting the speed
+// at each joint.
+//
+//   chip  |== segment 1 ==|== segment 2 ==|== segment 3 ==|
+//   host   ^start 1, queue 2 ^INT: V of 2, queue 3 ^INT: V of 3, queue 4
+//
+// Where the next piece does not come in time the chip stands at once, and begins it from rest: it is told how late it
+// was.
+//
+// A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and
+// gives it the speed that brings it to its place by the segment's end. Its last pulse is counted by the chip, so its
+// end is exact.
+#pragma once
+
+#include <motionrack/cards/mcx314/axes/path_rule.hpp>
+#include <motionrack/cards/mcx314/axes/segmenter.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/control/axis_group.hpp>
+#include <optional>
+
+namespace motionrack::mcx314 {
+
+class ChipAxisGroup final : public control::AxisGroup {
+  public:
+    /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
+    /// whole numbers.
+    static constexpr double accel_reserve = 0.03;
+
+    /// The driver must outlive this.
+    ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host);
+
+    /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software
+    /// limits at the travel, encoders x4, positions as given (mm, degrees).
+    Result<void> set_up(const control::Point& position);
+
+    Result<void> begin() override;
+    Result<void> follow(const control::PlannedMove& move) override;
+    Result<void> finish() override;
+    const control::DriveConstraints* drive_constraints() const override { return &rule_; }
+    /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is
+    /// none.
+    void set_probe(unsigned channels) { probe_channels_ = channels; }
+    Result<control::ProbeResult> probe(const control::PlannedMove& move, bool release) override;
+    void stop(bool immediate) override;
+    control::Point commanded_position() override;
+    std::vector<control::PathWarning> take_path_warnings() override;
+    std::vector<control::MoveStart> take_move_starts() override { return std::exchange(starts_, {}); }
+
+    /// Speed of one V unit in pulses a second: rates that change by more than this at once are joints, not ramps.
+    double speed_step_hz() const { return rules::clock_hz / range_; }
+    /// Segments given to the chip since begin(): what the path cost.
+    std::int64_t segments() const { return segments_; }
+
+  private:
+    Result<void> check_probe(bool release);
+    Result<void> arm_probe(bool release);
+    Result<void> disarm_probe();
+    void go_on_from_here();
+    bool probe_hit();
+    bool stopped_by_other();
+    Result<void> play_ready(std::size_t keep);
+    Result<void> play(const Segment& segment);
+    Result<void> play_pause(const Segment& segment);
+    Result<void> start_chain(const Segment& segment);
+    Result<void> queue(const Segment& segment);
+    Result<void> wait_for_joint(const Segment& queued);
+    Result<void> decelerate();
+    Result<void> wait_for_standstill();
+    Result<void> write_speed(const Segment& segment);
+    Result<void> write_acceleration(std::int32_t acceleration);
+    Result<void> command(const Segment& segment);
+    Result<void> begin_segment(const Segment& segment);
+    Result<void> wait_until_all_stand();
+    Result<void> take_companion(int channel, std::int64_t at);
+    Result<void> update_auxiliary_velocity(const Segment& segment);
+    Result<void> steer_evenly(const Segment& segment, bool driving, std::int64_t at);
+    std::int32_t companion_speed(double v) const;
+    Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
+    Result<void> finish_companion();
+    std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v) const;
+    double segment_seconds(const Segment& segment, double from) const;
+    void tell_late(const Segment& segment);
+    tl::unexpected<Error> stopped_by_machine();
+    tl::unexpected<Error> stopped_by_user();
+    void clear_interrupts();
+
+    Driver& driver_;
+    AxisMap map_;
+    HostTimes host_;
+    PathRule rule_;
+    std::int32_t range_;
+    std::optional<Segmenter> segmenter_;
+    std::vector<control::MoveStart> starts_;
+    std::vector<control::PathWarning> notes_;
+    Pulses4 expected_ = {};  ///< where the counters are when everything given so far is done
+    std::int32_t last_block_ = -2;
+    std::int32_t current_line_ = 0;
+    std::int32_t written_speed_ = 0;
+    std::int32_t written_acceleration_ = 0;
+    std::int32_t braking_acceleration_ = 1;  ///< of the running segment
+    int generator_ = 0;
+    std::int32_t rest_speed_ = 1;  ///< of the running segment
+    bool s_curve_ = false;         ///< of the running chain
+    bool even_ = false;            ///< of the running chain
+    bool braking_ = false;         ///< on a wish to stop
+    bool chain_running_ = false;
+    std::int64_t segments_ = 0;
+    bool ran_alone_ = false;    ///< the queued segment ended before the host knew that it had begun
+    Instant runs_until_{};      ///< about when the chip has driven the running segment
+    double running_speed_ = 1;  ///< V at its end
+    unsigned probe_channels_ = 0;
+    bool probing_ = false;
+    std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
+    // The auxiliary's present drive.
+    int auxiliary_ = -1;
+    std::int32_t companion_start_speed_ = 1;  ///< SV, A and the greatest V that it drives with
+    std::int32_t companion_acceleration_ = 1;
+    std::int32_t companion_top_speed_ = 1;
+    bool companion_negative_ = false;
+    std::int64_t companion_from_ = 0;       ///< its counter where the drive began
+    std::int64_t companion_target_ = 0;     ///< where it should be at the end of the present segment
+    std::int64_t companion_brakes_at_ = 0;  ///< pulse of the drive
+};
+
+}  // namespace motionrack::mcx314

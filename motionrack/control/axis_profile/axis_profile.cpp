@@ -1,0 +1,271 @@
+// A travel is solved in units of its limits (jerk 1, acceleration 1) and told in the user's: from the start on as far
+// as the cruise, from the target back behind it, so that both ends are exact and the roundings meet in the middle.
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/axis_profile/axis_profile.hpp>
+#include <motionrack/control/axis_profile/double_s_solver.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+constexpr double to_roundings = 1 + 1e-10;
+
+/// Of one user's unit in those where jerk and acceleration have the limit 1.
+struct Scale {
+    explicit Scale(const KinematicLimits& limits)
+        : accel(1 / limits.accel),
+          seconds(limits.accel / limits.jerk),
+          speed(limits.jerk * accel * accel),
+          position(speed * limits.jerk * accel),
+          top(limits.speed * speed) {}
+    double accel;
+    double seconds;  ///< user's in one scaled
+    double speed;
+    double position;
+    double top;
+};
+
+/// The speed that is left, or reached, when the acceleration has gone to 0.
+double speed_at_last(double speed, double accel) {
+    return speed + 0.5 * accel * std::fabs(accel);
+}
+
+bool ends_within(double speed, double accel, double top) {
+    return std::fabs(accel) <= to_roundings && std::fabs(speed) + 0.5 * accel * accel <= top * to_roundings;
+}
+
+bool usable(const KinematicLimits& limits) {
+    const auto amount = [](double x) { return x > 0 && std::isfinite(x); };
+    return amount(limits.speed) && amount(limits.accel) && amount(limits.jerk);
+}
+
+bool finite(const KinematicState& s) {
+    return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel);
+}
+
+}  // namespace
+
+/// Phases in the user's units, from scaled ones.
+class AxisProfileBuilder {
+  public:
+    AxisProfileBuilder(AxisProfile& out, const KinematicState& from, const KinematicLimits& limits, const Scale& scale)
+        : out_(out), at_(from), limits_(limits), scale_(scale) {
+        out_.start_ = from;
+        speed_ = from.speed * scale.speed;
+        accel_ = from.accel * scale.accel;
+    }
+
+    double way() const { return way_; }
+
+    /// From here to a speed in user's units, the rest scaled.
+    BoundaryConditions course_to(double speed, double accel, double way) const {
+        const double end = speed * scale_.speed;
+        const double change = time_ == 0 ? (speed - at_.speed) * scale_.speed : end - speed_;
+        return {speed_, accel_, end, accel, way, change};
+    }
+
+    void bring_accel_within() {
+        if (std::fabs(accel_) <= 1) return;
+        const double sign = accel_ > 0 ? 1 : -1;
+        ramp(-sign, std::fabs(accel_) - 1);
+        accel_ = sign;
+    }
+
+    /// Returns the greatest speed for what follows, which the start may exceed by roundings.
+    double bring_speed_within() {
+        const double last = speed_at_last(speed_, accel_);
+        const double most = std::max(std::fabs(last), std::fabs(speed_));
+        if (most <= scale_.top * to_roundings) return std::max(most, scale_.top);
+        if (std::fabs(last) > scale_.top) {
+            brake(last > 0 ? 1 : -1);
+        } else {
+            brake(speed_ > 0 ? 1 : -1);
+        }
+        return scale_.top;
+    }
+
+    /// Phases of one sign of the jerk each, in time's order; the first four are told from the start on.
+    void add(const TimeOptimalSolution& course, double top) {
+        const DoubleSPhases& p = course.phases;
+        const double side = course.mirrored ? -1 : 1;
+        const double way = course.backwards ? -side : side;
+        if (course.backwards) {
+            forward(-side, p.back);
+            hold(-side, p.low);
+            forward(side, p.sink);
+        } else {
+            forward(side, p.rise);
+            hold(side, p.hold);
+            forward(-side, p.fall);
+        }
+        if (p.cruise > 0) {
+            at_.speed = way * (top > scale_.top ? top / scale_.speed : limits_.speed);
+            at_.accel = 0;
+            forward(0, p.cruise);
+        }
+        if (course.backwards) {
+            tail_ = {Part{side, p.fall}, Part{0, p.hold, side}, Part{-side, p.rise}};
+        } else {
+            tail_ = {Part{-side, p.sink}, Part{0, p.low, -side}, Part{side, p.back}};
+        }
+    }
+
+    /// The last three phases, told back from the target.
+    void end_at(const KinematicState& target) {
+        double end[4] = {time_};
+        for (int k = 0; k < 3; ++k) end[k + 1] = end[k] + tail_[k].seconds * scale_.seconds;
+        int last = out_.count_;
+        for (int k = 0; k < 3; ++k) last += end[k + 1] > end[k];
+        out_.count_ = last;
+        KinematicState at = target;
+        for (int k = 2; k >= 0; --k) {
+            if (!(end[k + 1] > end[k])) continue;
+            const Part& part = tail_[k];
+            if (part.jerk == 0) at.accel = part.hold * limits_.accel;
+            const double jerk = part.jerk * limits_.jerk, seconds = part.seconds * scale_.seconds;
+            out_.phases_[static_cast<std::size_t>(--last)] = {end[k + 1], end[k + 1], -seconds, at.position,
+                                                              at.speed,   at.accel,   jerk};
+            at = after(at, jerk, -seconds);
+        }
+        out_.duration_ = end[3];
+        out_.target_ = target;
+    }
+
+    /// The direct change of speed, told from the start on.
+    void change(const DirectVelocityChange& change, double speed, double accel) {
+        const double side = change.mirrored ? -1 : 1;
+        forward(side, change.rise);
+        hold(side, change.hold);
+        forward(-side, change.fall);
+        out_.duration_ = time_;
+        out_.target_ = {at_.position, speed, accel};
+    }
+
+  private:
+    struct Part {
+        double jerk, seconds, hold = 0;
+    };
+
+    static KinematicState after(const KinematicState& s, double jerk, double t) {
+        return {s.position + t * (s.speed + t * (0.5 * s.accel + t * jerk * (1.0 / 6))),
+                s.speed + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
+    }
+
+    /// `sign` of the jerk; `scaled` s.
+    void forward(double sign, double scaled) {
+        if (!(scaled > 0)) return;
+        const double seconds = scaled * scale_.seconds;
+        const double jerk = sign * limits_.jerk;
+        AxisProfile::Phase* last = out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
+        const double zero = time_;
+        time_ += seconds;
+        if (last && sign != 0 && last->jerk == jerk && goes_on_) {
+            last->end = time_;
+            last->seconds += seconds;
+        } else if (time_ > zero) {
+            out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,     zero,      seconds, at_.position,
+                                                                     at_.speed, at_.accel, jerk};
+        }
+        goes_on_ = goes_on_ || time_ > zero;
+        at_ = after(at_, jerk, seconds);
+    }
+
+    void hold(double sign, double scaled) {
+        if (!(scaled > 0)) return;
+        at_.accel = sign * limits_.accel;
+        forward(0, scaled);
+    }
+
+    /// Before the course begins: also in scaled units, for what is left of the way.
+    void ramp(double sign, double t) {
+        way_ += t * (speed_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
+        speed_ += t * (accel_ + 0.5 * t * sign);
+        accel_ += t * sign;
+        forward(sign, t);
+    }
+
+    void keep(double t) {
+        if (!(t > 0)) return;
+        way_ += t * (speed_ + 0.5 * t * accel_);
+        speed_ += t * accel_;
+        hold(accel_ > 0 ? 1 : -1, t);
+    }
+
+    /// From above the greatest speed (side 1; -1: below minus it) down to it, with no more acceleration than lets the
+    /// axis stay above minus it.
+    void brake(double side) {
+        const double top = scale_.top;
+        const double over = side * speed_ - top, accel = side * accel_;
+        const double steepest = -std::min(1.0, 2 * std::sqrt(top));
+        const double at_top = -std::sqrt(std::max(0.0, accel * accel + 2 * over));
+        if (at_top >= steepest) {
+            ramp(-side, std::max(0.0, accel - at_top));
+            accel_ = side * at_top;
+        } else {
+            const DirectVelocityChange change = direct_velocity_change({side * speed_, accel, top, steepest, 0, -over});
+            ramp(-side, change.rise);
+            if (change.hold > 0) accel_ = -side;
+            keep(change.hold);
+            ramp(side, change.fall);
+            accel_ = side * steepest;
+        }
+        speed_ = side * top;
+        // on from just there: a start far outside has roundings that are large beside the limits
+        at_.speed = side * limits_.speed;
+        at_.accel = accel_ * limits_.accel;
+        goes_on_ = false;
+    }
+
+    AxisProfile& out_;
+    KinematicState at_;
+    const KinematicLimits& limits_;
+    const Scale& scale_;
+    double time_ = 0;
+    bool goes_on_ = true;             ///< at_ is the end of the last phase, to the bit
+    double speed_, accel_, way_ = 0;  ///< scaled
+    std::array<Part, 3> tail_ = {};
+};
+
+bool is_feasible_end(double speed, double accel, const KinematicLimits& limits) {
+    const Scale scale(limits);
+    return usable(limits) && ends_within(speed * scale.speed, accel * scale.accel, scale.top);
+}
+
+std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, const KinematicState& to,
+                                                const KinematicLimits& limits) {
+    const Scale scale(limits);
+    const double end_speed = to.speed * scale.speed;
+    const double end_accel = std::clamp(to.accel * scale.accel, -1.0, 1.0);
+    if (!usable(limits) || !finite(from) || !finite(to)) return std::nullopt;
+    if (!ends_within(end_speed, to.accel * scale.accel, scale.top)) return std::nullopt;
+    std::optional<AxisProfile> out(std::in_place);
+    AxisProfileBuilder builder(*out, from, limits, scale);
+    builder.bring_accel_within();
+    double top = builder.bring_speed_within();
+    top = std::max(top, std::fabs(end_speed) + 0.5 * end_accel * end_accel);
+    const double way = (to.position - from.position) * scale.position - builder.way();
+    const double slack = 4.5e-16 * (std::fabs(from.position) + std::fabs(to.position)) * scale.position;
+    builder.add(solve_time_optimal(builder.course_to(to.speed, end_accel, way), top, slack), top);
+    builder.end_at(to);
+    return out;
+}
+
+std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
+                                                   const KinematicLimits& limits) {
+    const Scale scale(limits);
+    const double end_speed = speed * scale.speed, end_accel = accel * scale.accel;
+    if (!usable(limits) || !finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
+    std::optional<AxisProfile> out(std::in_place);
+    AxisProfileBuilder builder(*out, from, limits, scale);
+    builder.bring_accel_within();
+    builder.change(direct_velocity_change(builder.course_to(speed, std::clamp(end_accel, -1.0, 1.0), 0)), speed, accel);
+    return out;
+}
+
+std::optional<AxisProfile> stop_profile(const KinematicState& from, const KinematicLimits& limits) {
+    return velocity_change_profile(from, 0, 0, limits);
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,81 @@
+// A million travels beside the slow referee, a million from outside the limits, and millions beside motions that
+// happen.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <motionrack/control/axis_profile/test/axis_profile_support.hpp>
+
+namespace motionrack::control {
+namespace {
+
+using namespace travel_test;
+
+constexpr int parts = 10;
+constexpr int tasks_of_a_part = 100'000;
+constexpr int motions_of_a_part = 1'000'000;  // of which two in five stay within the limits
+
+class DeepTravels : public ::testing::TestWithParam<int> {
+  protected:
+    std::uint64_t seed() const { return 1000 + static_cast<std::uint64_t>(GetParam()); }
+};
+
+double exactness(double seconds) {
+    return 1e-8 * std::max(1.0, seconds);
+}
+
+TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
+    Tasks tasks(seed());
+    int equal = 0;
+    for (int i = 0; i < tasks_of_a_part; ++i) {
+        const Task t = i % 2 ? tasks.usual() : tasks.any();
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
+        ASSERT_TRUE(out) << text_of(t);
+        ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
+        const double seconds = out->duration();
+        const double referee = slowly_found_duration(t, 200);
+        ASSERT_LE(seconds, referee + exactness(seconds)) << text_of(t);
+        equal += std::fabs(seconds - referee) <= exactness(seconds);
+    }
+    // where the referee's search misses a motion it is slower, or finds none
+    EXPECT_GE(equal, tasks_of_a_part * 0.995);
+    RecordProperty("equal", equal);
+}
+
+TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
+    Tasks tasks(seed() + 1000);
+    for (int i = 0; i < motions_of_a_part; ++i) {
+        Task t;
+        const auto seconds = tasks.motion(t);
+        if (!seconds || *seconds < 1e-3) continue;
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
+        ASSERT_TRUE(out) << text_of(t);
+        ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
+        ASSERT_LE(out->duration(), *seconds + exactness(*seconds)) << text_of(t);
+    }
+}
+
+TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
+    Tasks tasks(seed() + 2000);
+    for (int i = 0; i < tasks_of_a_part; ++i) {
+        const Task t = tasks.outside();
+        const auto out = time_optimal_profile(t.from, t.to, t.limits);
+        ASSERT_TRUE(out) << text_of(t);
+        const double entry = entry_of(*out, t.limits);
+        ASSERT_EQ(fault_of(*out, t, entry * (1 + 1e-12)), "") << text_of(t);
+        const ProfileSample at = out->sample(entry);
+        Task rest = t;
+        rest.from = {at.position, std::clamp(at.speed, -t.limits.speed, t.limits.speed),
+                     std::clamp(at.accel, -t.limits.accel, t.limits.accel)};
+        rest.limits.speed *= 1 + 1e-10;
+        const double referee = entry + slowly_found_duration(rest);
+        ASSERT_LE(out->duration(), referee + 1e-6 * std::max(1.0, referee)) << text_of(t);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, DeepTravels, ::testing::Range(0, parts));
+
+}  // namespace
+}  // namespace motionrack::control

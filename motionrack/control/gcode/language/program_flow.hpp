@@ -1,0 +1,140 @@
+// Walking through a program: which line comes next, where O words have their say.
+//
+//     o100 sub .. endsub      a subprogram, before or after where it is called; met on the way it is passed over
+//     o100 call [..] [..]     up to 30 arguments, #1 .. #30 there; o100 return [..] or endsub [..] gives #<_value>
+//     o100 if [..] .. elseif [..] .. else .. endif
+//     o100 while [..] .. endwhile      o100 do .. while [..]      o100 repeat [..] .. endrepeat
+//     o100 break, continue    of the loop with that label
+//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those
+//                             of the caller
+//
+// A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or
+// M30, at the end of its text, or at a '%' that is not its first line with anything on it. A plain program costs
+// nothing of all this: the first O word makes an index of the text.
+#pragma once
+
+#include <memory>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/oword_index.hpp>
+#include <optional>
+
+namespace motionrack::control::gcode {
+
+class ProgramFlow {
+  public:
+    /// `text` must stay where it is.
+    ProgramFlow(std::string_view text, const Settings& settings, std::string file);
+
+    /// The next line to read; false: there is none.
+    bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
+    /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word
+    /// cannot be done; then it is passed over.
+    Outcome<void> line_accepted(Interpreter& interpreter) {
+        const Block& block = interpreter.block();
+        if (block.percent || !end_.begun()) see_end(block.text);
+        if (block.flow) return follow(interpreter);
+        if (block.has_m(m_program)) return follow_program(interpreter);
+        if (interpreter.is_lathe_cycle()) return follow_contour(interpreter);
+        if (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30)) end();
+        return {};
+    }
+
+    /// There are no lines any more.
+    void end() { over_ = true; }
+
+    /// Line of the program; in another file the line that called it.
+    std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
+    /// The greatest number() so far.
+    std::int32_t highest_line() const { return std::max(furthest_, number()); }
+    const std::string& file() const { return sources_.front()->file; }  ///< of the program
+    bool at_end() const { return lines_.at_end(); }
+    /// The last line was refused: fills in where the problem is, and sees whether the program is over.
+    void line_rejected(std::string_view text, Problem& problem);
+
+    /// O words that do not fit together: once they are found, nothing more is walked.
+    bool has_faults() const { return !faults_.empty(); }
+    Problem take_fault();
+
+  private:
+    /// A text with O words: the program's or a subprogram's file.
+    struct Source {
+        std::string kept;  ///< what text is of, unless it is the program's
+        std::string_view text;
+        std::string file;
+        std::optional<OWordIndex> index;
+    };
+    struct CallFrame {
+        ProgramLines back;
+        Source* source = nullptr;
+        std::size_t repeats = 0;
+        std::int32_t called_at = 0;
+        std::int32_t program = no_location;  ///< of a numbered program: where it begins
+        std::int64_t left = 0;               ///< times that it is still to run
+    };
+    /// A repeat loop that runs.
+    struct Repeat {
+        std::int32_t place;
+        std::int64_t left;
+    };
+    struct Target {
+        Source* source;
+        std::int32_t place;
+    };
+
+    Outcome<void> follow(Interpreter& interpreter);
+    Outcome<void> follow_program(Interpreter& interpreter);
+    Outcome<void> follow_contour(Interpreter& interpreter);
+    bool read_contour(Interpreter& reader, std::vector<ContourSegment>& contour);
+    bool add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour, Point& at,
+                     bool& begun);
+    OWordLocation this_line(const Block& block, std::size_t column) const;
+    bool call_program(const OWordLocation& place, Interpreter& interpreter);
+    bool leave_program(const OWordLocation& place, Interpreter& interpreter);
+    bool end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned);
+    bool text_ended();
+    void enter(const Target& target, std::int32_t program, std::int64_t times);
+    void back_to_caller();
+    void see_end(std::string_view line);
+    void place(Problem& problem) const;
+    bool make_index(Source& source);
+    bool within_budget(const OWordLocation& place);
+    bool execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
+    bool choose(std::int32_t at, Interpreter& interpreter);
+    bool begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
+    void end_repeat(const OWordLocation& place);
+    void leave_loop(const OWordLocation& loop);
+    void go_on(const OWordLocation& loop);
+    bool call(const OWordLocation& place, Interpreter& interpreter);
+    bool give_back(const OWordLocation& place, Interpreter& interpreter);
+    bool find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
+    bool look_for(const std::string& label, bool numbered, Target& target);
+    bool load(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
+    bool evaluate(const OWordLocation& place, Interpreter& interpreter, double& value);
+    bool arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
+    bool label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label);
+    void jump(const OWordLocation& place);
+    void forget_repeats(std::int32_t first, std::int32_t last);
+    const OWordLocation& place_at(std::int32_t at) const {
+        return source_->index->places[static_cast<std::size_t>(at)];
+    }
+    bool fail(const OWordLocation& place, std::size_t column, std::string message);
+
+    ProgramLines lines_;
+    bool over_ = false;
+    bool block_delete_;
+    ProgramEndDetector end_;  ///< of the program's own text
+    std::int32_t called_at_ = 0;
+    std::int32_t furthest_ = 0;
+    std::int64_t max_lines_;
+    std::int64_t walked_ = 0;        ///< lines, up to the last jump
+    std::int32_t counted_from_ = 0;  ///< line that it went to
+    SubprogramSource subprogram_;
+    std::vector<std::unique_ptr<Source>> sources_;
+    Source* source_;
+    std::vector<CallFrame> frames_;
+    std::vector<Repeat> repeats_;
+    std::vector<Problem> faults_;
+    Problem problem_;
+};
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,273 @@
+// Calls: which sub, with which arguments, and what comes back.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/control/gcode/language/machine_parameters.hpp>
+#include <motionrack/control/gcode/language/program_flow.hpp>
+#include <motionrack/control/gcode/number.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+/// Files of subprograms that one program may use.
+constexpr std::size_t max_files = 100;
+
+/// A name that is a file's in the program's own folder, and nowhere else.
+bool is_plain(std::string_view name) {
+    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '_' || c == '-' || c == '.'; };
+    return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), plain);
+}
+
+std::string_view without_marks(std::string_view label) {
+    if (label.starts_with('<')) label = label.substr(1, label.size() - 2);
+    return label;
+}
+
+/// What a call looks like, and what it is looking for.
+std::string asks_for(const std::string& label, bool numbered) {
+    return numbered ? fmt::format("M98 P{}", label) : fmt::format("o{} call", label);
+}
+std::string text_of(const std::string& label, bool numbered) {
+    return numbered ? fmt::format("O{}", label) : fmt::format("o{} sub", label);
+}
+
+std::string too_deep(const std::string& asks) {
+    return fmt::format("{}: {} calls stand in each other; does the sub call itself without end?", asks, max_call_depth);
+}
+
+}  // namespace
+
+/// Values in brackets up to the end of the line.
+bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter,
+                            std::vector<double>& values) {
+    const MachineParameters known(interpreter);
+    ExpressionParser reader(place.text, known);
+    const char* at = place.text.data() + place.rest;
+    const char* end = place.text.data() + place.text.size();
+    for (;;) {
+        while (at < end && is_blank(*at)) ++at;
+        const auto column = static_cast<std::size_t>(at - place.text.data());
+        if (at == end || *at != '[') {
+            if (is_rest_empty(place.text, column)) return true;
+            return fail(place, column,
+                        fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(place.word)));
+        }
+        if (values.size() == most) {
+            return fail(place, column,
+                        most == 1 ? fmt::format("{} takes one value", name_of(place.word))
+                                  : fmt::format("a call has at most {} arguments", most));
+        }
+        double value = 0;
+        if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
+        values.push_back(value);
+    }
+}
+
+/// The one value of a condition.
+bool ProgramFlow::evaluate(const OWordLocation& place, Interpreter& interpreter, double& value) {
+    std::vector<double> values;
+    if (!arguments(place, 1, interpreter, values)) return false;
+    if (values.empty())
+        return fail(place, place.column,
+                    fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(place.word)));
+    value = values.front();
+    return true;
+}
+
+/// The label of a call that computes it is a number.
+bool ProgramFlow::label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label) {
+    OWordStatement words;
+    if (!parse_oword(place.text, place.column, words, problem_)) return false;
+    label = words.label;
+    if (!words.computed) return true;
+    const MachineParameters known(interpreter);
+    ExpressionParser reader(place.text, known);
+    const char* at = place.text.data() + place.column + 1;
+    double value = 0;
+    if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
+    if (value < 0 || value != std::floor(value) || value > largest_number)
+        return fail(place, place.column, fmt::format("o{:.6g}: the number of a sub is whole, 0 or more", value));
+    label = fmt::format("{:.0f}", value);
+    return true;
+}
+
+bool ProgramFlow::call(const OWordLocation& place, Interpreter& interpreter) {
+    std::string label;
+    Target target{};
+    std::vector<double> values;
+    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) ||
+        !arguments(place, max_arguments, interpreter, values))
+        return false;
+    if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
+    interpreter.parameters().forget_returned();
+    enter(target, no_location, 0);
+    return true;
+}
+
+void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t times) {
+    frames_.push_back({lines_, source_, repeats_.size(), called_at_, program, times});
+    if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
+    source_ = target.source;
+    jump(place_at(target.place));
+}
+
+bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
+    const auto look = [&](Source* source) {
+        if (!source->index) return false;
+        const auto& named = numbered ? source->index->programs : source->index->subs;
+        const auto found = named.find(label);
+        if (found == named.end()) return false;
+        target = {source, found->second};
+        return true;
+    };
+    return look(source_) ||
+           std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
+}
+
+/// A sub or a numbered program of the same text, of one read before, or of a file of its own.
+bool ProgramFlow::find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
+    if (look_for(label, numbered, target)) return true;
+    if (look_for(label, !numbered, target)) {
+        return fail(place, place.column,
+                    fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
+                                numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
+    }
+    return load(place, label, numbered, target);
+}
+
+bool ProgramFlow::load(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
+    const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
+    if (!subprogram_) {
+        return fail(place, place.column,
+                    fmt::format("{}: this program has no {}, and it came without a folder in which another file could "
+                                "have it; put it into the program",
+                                asks, wanted));
+    }
+    if (!is_plain(name)) {
+        return fail(place, place.column,
+                    fmt::format("{}: this program has no {}, and the name is none of a file in its folder (letters, "
+                                "digits, '_', '-' and '.')",
+                                asks, wanted));
+    }
+    if (sources_.size() > max_files)
+        return fail(place, place.column,
+                    fmt::format("a program may use {} files of subprograms; this is one more", max_files));
+    Result<std::string> text = subprogram_(name);
+    if (!text) {
+        fail(place, place.column,
+             fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
+        problem_.kind = text.error().kind;
+        return false;
+    }
+    auto source = std::make_unique<Source>();
+    source->kept = std::move(*text);
+    source->text = source->kept;
+    source->file = name + ".ngc";
+    Source& kept = *sources_.emplace_back(std::move(source));
+    if (!make_index(kept)) {
+        problem_ = take_fault();
+        return false;
+    }
+    const auto& named = numbered ? kept.index->programs : kept.index->subs;
+    const auto found = named.find(label);
+    if (found == named.end())
+        return fail(place, place.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
+    target = {&kept, found->second};
+    return true;
+}
+
+bool ProgramFlow::give_back(const OWordLocation& place, Interpreter& interpreter) {
+    std::vector<double> values;
+    bool good = arguments(place, 1, interpreter, values);
+    if (frames_.empty()) return good;
+    good = end_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
+    back_to_caller();
+    return good;
+}
+
+bool ProgramFlow::end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned) {
+    if (interpreter.end_call(returned)) return true;
+    return fail(place, place.column,
+                "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter "
+                "compensation is on; "
+                "write G40 and a straight move before the sub ends");
+}
+
+void ProgramFlow::back_to_caller() {
+    const CallFrame& frame = frames_.back();
+    lines_ = frame.back;
+    counted_from_ = lines_.number();
+    source_ = frame.source;
+    called_at_ = frame.called_at;
+    repeats_.resize(frame.repeats);
+    frames_.pop_back();
+}
+
+// ---- numbered programs
+
+/// M98 and M99: calls without arguments, as often as L says.
+Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
+    if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
+    const Block& block = interpreter.block();
+    const OWordLocation place = this_line(block, block.m_column[m_program]);
+    if (!within_budget(place) ||
+        !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
+        return tl::unexpected<Problem>(problem_);
+    return {};
+}
+
+OWordLocation ProgramFlow::this_line(const Block& block, std::size_t column) const {
+    OWordLocation place(lines_, lines_);
+    place.text = block.text;
+    place.column = static_cast<std::uint16_t>(column);
+    place.line = lines_.number();
+    return place;
+}
+
+bool ProgramFlow::call_program(const OWordLocation& place, Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
+    const std::string label = fmt::format("{:.0f}", block['P']);
+    Target target{};
+    if (!find_sub(place, label, true, target)) return false;
+    if (times == 0) return true;
+    if (!interpreter.parameters().enter()) return fail(place, place.column, too_deep(asks_for(label, true)));
+    interpreter.parameters().forget_returned();
+    enter(target, target.place, times);
+    return true;
+}
+
+/// Once more, or back. In the main program it is over.
+bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpreter) {
+    if (frames_.empty()) {
+        over_ = true;
+        return true;
+    }
+    if (frames_.back().program == no_location)
+        return fail(place, place.column,
+                    "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return "
+                    "leaves it before that");
+    const bool good = end_call(place, interpreter, std::nullopt);
+    CallFrame& frame = frames_.back();
+    if (--frame.left == 0) {
+        back_to_caller();
+        return good;
+    }
+    repeats_.resize(frame.repeats);
+    (void)interpreter.parameters().enter();
+    jump(place_at(frame.program));
+    return good;
+}
+
+/// A text is over; of a numbered program without M99 that is told.
+bool ProgramFlow::text_ended() {
+    if (frames_.empty() || frames_.back().program == no_location || !faults_.empty()) return false;
+    over_ = true;
+    const OWordLocation& begin = place_at(frames_.back().program);
+    fail(begin, begin.column, "the text ends in this numbered program, which M98 has called; end it with M99");
+    faults_.push_back(problem_);
+    return false;
+}
+
+}  // namespace motionrack::control::gcode

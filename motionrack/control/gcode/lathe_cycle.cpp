@@ -1,0 +1,331 @@
+// Levels and pockets of a turning cycle.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/gcode/lathe_cycle.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+/// Heights and places that differ by less are the same, mm.
+constexpr double same_mm = 1e-7;
+constexpr double lowest_ever = -1e300;
+
+/// Which pockets a roughing cycle cuts.
+enum class Part : std::uint8_t { whole, without_pockets, pockets };
+
+/// The moves, in the plane as it is; what leads nowhere is left out.
+class Path {
+  public:
+    Path(const CuttingOrientation& view, PlanePoint at, std::vector<LatheMove>& moves)
+        : view_(view), at_(view.in(at)), moves_(moves) {}
+
+    PlanePoint at() const { return at_; }
+    bool full() const { return moves_.size() > max_turning_moves; }
+    void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
+    /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
+    void over(double highest, PlanePoint to) {
+        if (std::min(at_.second, to.second) < highest - same_mm) {
+            const double clear = std::max(to.second, highest);
+            rapid({at_.first, clear});
+            rapid({to.first, clear});
+        }
+        rapid(to);
+    }
+    /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not
+    /// aslant through the work piece, nor through a part of it that is higher than the start.
+    PlanePoint before(PlanePoint start, PlanePoint begin, double highest) {
+        rapid(start);
+        if (begin.first < start.first) over(highest, {begin.first, start.second});
+        return at_;
+    }
+    void feed(PlanePoint to) { add(MoveKind::feed, to, {}, 0); }
+    /// Along a piece, up to a place on it. `on`: it goes on along the arc that the move before was on.
+    void along(const ContourSegment& piece, PlanePoint to, bool on) {
+        if (!piece.arc()) return feed(to);
+        if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc &&
+            length(view_.in(moves_.back().centre) - piece.centre) < same_mm)
+            moves_.pop_back();
+        add(MoveKind::arc, to, piece.centre, piece.turns);
+    }
+
+  private:
+    void add(MoveKind kind, PlanePoint to, PlanePoint centre, std::int32_t turns) {
+        if (length(to - at_) < same_mm) return;
+        at_ = to;
+        if (!full()) moves_.push_back({kind, view_.out(to), view_.out(centre), view_.turns(turns)});
+    }
+
+    const CuttingOrientation& view_;
+    PlanePoint at_;
+    std::vector<LatheMove>& moves_;
+};
+
+/// Where a piece that rises or falls is at a height.
+PlanePoint at_height(const ContourSegment& piece, double height) {
+    if (std::fabs(height - piece.to.second) <= same_mm) return piece.to;
+    if (!piece.arc()) {
+        const double share = (height - piece.from.second) / (piece.to.second - piece.from.second);
+        return {piece.from.first + (piece.to.first - piece.from.first) * share, height};
+    }
+    const double radius = length(piece.from - piece.centre), over = height - piece.centre.second;
+    const double half = std::sqrt(std::max(0.0, (radius - over) * (radius + over)));
+    const double side = piece.from.first + piece.to.first > 2 * piece.centre.first ? half : -half;
+    return {std::clamp(piece.centre.first + side, piece.from.first, piece.to.first), height};
+}
+
+double highest_of(const std::vector<ContourSegment>& contour) {
+    double highest = contour.front().from.second;
+    for (const ContourSegment& piece : contour) {
+        highest = std::max(highest, piece.to.second);
+        if (piece.arc() && extremes_passed(piece.from - piece.centre, piece.to - piece.centre, piece.turns > 0)[1])
+            highest = std::max(highest, piece.centre.second + length(piece.from - piece.centre));
+    }
+    return highest;
+}
+
+/// Roughing along a contour that goes one way, seen in its view.
+class Rougher {
+  public:
+    Rougher(const LatheCycle& plan, Part part, PlanePoint start, const std::vector<ContourSegment>& contour, Path& path)
+        : plan_(plan),
+          part_(part),
+          start_(start),
+          top_(part == Part::pockets ? lowest_ever : start.second),
+          contour_(contour),
+          path_(path) {}
+
+    void cut();
+
+  private:
+    /// A place on the contour.
+    struct On {
+        std::size_t piece;
+        PlanePoint at;
+    };
+
+    double level(std::int64_t k) const { return top_ - static_cast<double>(k) * plan_.depth; }
+    bool falls(std::size_t i) const { return contour_[i].to.second < contour_[i].from.second - same_mm; }
+    bool rises(std::size_t i) const { return contour_[i].to.second > contour_[i].from.second + same_mm; }
+    void enter();
+    void pocket(std::size_t& piece);
+    void pass_over(std::size_t& piece);
+    void follow(On& from, On to, bool on);
+    bool cut_level(PlanePoint from, const On& behind, bool outside);
+    bool exit_of(double height, std::size_t from, On& exit) const;
+
+    const LatheCycle& plan_;
+    Part part_;
+    PlanePoint start_;
+    double top_;  ///< where the levels begin: at the start, or at the highest pocket so far where only pockets are cut
+    const std::vector<ContourSegment>& contour_;
+    Path& path_;
+    bool goes_on_ = false;  ///< the next piece may lengthen the last move's arc
+};
+
+void Rougher::cut() {
+    enter();
+    for (std::size_t i = 0; i < contour_.size() && !path_.full();) {
+        if (!falls(i)) {
+            path_.along(contour_[i], contour_[i].to, goes_on_);
+            goes_on_ = false;
+            ++i;
+        } else if (part_ == Part::without_pockets) {
+            pass_over(i);
+        } else {
+            pocket(i);
+        }
+    }
+}
+
+/// From the start down to where the contour begins; there is nothing yet of the work piece.
+void Rougher::enter() {
+    const PlanePoint begin = contour_.front().from;
+    start_ = path_.before(start_, begin, highest_of(contour_));
+    if (part_ != Part::pockets) {
+        for (std::int64_t k = 0; level(k) > begin.second + same_mm && !path_.full(); ++k) {
+            const double share = (start_.second - level(k)) / (start_.second - begin.second);
+            const PlanePoint from = {start_.first + (begin.first - start_.first) * share, level(k)};
+            path_.rapid(from);
+            if (!cut_level(from, {0, begin}, true)) break;
+        }
+    }
+    path_.rapid(begin);
+}
+
+/// One level from `from` to the contour, and back. False: the contour never comes up to it.
+bool Rougher::cut_level(PlanePoint from, const On& behind, bool outside) {
+    On exit{};
+    if (!exit_of(from.second, behind.piece, exit)) return false;
+    const double way = exit.at.first - from.first;
+    if (way <= same_mm) return true;
+    const double back = std::min(plan_.retract, way / 2);
+    path_.feed(exit.at);
+    path_.rapid({exit.at.first - back, from.second + back});
+    path_.rapid({from.first + back, from.second + back});
+    if (outside)
+        path_.rapid(from);
+    else
+        path_.feed(from);
+    return true;
+}
+
+/// Where the contour, having been below a height, comes up to it.
+bool Rougher::exit_of(double height, std::size_t from, On& exit) const {
+    for (std::size_t i = from; i < contour_.size(); ++i) {
+        const ContourSegment& piece = contour_[i];
+        if (!rises(i) || piece.to.second < height - same_mm || piece.from.second >= height - same_mm) continue;
+        exit = {i, at_height(piece, std::min(height, piece.to.second))};
+        return true;
+    }
+    return false;
+}
+
+/// The contour goes down from here: the levels that are in there, then its bottom.
+void Rougher::pocket(std::size_t& piece) {
+    On at{piece, contour_[piece].from};
+    std::size_t bottom = piece;
+    for (std::size_t i = piece; i < contour_.size() && !rises(i); ++i)
+        if (falls(i)) bottom = i;
+    const PlanePoint lowest = contour_[bottom].to;
+    if (part_ == Part::pockets) top_ = std::max(top_, at.at.second);
+    auto k = static_cast<std::int64_t>(std::ceil((top_ - at.at.second - same_mm) / plan_.depth));
+    for (k = std::max<std::int64_t>(k, 0); level(k) > lowest.second + same_mm && !path_.full(); ++k) {
+        On down = at;
+        while (contour_[down.piece].to.second > level(k) + same_mm) down = {down.piece + 1, contour_[down.piece].to};
+        if (down.at.second > level(k) + same_mm) down.at = at_height(contour_[down.piece], level(k));
+        follow(at, down, false);
+        if (!cut_level(at.at, {at.piece, at.at}, false)) break;
+    }
+    follow(at, {bottom, lowest}, false);
+    goes_on_ = true;
+    piece = bottom + 1;
+}
+
+/// Straight on to where the contour is as high again; or along it where it never is.
+void Rougher::pass_over(std::size_t& piece) {
+    const PlanePoint top = contour_[piece].from;
+    On exit{};
+    if (!exit_of(top.second, piece, exit)) {
+        path_.along(contour_[piece], contour_[piece].to, false);
+        ++piece;
+        return;
+    }
+    path_.feed(exit.at);
+    path_.along(contour_[exit.piece], contour_[exit.piece].to, false);
+    piece = exit.piece + 1;
+}
+
+void Rougher::follow(On& from, On to, bool on) {
+    for (std::size_t i = from.piece; i <= to.piece; ++i)
+        path_.along(contour_[i], i == to.piece ? to.at : contour_[i].to, on && i == from.piece);
+    from = to;
+}
+
+/// The last piece leads up to the height of the start.
+void close(std::vector<ContourSegment>& contour, double height) {
+    const ContourSegment& last = contour.back();
+    if (last.to.second >= height - same_mm) return;
+    ContourSegment up;
+    up.from = last.to;
+    up.to = {last.to.first, height};
+    up.line = last.line;
+    contour.push_back(up);
+}
+
+bool find_view(const LatheCycle& plan, const std::vector<ContourSegment>& contour, bool swapped,
+               CuttingOrientation& view) {
+    view = {};
+    view.swapped = swapped;
+    const double along = view.in(contour.back().to).first - view.in(contour.front().from).first;
+    if (std::fabs(along) < same_mm) return false;
+    view.along = along > 0 ? 1 : -1;
+    double highest = lowest_ever;
+    for (const ContourSegment& piece : contour)
+        highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
+    const double start = view.in(plan.start).second, begin = view.in(contour.front().from).second;
+    const bool above = start > begin + same_mm || (start > begin - same_mm && start >= highest - same_mm);
+    view.away = above ? 1 : -1;
+    return true;
+}
+
+std::vector<ContourSegment> seen(const std::vector<ContourSegment>& contour, const CuttingOrientation& view) {
+    std::vector<ContourSegment> out = contour;
+    for (ContourSegment& piece : out) {
+        piece.from = view.in(piece.from);
+        piece.to = view.in(piece.to);
+        piece.centre = view.in(piece.centre);
+        piece.turns = view.turns(piece.turns);
+    }
+    return out;
+}
+
+/// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part
+/// that is higher than one of the two.
+std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const std::vector<ContourSegment>& contour,
+                   Path& path) {
+    PlanePoint start = view.in(plan.start);
+    double highest = lowest_ever;
+    for (std::int32_t left = plan.passes - 1; left >= 0 && !path.full(); --left) {
+        std::vector<ContourSegment> beside;
+        const double distance = plan.end_distance + (plan.distance - plan.end_distance) * left / plan.passes;
+        if (std::string fault = offset_contour(contour, distance, beside); !fault.empty()) return fault;
+        path.over(highest, start);
+        highest = std::max(highest, highest_of(beside));
+        start = path.before(start, beside.front().from, highest);
+        path.rapid(beside.front().from);
+        for (const ContourSegment& piece : beside) path.along(piece, piece.to, false);
+    }
+    return {};
+}
+
+/// The contour in the view in which it goes one way; G70 takes either.
+std::string in_its_view(const LatheCycle& plan, const std::vector<ContourSegment>& contour, CuttingOrientation& view,
+                        std::vector<ContourSegment>& out) {
+    std::string fault;
+    for (const bool swapped : {false, true}) {
+        const bool wanted = plan.code == 700 || swapped == (plan.code >= 720);
+        if (!wanted) continue;
+        const char axis = swapped ? 'X' : 'Z';
+        std::string why;
+        if (find_view(plan, contour, swapped, view)) {
+            out = seen(contour, view);
+            why = make_monotone(out, axis);
+            if (why.empty()) return why;
+        } else {
+            why = fmt::format("the contour ends where it began along {}, so there is nothing to cut along it", axis);
+        }
+        if (fault.empty()) fault = why;
+    }
+    return fault;
+}
+
+}  // namespace
+
+std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
+                             std::vector<LatheMove>& moves) {
+    moves.clear();
+    if (std::string fault = insert_fillets(contour); !fault.empty()) return fault;
+    CuttingOrientation view;
+    std::vector<ContourSegment> pieces, beside;
+    if (std::string fault = in_its_view(plan, contour, view, pieces); !fault.empty()) return fault;
+    Path path(view, from, moves);
+    if (plan.code == 700) {
+        if (std::string fault = finish(plan, view, seen(contour, view), path); !fault.empty()) return fault;
+    } else {
+        if (std::string fault = offset_contour(seen(contour, view), plan.distance, beside); !fault.empty())
+            return fault;
+        if (std::string fault = make_monotone(beside, plan.code >= 720 ? 'X' : 'Z'); !fault.empty()) return fault;
+        const PlanePoint start = view.in(plan.start);
+        close(beside, start.second);
+        constexpr Part parts[] = {Part::whole, Part::without_pockets, Part::pockets};
+        Rougher(plan, parts[plan.code % 10], start, beside, path).cut();
+    }
+    if (path.full()) return fmt::format("it would be more than {} moves; make I larger", max_turning_moves);
+    return {};
+}
+
+}  // namespace motionrack::control::gcode

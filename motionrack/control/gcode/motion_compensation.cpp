@@ -1,0 +1,349 @@
+// G40, G41, G42, G41.1, G42.1: the moves of a line become moves of the cutter's centre; what compensation forbids.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr double largest_cutter_mm = 1000;
+
+}  // namespace
+
+/// G40 .. G42.1.
+bool Interpreter::cutter() {
+    const std::int16_t code = block_.g[g_cutter];
+    const std::size_t column = block_.g_column[g_cutter];
+    if (code == 400) {
+        if (compensating_ && !end_waiting_path()) return false;
+        next_.cutter = CutterSide::off;
+        return true;
+    }
+    if (next_.cutter != CutterSide::off) {
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
+                        "move before it",
+                        name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
+    }
+    if (settings_.point_to_point) {
+        return fail_at(column, GrblStatus::unsupported,
+                       fmt::format("{}: the axes of this rack position one by one, so no path can go beside a contour",
+                                   name_of_g(code)));
+    }
+    double diameter = 0;
+    if (!cutter_diameter(diameter)) return false;
+    const bool left = (code / 10 == 41) == (diameter >= 0);
+    next_.cutter = left ? CutterSide::left : CutterSide::right;
+    next_.cutter_radius_mm = std::fabs(diameter) / 2;
+    return true;
+}
+
+/// From the D word, in mm; negative ones change the side.
+bool Interpreter::cutter_diameter(double& diameter) {
+    const std::int16_t code = block_.g[g_cutter];
+    const std::size_t column = block_.g_column[g_cutter];
+    used_ |= letter_bit('D');
+    if (code % 10 != 0) {
+        if (!block_.has('D')) {
+            return fail_at(
+                column, GrblStatus::word_missing,
+                fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
+        }
+        diameter = scaled('D');
+    } else {
+        if (tools_.empty()) {
+            return fail_at(column, GrblStatus::unsupported,
+                           fmt::format("{0}: there is no tool table to take the diameter from; give the program one "
+                                       "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
+                                       name_of_g(code)));
+        }
+        if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
+        const bool of_spindle = !block_.has('D') || block_['D'] == 0;
+        const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block_['D']);
+        if (number <= 0) {
+            return fail_at(
+                column, GrblStatus::word_missing,
+                fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
+        }
+        const Tool* tool = tool_of_table(number, 'D', g_cutter);
+        if (!tool) return false;
+        diameter = tool->diameter_mm;
+    }
+    if (std::fabs(diameter) <= largest_cutter_mm) return true;
+    return fail_at(
+        block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::value_too_large,
+        fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
+}
+
+/// What must stay as it is while compensation is on.
+bool Interpreter::cutter_allows() {
+    const auto forbid = [&](std::size_t column, std::string_view what) {
+        return fail_at(
+            column, GrblStatus::axis_conflict,
+            fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
+    };
+    const bool was_on = modes_.cutter != CutterSide::off;
+    // M72 brings modes back, too.
+    const auto column_of = [&](GroupG group) -> std::size_t {
+        return block_.has_g(group)      ? block_.g_column[group]
+               : block_.has_m(m_state)  ? block_.m_column[m_state]
+               : block_.has_g(g_cutter) ? block_.g_column[g_cutter]
+                                        : 0;
+    };
+    if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
+    if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
+    if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
+    if (frame_now().is_rotated && next_.plane != 0) {
+        return fail_at(
+            column_of(g_cutter), GrblStatus::unsupported,
+            fmt::format(
+                "the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only",
+                frame_now().rotation_deg[next_.system]));
+    }
+    if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
+        return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
+    if (next_.inverse_time) {
+        return forbid(column_of(g_feed_mode), "G93 (inverse time) cannot be used");
+    }
+    if (was_on && block_.has_m(m_tool))
+        return forbid(block_.m_column[m_tool],
+                      block_.m[m_tool] == 61 ? "M61 cannot tell of another tool" : "M6 cannot change the tool");
+    const std::int16_t once = block_.has_g(g_nonmodal) ? block_.g[g_nonmodal] : std::int16_t{40};
+    if (once == 40) return true;
+    return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
+}
+
+/// The move that waits is the last one beside the contour; it ends as it is.
+bool Interpreter::end_waiting_path() {
+    cutter_plan_.joins = true;
+    cutter_plan_.last = cutter_path_;
+    return trim(cutter_plan_.last, cutter_from_, cutter_path_.end) || gouges(cutter_line_);
+}
+
+bool Interpreter::gouges(std::int32_t line) {
+    return fail_at(
+        error_column(), GrblStatus::bad_target,
+        fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
+                    "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
+                    "leave the move out",
+                    modes_.cutter_radius_mm, line));
+}
+
+/// The path beside the move that straight() or arc() has prepared.
+bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
+    const Move& move = moving_.move;
+    const double radius = next_.cutter_radius_mm;
+    const double offset = next_.cutter == CutterSide::left ? radius : -radius;
+    const PlanePoint centre = {move.centre_first, move.centre_second};
+    const bool is_arc = move.kind == MoveKind::arc;
+    if (!compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
+        return fail_at(
+            error_column(), GrblStatus::bad_target,
+            fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
+                        "radius of {:.6g} mm; begin farther away",
+                        radius));
+    }
+    if (!is_arc) {
+        path = compensating_ ? offset_line(from, to, offset) : lead_in_line(from, to, offset);
+        return true;
+    }
+    if (compensating_ ? offset_arc(from, to, centre, move.turns, offset, path)
+                      : lead_in_arc(from, to, centre, move.turns, offset, path))
+        return true;
+    const double arc_radius = length({from.first - centre.first, from.second - centre.second});
+    return fail_at(
+        error_column(), GrblStatus::bad_radius,
+        arc_radius <= radius
+            ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
+                          "smaller cutter",
+                          radius, arc_radius)
+            : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
+}
+
+/// From the programmed move to that of the cutter, which waits until the next one is known.
+bool Interpreter::compensate() {
+    Move& move = moving_.move;
+    const auto& axes = plane_axes[next_.plane];
+    const PlanePoint from = {position_[axes[0]], position_[axes[1]]};
+    const PlanePoint to = {end_[axes[0]], end_[axes[1]]};
+    if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
+        if (!compensating_) return !off_path_ || reaches_contour();
+        move.end[axes[0]] = cutter_path_.end.first;
+        move.end[axes[1]] = cutter_path_.end.second;
+        return true;
+    }
+    CutterPath& path = cutter_plan_.path;
+    if (!path_beside(from, to, path)) return false;
+    cutter_plan_.begins = true;
+    cutter_plan_.from = off_path_ ? PlanePoint{at_[axes[0]], at_[axes[1]]} : from;
+    if (compensating_ && !join(from)) return false;
+    move.end[axes[0]] = path.end.first;
+    move.end[axes[1]] = path.end.second;
+    move.centre_first = path.centre.first;
+    move.centre_second = path.centre.second;
+    if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
+    return (reach(axes[0], path.end.first, error_column()) && reach(axes[1], path.end.second, error_column())) ||
+           off_limits();
+}
+
+/// From beside the contour back to it, which may lie where the machine cannot go.
+bool Interpreter::reaches_contour() {
+    for (int axis = 0; axis < 3; ++axis)
+        if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
+            if (!reach(axis, end_[axis], error_column())) return false;
+    return true;
+}
+
+bool Interpreter::off_limits() {
+    problem_.message = "beside the contour, where the cutter's centre goes: " + problem_.message;
+    return false;
+}
+
+/// Joins the move that waits to the one of this line.
+bool Interpreter::join(PlanePoint corner) {
+    const auto& axes = plane_axes[next_.plane];
+    const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
+    const CutterPath& path = cutter_plan_.path;
+    const CornerJoinPoint joint = join_corner(cutter_path_, path, corner, offset);
+    if (joint.kind == CornerJoin::none) {
+        return fail_at(
+            error_column(), GrblStatus::bad_target,
+            fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
+                        "take a smaller cutter",
+                        next_.cutter_radius_mm, cutter_line_));
+    }
+    cutter_plan_.joins = true;
+    cutter_plan_.last = cutter_path_;
+    if (!trim(cutter_plan_.last, cutter_from_, joint.at)) return gouges(cutter_line_);
+    if (!reach(axes[0], joint.at.first, error_column()) || !reach(axes[1], joint.at.second, error_column()))
+        return off_limits();
+    cutter_plan_.around = joint.kind == CornerJoin::around;
+    cutter_plan_.from = cutter_plan_.around ? path.start : joint.at;
+    if (!cutter_plan_.around) return true;
+    // Before a rapid move the corner is cut straight, in the air.
+    Move& arc = cutter_plan_.arc;
+    arc = moving_.move;
+    if (arc.kind != MoveKind::rapid) arc.kind = MoveKind::arc;
+    arc.first = axes[0];
+    arc.second = axes[1];
+    arc.turns = offset > 0 ? -1 : 1;
+    arc.centre_first = corner.first;
+    arc.centre_second = corner.second;
+    arc.end = position_;
+    arc.end[axes[0]] = path.start.first;
+    arc.end[axes[1]] = path.start.second;
+    if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
+        return off_limits();
+    return (reach(axes[0], path.start.first, error_column()) && reach(axes[1], path.start.second, error_column())) ||
+           off_limits();
+}
+
+/// After G40 the cutter still stands beside the contour.
+bool Interpreter::leaves_straight(std::int16_t code) {
+    if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
+    return fail_at(error_column(), GrblStatus::bad_target,
+                   fmt::format("{} after G40: the cutter stands beside the contour yet; leave it with a straight move",
+                               name_of_g(code)));
+}
+
+/// The program ends on this line.
+bool Interpreter::end_cutter() {
+    if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
+    return !compensating_ || end_waiting_path();
+}
+
+/// Without a move beside the contour, or an end of it, what the line does would wait too.
+bool Interpreter::may_wait() {
+    const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
+    if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
+    return fail_at(0, GrblStatus::unsupported,
+                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, "
+                               "and no more can; nothing of this line was done; "
+                               "write that move before it, or G40",
+                               CompensationQueue::most, cutter_line_));
+}
+
+/// What the good line changes: the steps that are final become ready, its own ones wait behind them.
+void Interpreter::commit_cutter() {
+    const auto& axes = plane_axes[modes_.plane];
+    const bool off = modes_.cutter == CutterSide::off;
+    const bool ends = end_pending_ || off;
+    const bool moved = (todo_ & todo_motion) != 0;
+    if (ends && compensating_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
+    if (!ends || cutter_plan_.begins) hold_steps();
+    if (cutter_plan_.begins) {
+        cutter_path_ = cutter_plan_.path;
+        cutter_from_ = cutter_plan_.from;
+        cutter_line_ = line_;
+        if (ends) held_.settle(axes[0], axes[1], cutter_path_);
+    }
+    if (compensating_ || cutter_plan_.begins) {
+        at_ = position_;
+        at_[axes[0]] = cutter_path_.end.first;
+        at_[axes[1]] = cutter_path_.end.second;
+        off_path_ = !(off && moved);
+    } else {
+        off_path_ = off_path_ && !moved;
+    }
+    compensating_ = (compensating_ || cutter_plan_.begins) && !ends;
+    if (held_.has_ready()) todo_ |= todo_held;
+}
+
+/// What waited is final up to the move that this line begins.
+void Interpreter::settle_joint() {
+    const auto& axes = plane_axes[modes_.plane];
+    if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
+    if (cutter_plan_.around) {
+        CanonCall around;
+        around.line = line_;
+        around.move = cutter_plan_.arc;
+        held_.push(around);
+    }
+    held_.settle();
+}
+
+/// Puts this line's events and motion behind what waits; the comments are told at once, the end of the program last.
+void Interpreter::hold_steps() {
+    const std::uint32_t kept = todo_ & (todo_comments | (end_pending_ ? todo_stop : 0u));
+    todo_ &= ~kept;
+    while (todo_ != 0) {
+        if ((todo_ & (0 - todo_)) == todo_motion && cutter_plan_.begins) settle_joint();
+        held_.push(*pull_next());
+    }
+    todo_ = kept;
+    if (!compensating_ && !cutter_plan_.begins) held_.settle();
+}
+
+void Interpreter::resync_position(const Point& position) {
+    position_ = position;
+    held_.clear();
+    compensating_ = off_path_ = false;
+    modes_.cutter = CutterSide::off;
+}
+
+Outcome<void> Interpreter::finish() {
+    todo_ = 0;
+    cutter_plan_.clear();
+    if (!compensating_) return {};
+    const auto& axes = plane_axes[modes_.plane];
+    if (!end_waiting_path()) {
+        held_.settle(axes[0], axes[1], cutter_path_);
+        held_.clear();
+        resync_position(at_);
+        set_problem(problem_, {}, 0, problem_.status, std::move(problem_.message));
+        problem_.place.line = cutter_line_;
+        return tl::unexpected<Problem>(problem_);
+    }
+    held_.settle(axes[0], axes[1], cutter_plan_.last);
+    compensating_ = false;
+    modes_.cutter = CutterSide::off;
+    todo_ = todo_held;
+    return {};
+}
+
+}  // namespace motionrack::control::gcode

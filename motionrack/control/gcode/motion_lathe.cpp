@@ -1,0 +1,165 @@
+// G70 .. G72.2: from words to a plan, and from the contour that a sub gives to moves.
+#include <fmt/format.h>
+
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/plane_point.hpp>
+#include <utility>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr std::int16_t finishing = 700;
+constexpr double max_passes = 10'000;
+/// A level takes at least so much, mm.
+constexpr double min_depth = 1e-4;
+
+}  // namespace
+
+/// The words of the cycle. Its moves come when the contour is known: turn().
+bool Interpreter::turning(std::int16_t code) {
+    LatheCycle plan;
+    plan.code = code;
+    if (!turning_allowed(code) || !turning_words(code, plan)) return false;
+    used_ |= axis_words;
+    const Point stays = end_;
+    const bool incremental = std::exchange(next_.incremental, false);  // X and Z are places in G91 too
+    if ((block_.words & axis_words) != 0 && !targets(false)) return false;
+    next_.incremental = incremental;
+    plan.start = {end_[2], end_[0]};
+    end_ = stays;
+    if (!feed_of(begin_move(MoveKind::feed))) return false;
+    next_.motion = no_motion;
+    turning_ = plan;
+    return true;
+}
+
+bool Interpreter::turning_allowed(std::int16_t code) {
+    const std::string name = name_of_g(code);
+    const auto refuse = [&](GrblStatus status, const std::string& why) {
+        return fail_at(block_.g_column[g_motion], status, name + why);
+    };
+    if (language_ != Language::program)
+        return refuse(GrblStatus::unsupported, ": a line by itself has no contour to turn; run the program as a file");
+    if (block_.has_g(g_nonmodal) || axis_words_taken_)
+        return refuse(GrblStatus::axis_conflict,
+                      " stands without other codes that use its words; put it on a line of its own");
+    if (block_.has_m(m_stop) || block_.has_m(m_io))
+        return refuse(GrblStatus::unsupported,
+                      " goes before a stop, an end or an output; put that on a line of its own");
+    if (next_.plane != 1)
+        return refuse(GrblStatus::no_plane_axis, " turns in the plane of X and Z; write G18 before it");
+    if (settings_.point_to_point)
+        return refuse(GrblStatus::unsupported,
+                      " moves two axes together, but the axes of this rack position one by one");
+    if (next_.cutter != CutterSide::off)
+        return refuse(GrblStatus::axis_conflict,
+                      " cannot be done while cutter compensation is on; write G40 and a straight move before it");
+    if (next_.inverse_time)
+        return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
+    if (!leaves_straight(code) || !in_turned_plane(code)) return false;
+    for (const char letter : {'Y', 'A', 'B', 'C'}) {
+        if (block_.has(letter))
+            return fail_word(letter, GrblStatus::unused_word,
+                             fmt::format("{}: {} moves X and Z only; put the other axes on a line of their own",
+                                         word_text(letter), name));
+    }
+    return true;
+}
+
+bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
+    if (!block_.has('Q')) {
+        return fail_at(
+            block_.g_column[g_motion], GrblStatus::word_missing,
+            fmt::format(
+                "Q word missing: {} needs the number of the sub that draws the contour; write e.g. {} Q100 X30 Z2",
+                name_of_g(code), name_of_g(code)));
+    }
+    if (!need_integer('Q', 0, 1e9, "the number of the sub that draws the contour")) return false;
+    contour_label_ = fmt::format("{:.0f}", block_['Q']);
+    used_ |= letter_bit('Q') | letter_bit('D');
+    for (const char letter : {'D', 'E', 'R'}) {
+        if (block_.has(letter) && block_[letter] < 0)
+            return fail_word(letter, GrblStatus::negative_value,
+                             fmt::format("{} is negative; it is a distance, 0 or more", word_text(letter)));
+    }
+    if (block_.has('D')) plan.distance = scaled('D');
+    if (code == finishing) {
+        used_ |= letter_bit('E') | letter_bit('P');
+        if (block_.has('E')) plan.end_distance = scaled('E');
+        if (block_.has('P') && !need_integer('P', 1, max_passes, "the number of passes")) return false;
+        if (block_.has('P')) plan.passes = static_cast<std::int32_t>(block_['P']);
+        return true;
+    }
+    used_ |= letter_bit('I') | letter_bit('R');
+    const double unit = next_.inch ? 25.4 : 1;
+    plan.depth = block_.has('I') ? scaled('I') : unit;
+    plan.retract = block_.has('R') ? scaled('R') : 0.5 * unit;
+    if (plan.depth >= min_depth) return true;
+    return fail_word(
+        'I', GrblStatus::bad_target,
+        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), min_depth));
+}
+
+Interpreter Interpreter::contour_interpreter() const {
+    Interpreter reader = *this;
+    reader.low_.fill(-1e9);
+    reader.high_.fill(1e9);
+    reader.present_words_ = axis_words;
+    reader.settings_.probe = reader.settings_.point_to_point = false;
+    reader.turning_.reset();
+    reader.todo_ = 0;
+    reader.position_[2] = turning_->start.first;
+    reader.position_[0] = turning_->start.second;
+    return reader;
+}
+
+Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
+    const std::size_t column = block_.g_column[g_motion];
+    const std::string fault =
+        gcode::make_lathe_moves(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
+    const std::string name = name_of_g(turning_->code);
+    turning_.reset();
+    if (!fault.empty()) fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
+    if (!fault.empty() || !turning_within_limits()) {
+        todo_ = 0;
+        problem_.place.line = line_;
+        return tl::unexpected<Problem>(problem_);
+    }
+    turned_pulled_ = 0;
+    if (turned_.empty()) return {};
+    position_[2] = turned_.back().to.first;
+    position_[0] = turned_.back().to.second;
+    motion_ = Motion::turning;
+    todo_ |= todo_motion;
+    moving_.move.end = position_;
+    return {};
+}
+
+bool Interpreter::turning_within_limits() {
+    const std::size_t column = block_.g_column[g_motion];
+    PlanePoint from = {position_[2], position_[0]};
+    for (const LatheMove& move : turned_) {
+        if (!reach(2, move.to.first, column) || !reach(0, move.to.second, column)) return false;
+        if (move.kind == MoveKind::arc && !arc_within_limits(from, move.to, move.centre, move.turns)) return false;
+        from = move.to;
+    }
+    return true;
+}
+
+void Interpreter::pull_turning() {
+    const LatheMove& turned = turned_[turned_pulled_++];
+    Move& move = moving_.move;
+    move.kind = turned.kind;
+    move.first = plane_axes[1][0];
+    move.second = plane_axes[1][1];
+    move.turns = turned.turns;
+    move.centre_first = turned.centre.first;
+    move.centre_second = turned.centre.second;
+    move.end[2] = turned.to.first;
+    move.end[0] = turned.to.second;
+    if (turned_pulled_ == turned_.size()) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
+}
+
+}  // namespace motionrack::control::gcode

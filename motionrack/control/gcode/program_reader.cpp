@@ -1,0 +1,107 @@
+// Walking through the lines of a program.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/control/gcode/empty_program.hpp>
+#include <motionrack/control/gcode/program_reader.hpp>
+
+namespace motionrack::control::gcode {
+
+ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
+    : walk_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
+
+/// What other lines than those of cycles do is in the allowance of each line.
+bool ProgramReader::within_budget() const {
+    constexpr std::int64_t steps_of_a_line = 16;
+    return further_steps_ <= max_steps_ + steps_of_a_line * lines_read_;
+}
+
+Outcome<const CanonCall*> ProgramReader::next_from_lines() {
+    std::string_view text;
+    while (walk_.next(text)) {
+        ++lines_read_;
+        if (!within_budget()) {
+            Problem problem;
+            set_problem(problem, text, 0, GrblStatus::unsupported,
+                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the "
+                                    "program is not over; does a loop drill without "
+                                    "end? No more of it was read",
+                                    further_steps_));
+            walk_.line_rejected(text, problem);
+            walk_.end();
+            return tl::unexpected<Problem>(std::move(problem));
+        }
+        if (auto done = interpreter_.line(text, walk_.number(), Language::program); !done) {
+            walk_.line_rejected(text, done.error());
+            const std::size_t column = static_cast<std::size_t>(done.error().place.column);
+            if (walk_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
+                done.error().message = "the text ends inside this comment; is the file complete?";
+            }
+            return tl::unexpected<Problem>(std::move(done.error()));
+        }
+        if (auto done = walk_.line_accepted(interpreter_); !done)
+            return tl::unexpected<Problem>(std::move(done.error()));
+        if (const CanonCall* step = interpreter_.pull()) return step;
+    }
+    if (walk_.has_faults()) return tl::unexpected<Problem>(walk_.take_fault());
+    if (auto done = interpreter_.finish(); !done) {
+        done.error().file = walk_.file();
+        return tl::unexpected<Problem>(std::move(done.error()));
+    }
+    return interpreter_.pull();
+}
+
+namespace {
+
+/// Problems that were told before, until a check is given up.
+constexpr int max_repeated = 10'000;
+
+/// What goes wrong in a loop or a subprogram goes wrong often.
+bool is_known(const std::vector<Problem>& problems, const Problem& one) {
+    return std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
+        return other.place.line == one.place.line && other.place.column == one.place.column && other.file == one.file;
+    });
+}
+
+}  // namespace
+
+ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t max_problems,
+                           const std::string& file) {
+    ProgramCheck check;
+    check.min = check.max = settings.start;
+    ProgramReader reader(text, settings, file);
+    int repeated = 0;
+    for (;;) {
+        const auto step = reader.next();
+        if (!step) {
+            if (is_known(check.problems, step.error())) {
+                if (++repeated < max_repeated) continue;
+                check.more_problems = true;
+                break;
+            }
+            check.problems.push_back(step.error());
+            if (check.problems.size() < max_problems) continue;
+            check.more_problems = true;
+            break;
+        }
+        if (*step == nullptr) break;
+        if ((*step)->kind != CanonCallKind::move) continue;
+        const Move& move = (*step)->move;
+        if (move.kind == MoveKind::dwell) {
+            ++check.dwells;
+            check.seconds_of_dwells += move.seconds;
+            continue;
+        }
+        ++check.moves;
+        for (int axis = 0; axis < axis_count; ++axis) {
+            check.min[axis] = std::min(check.min[axis], move.end[axis]);
+            check.max[axis] = std::max(check.max[axis], move.end[axis]);
+        }
+    }
+    check.lines = reader.walk().highest_line();
+    check.ended = reader.interpreter().modes().ended;
+    if (check.problems.empty() && is_empty_program(text)) check.problems.push_back(empty_program_problem(text, file));
+    return check;
+}
+
+}  // namespace motionrack::control::gcode

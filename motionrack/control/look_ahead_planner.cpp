@@ -1,0 +1,317 @@
+// The look-ahead: squares of speeds, because over a move they change by the same amount whatever the speed.
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+#include <utility>
+
+namespace motionrack::control {
+namespace {
+
+constexpr int widest_window = 1'000'000;
+constexpr double path_rounding = 1e-9;
+
+std::uint64_t power_of_two_from(std::uint64_t least) {
+    std::uint64_t size = 1;
+    while (size < least) size *= 2;
+    return size;
+}
+
+}  // namespace
+
+LookAheadPlanner::LookAheadPlanner(const MachineLimits& limits, const Point& start, LookAheadSettings settings)
+    : limits_(limits), drive_(settings.drive), position_(start) {
+    const auto window = static_cast<std::uint64_t>(std::clamp(settings.window, 1, widest_window));
+    chunk_ = std::max<std::uint64_t>(1, window / 4);
+    batch_ = window + chunk_;
+    const std::uint64_t size = power_of_two_from(batch_ + 1);
+    mask_ = size - 1;
+    slots_.resize(size);
+    nodes_.resize(size);
+    if (drive_ != nullptr) min_seconds_ = drive_->min_seconds(), late_seconds_ = drive_->late_seconds();
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        half_pulse_[i] = limits[i].pulses_per_unit > 0 ? 0.5 / limits[i].pulses_per_unit : 1e9;
+}
+
+Result<void> LookAheadPlanner::push(const Move& move) {
+    MOTIONRACK_ASSERT(has_room());
+    MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, limits_));
+    if (move.kind == MoveKind::dwell) {
+        append_dwell(move);
+        return {};
+    }
+    if (path.shape == PathShape::nothing) return {};
+
+    if (!std::exchange(apart_, false) && merge(move, path)) return {};
+    const AlongPathLimits along = along_of(path, move);
+    double joint = 0;
+    if (tail_ != ready_) {
+        joint = join_corner(last_, path, along);
+        if (joint == 0) flush();
+    }
+    append(move, path, along, joint);
+    if (tail_ - ready_ >= batch_) {
+        backward();
+        forward(std::max(ready_ + chunk_, settled_));
+    }
+    return {};
+}
+
+/// As fast as the hardware can be given such moves, at most.
+AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
+    AlongPathLimits along = limits_.along(path, move);
+    if (min_seconds_ > 0) along.speed = std::min(along.speed, path.length / min_seconds_);
+    return along;
+}
+
+/// Square of the greatest speed.
+double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
+    const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
+                                                        before.control, before.tolerance_mm);
+    if (joint <= 0 || drive_ == nullptr) return joint;
+    const double speed = drive_->max_junction_velocity(before.path, path);
+    return std::min(joint, speed * speed);
+}
+
+/// Along a curve in short lines the hardware's rate stands for more and more speed, or less and less: of what it can
+/// slow down a part goes into that. At corners the speed is low, and lines have room for it.
+double LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
+    constexpr double min_cosine = 0.98;
+    if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
+    double cosine = 0;
+    for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
+    if (cosine < min_cosine) return 1;
+    const double ratio = drive_->speed_ratio(before.path, path);
+    return std::max(1.0, ratio * ratio);
+}
+
+LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
+                                                 double gain) const {
+    const double usable = path.length - (drive_ != nullptr ? drive_->constant_velocity_length(path) : 0);
+    return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
+}
+
+/// Square of the speed from which a move can brake to the square `exit`: v^2 + 2 lag v = exit + reach.
+double LookAheadPlanner::braked(const Node& node, double exit) {
+    if (node.lag == 0) return exit + node.reach;
+    const double speed = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
+    return speed * speed;
+}
+
+/// Square of the least speed at the end of a move that begins with the square `entry`.
+double LookAheadPlanner::min_exit(const Node& node, double entry) {
+    return node.lag == 0 ? entry - node.reach : entry - std::max(0.0, node.reach - 2 * node.lag * std::sqrt(entry));
+}
+
+namespace {
+
+/// Two straight moves of which nobody could tell that they are two but by the corner between them.
+bool are_alike(const Move& a, const Move& b) {
+    const auto straight = [](const Move& move) { return move.kind == MoveKind::feed || move.kind == MoveKind::rapid; };
+    return straight(a) && a.kind == b.kind && a.path == b.path && a.path != PathControl::exact_stop &&
+           a.tolerance_mm == b.tolerance_mm && a.feed_mode == FeedMode::units_per_second &&
+           a.feed_mode == b.feed_mode && a.feed == b.feed && a.rapid_override == b.rapid_override;
+}
+
+}  // namespace
+
+/// The places between the moves that the line is to stand for lie in their order along it.
+bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
+    double squared = 0, reached = 0;
+    Point way = {};
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        way[i] = line.end[i] - line.start[i];
+        squared += way[i] * way[i];
+    }
+    for (std::size_t k = 0; k <= between_size_; ++k) {
+        const Point& place = k < between_size_ ? between_[k] : position_;
+        double along = 0, off = 0;
+        for (std::size_t i = 0; i < way.size(); ++i) along += (place[i] - line.start[i]) * way[i];
+        along /= squared;
+        if (along <= reached || along >= 1) return false;
+        reached = along;
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            const double beside = place[i] - line.start[i] - along * way[i];
+            if (i < 3)
+                off += beside * beside;
+            else if (std::fabs(beside) > half_pulse_[i])
+                return false;
+        }
+        if (off > tolerance_mm * tolerance_mm) return false;
+    }
+    return true;
+}
+
+/// A straight move of this length takes the hardware's least time at its speed, and most of it can be used for changing
+/// the speed.
+double LookAheadPlanner::min_length(const Geometry& path, const Move& move) const {
+    constexpr double spent_lengths = 12;
+    return std::max(limits_.along(path, move).speed * min_seconds_,
+                    spent_lengths * drive_->constant_velocity_length(path));
+}
+
+/// A straight move that is too short for the hardware at its speed is made longer by the one behind it, where no
+/// entry speed that is final depends on it.
+bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
+    constexpr double part_of_tolerance = 0.25;
+    if (min_seconds_ <= 0 || tail_ == ready_ || between_size_ == max_between) return false;
+    const std::uint64_t index = tail_ - 1;
+    PlannedMove& last = slot(index);
+    if (!are_alike(last.move, move) || (index == ready_ ? committed_ != 0 : index <= settled_)) return false;
+    if (last_.path.length >= min_length(last_.path, last.move)) return false;
+    if (join_corner(last_, path, along_of(path, move)) <= 0) return false;
+    Move whole = last.move;
+    whole.end = move.end;
+    const Geometry line = geometry_of(whole, last.start);
+    double tolerance = std::min({half_pulse_[0], half_pulse_[1], half_pulse_[2]});
+    if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
+    if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
+    const AlongPathLimits along = along_of(line, whole);
+    const double joint = index == ready_ ? node(index).joint : join_corner(before_last_, line, along);
+    if (index != ready_ && joint <= 0) return false;
+    between_[between_size_++] = position_;
+    last.move = whole;
+    last.length = line.length;
+    last.accel = along.accel;
+    last.jerk = along.jerk;
+    ++last.moves;
+    ++pushed_;
+    const double gain = index == ready_ ? 1 : gain_of(before_last_, line);
+    node(index) = node_of(line, along, joint, gain);
+    position_ = move.end;
+    last_.path = line;
+    last_.along = along;
+    return true;
+}
+
+void LookAheadPlanner::append_dwell(const Move& move) {
+    flush();
+    PlannedMove& planned = slot(tail_);
+    planned = PlannedMove{};
+    planned.move = move;
+    planned.move.end = position_;
+    planned.start = position_;
+    planned.number = pushed_++;
+    node(tail_) = {0, 0, 0, 0, 1, 0};
+    ready_ = settled_ = ++tail_;
+}
+
+void LookAheadPlanner::append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint) {
+    PlannedMove& planned = slot(tail_);
+    planned.move = move;
+    planned.start = position_;
+    planned.number = pushed_++;
+    planned.moves = 1;
+    planned.length = path.length;
+    planned.accel = along.accel;
+    planned.jerk = along.jerk;
+    const double gain = tail_ == ready_ ? 1 : gain_of(last_, path);
+    node(tail_) = node_of(path, along, joint, gain);
+    ++tail_;
+    position_ = move.end;
+    before_last_ = last_;
+    last_ = {path, along, move.path, move.tolerance_mm};
+    between_size_ = 0;
+}
+
+void LookAheadPlanner::flush() {
+    backward();
+    forward(tail_);
+}
+
+/// From rest at the end of the window towards its start, down to the first move whose entry cannot change.
+void LookAheadPlanner::backward() {
+    const std::uint64_t last_settled = settled_;
+    double entry = 0;
+    for (std::uint64_t i = tail_; i > last_settled + 1;) {
+        Node& here = node(--i);
+        const double from = braked(here, entry);
+        if (here.joint <= from && settled_ == last_settled) settled_ = i;
+        here.entry = std::min(here.joint, from);
+        entry = here.entry / here.gain;
+    }
+}
+
+/// Makes the moves before `until` ready.
+void LookAheadPlanner::forward(std::uint64_t until) {
+    for (; ready_ < until; ++ready_) {
+        const Node& here = node(ready_);
+        const bool last = ready_ + 1 == tail_;
+        const double gain = last ? 1 : node(ready_ + 1).gain, after = last ? 0 : node(ready_ + 1).entry / gain;
+        const double entry = committed_ * committed_;
+        PlannedMove& planned = slot(ready_);
+        double exit = std::min(after, entry + here.reach);
+        // After change_feeds() a joint may want to be slower than can be braked to.
+        if (const double slowest = min_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
+        double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
+        // From rest to rest over what the hardware spends on its changes of speed: a pulse or two.
+        if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);
+        planned.entry_velocity = committed_;
+        planned.exit_velocity = std::sqrt(exit);
+        planned.cruise_velocity = std::max({std::sqrt(top), planned.entry_velocity, planned.exit_velocity});
+        if (planned.entry_velocity != 0 || planned.exit_velocity != 0) planned.jerk = 0;
+        committed_ = gain == 1 ? planned.exit_velocity : planned.exit_velocity * std::sqrt(gain);
+    }
+    settled_ = std::max(settled_, ready_);
+}
+
+bool LookAheadPlanner::pull(PlannedMove& planned) {
+    if (head_ == ready_) return false;
+    planned = slot(head_++);
+    return true;
+}
+
+bool LookAheadPlanner::pull_early(PlannedMove& planned) {
+    if (head_ == ready_ && ready_ != tail_) {
+        backward();
+        forward(ready_ + 1);
+    }
+    return pull(planned);
+}
+
+void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& change) {
+    if (head_ == tail_) return;
+    if (head_ != ready_) committed_ = slot(head_).entry_velocity;
+    ready_ = settled_ = head_;
+    Last before;
+    for (std::uint64_t i = head_; i < tail_; ++i) {
+        PlannedMove& planned = slot(i);
+        change(planned);
+        if (planned.move.kind == MoveKind::dwell) continue;
+        const Geometry path = geometry_of(planned.move, planned.start);
+        const AlongPathLimits along = along_of(path, planned.move);
+        planned.accel = along.accel;
+        planned.jerk = along.jerk;
+        const double joint = i != head_ && node(i).joint > 0 ? join_corner(before, path, along) : 0;
+        node(i) = node_of(path, along, joint, node(i).gain);
+        before_last_ = std::exchange(before, {path, along, planned.move.path, planned.move.tolerance_mm});
+    }
+    last_ = before;
+}
+
+double seconds_of(const PlannedMove& planned) {
+    if (planned.move.kind == MoveKind::dwell) return planned.move.seconds;
+    if (planned.jerk > 0)
+        return SCurveProfile(planned.length, planned.cruise_velocity, planned.accel, planned.jerk).duration();
+    return TrapezoidalProfile(planned.length, planned.entry_velocity, planned.exit_velocity, planned.cruise_velocity,
+                              planned.accel)
+        .duration();
+}
+
+void PlanSummary::add(const PlannedMove& planned) {
+    seconds += seconds_of(planned);
+    if (planned.move.kind == MoveKind::dwell) {
+        ++dwells;
+        return;
+    }
+    moves += planned.moves;
+    if (planned.exit_velocity == 0) ++stops;
+    const bool linear = planned.start[0] != planned.move.end[0] || planned.start[1] != planned.move.end[1] ||
+                        planned.start[2] != planned.move.end[2] || planned.move.kind == MoveKind::arc;
+    if (!linear) return;
+    path_mm += planned.length;
+    peak_velocity = std::max(peak_velocity, planned.cruise_velocity);
+}
+
+}  // namespace motionrack::control

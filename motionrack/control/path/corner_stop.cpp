@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/path/corner_stop.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+constexpr double stop_rounding = 1e-9;
+/// What both of an axis may take.
+constexpr double max_share = 0.5;
+/// What is eased is a little longer than what overlaps.
+constexpr double spare = 1.1;
+/// Eased are legs that win more than this part of their time: where the jerk changes their speed is not quite the
+/// quickest.
+constexpr double worth_easing = 0.01;
+/// Less of the room is tried too: down to this part.
+constexpr double min_room = 0.05;
+
+/// s in which a leg that begins at rest only speeds up: to its speed, or to its middle.
+double rising_seconds(const LegLimits& leg) {
+    const double full = leg.accel / leg.jerk, by_jerk = cube_root(4 * leg.length / leg.jerk);
+    const double to_middle =
+        by_jerk > 2 * full ? 0.5 * full + std::sqrt(0.25 * full * full + leg.length / leg.accel) : by_jerk;
+    return std::min(ramp_duration_s(leg.speed, leg), to_middle);
+}
+
+/// s in which the acceleration of such a leg rises.
+double rise_of(const LegLimits& leg) {
+    return std::min(leg.accel / leg.jerk, 0.5 * rising_seconds(leg));
+}
+
+/// s until such a leg has gone so far, but no longer than its acceleration lasts.
+double leg_seconds_over(double way, const LegLimits& leg) {
+    const double rise = rise_of(leg), left = way - leg.jerk * rise * rise * rise / 6;
+    if (left <= 0) return cube_root(6 * way / leg.jerk);
+    const double accel = leg.jerk * rise, speed = 0.5 * accel * rise;
+    return std::min(rising_seconds(leg), rise + 2 * left / (speed + std::sqrt(speed * speed + 2 * accel * left)));
+}
+
+LegLimits eased(LegLimits leg, double share) {
+    leg.jerk *= share;
+    return leg;
+}
+
+/// An axis that turns back gets the acceleration of both: this is the part of the jerk with which they overlap as long
+/// as the room lasts and it does not get too much.
+double share_turning_back(const LegLimits& leg, double corner_tolerance_mm) {
+    const double jerk = 0.5 * leg.accel / cube_root(6 * corner_tolerance_mm);
+    return jerk * std::sqrt(jerk) / leg.jerk;
+}
+
+/// What overlaps for so long is eased.
+JerkReduction ease_for(const LegLimits& leg, double share, double seconds) {
+    return {std::min(spare * share * leg.jerk * seconds * seconds * seconds / 6, 0.5 * leg.length), share};
+}
+
+/// s that a leg loses by it, where it is at its greatest speed. With constant acceleration a launch is known by when
+/// and where it would have begun without any jerk.
+double cost_of(const JerkReduction& ease, const LegLimits& leg) {
+    const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
+    const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;
+    const double speed_then = 0.5 * slow * first, speed = speed_then + 0.5 * (slow + accel) * second;
+    const double way = ease.length + second * (speed_then + second * (0.5 * slow + second * leg.jerk / 6));
+    const double rise = accel / leg.jerk;
+    const double later = first + second - speed / accel - 0.5 * rise,
+                 nearer = accel * rise * rise / 24 - (way - 0.5 * speed * speed / accel);
+    const double all_of_it =
+        (rising_seconds(eased(leg, ease.share)) - rising_seconds(leg)) * 2 * ease.length / leg.length;
+    return std::max(all_of_it, later + nearer / std::max(speed, accel * (rising_seconds(leg) - rise)));
+}
+
+double max_overlap_s(const LegLimits& before, const LegLimits& after, double corner_tolerance_mm) {
+    return std::min({rising_seconds(before), rising_seconds(after),
+                     leg_seconds_over(corner_tolerance_mm, before) + leg_seconds_over(corner_tolerance_mm, after)});
+}
+
+CornerStop eased_stop(const LegLimits& before, const LegLimits& after, double corner_tolerance_mm, bool turns_back) {
+    double share = max_share;
+    if (turns_back)
+        share = std::min(
+            {share, share_turning_back(before, corner_tolerance_mm), share_turning_back(after, corner_tolerance_mm)});
+    const double seconds = max_overlap_s(eased(before, share), eased(after, share), corner_tolerance_mm);
+    const JerkReduction ease_before = ease_for(before, share, seconds), ease_after = ease_for(after, share, seconds);
+    return {seconds - cost_of(ease_before, before) - cost_of(ease_after, after), ease_before, ease_after};
+}
+
+}  // namespace
+
+CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
+                               double corner_tolerance_mm, const MachineLimits& limits) {
+    CornerStop stop;
+    if (!(corner_tolerance_mm > 0)) return stop;
+    bool shared = false, turns_back = false, too_much = false;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        if (in[i] == 0 || out[i] == 0) continue;
+        shared = true;
+        turns_back = turns_back || in[i] * out[i] < 0;
+        too_much = too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) >
+                                   effective_jerk(limits[i]) * (1 + stop_rounding);
+    }
+    if (!too_much) {
+        stop.gain = max_overlap_s(before, after, corner_tolerance_mm);
+        // Beyond, an axis that turns back would get the acceleration of both.
+        if (shared) stop.gain = std::min({stop.gain, rise_of(before), rise_of(after)});
+        return stop;
+    }
+    for (double room = corner_tolerance_mm; room > corner_tolerance_mm * min_room; room *= 0.5) {
+        const CornerStop eased = eased_stop(before, after, room, turns_back);
+        if (eased.gain > stop.gain) stop = eased;
+    }
+    if (stop.gain < worth_easing * (rising_seconds(before) + rising_seconds(after))) stop = {};
+    return stop;
+}
+
+}  // namespace motionrack::control

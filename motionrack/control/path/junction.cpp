@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/path/junction.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+constexpr double no_corner_limit = 1e300;
+/// Speeds are found to about a part of 2 to this power: times are compared, not driven.
+constexpr int corner_halvings = 12;
+
+/// The greatest speed in least .. most for which way(speed), which grows, is no longer than `length`.
+template <class Candidate>
+double fastest(double least, double most, double length, Candidate way) {
+    if (way(most) <= length) return most;
+    for (int i = 0; i < corner_halvings; ++i) {
+        const double middle = 0.5 * (least + most);
+        (way(middle) < length ? least : most) = middle;
+    }
+    return least;
+}
+
+/// Where one of the leg's ends is passed.
+struct Side {
+    double speed = 0, half_blend_length = 0;
+};
+Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
+    if (stops) return {};
+    return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half_blend_length : 0};
+}
+
+/// The least of an axis' limit / |tangent|, and of `least`.
+template <class LimitOf>
+double min_along(const Point& tangent, double least, LimitOf limit_of) {
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (tangent[i] != 0) least = std::min(least, limit_of(i) / std::fabs(tangent[i]));
+    return least;
+}
+
+}  // namespace
+
+double ramp_duration_s(double more, const LegLimits& leg) {
+    const double full = leg.accel * leg.accel / leg.jerk;
+    return more > full ? more / leg.accel + leg.accel / leg.jerk : 2 * std::sqrt(more / leg.jerk);
+}
+
+double max_velocity_along(const Point& tangent, const MachineLimits& limits) {
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_velocity; });
+}
+
+double max_accel_along(const Point& tangent, const MachineLimits& limits) {
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return limits[i].max_accel; });
+}
+
+double max_jerk_along(const Point& tangent, const MachineLimits& limits) {
+    return min_along(tangent, no_corner_limit, [&](std::size_t i) { return effective_jerk(limits[i]); });
+}
+
+// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its
+// square.
+Junction junction_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
+                          double width, const MachineLimits& limits) {
+    Point change;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = out[i] - in[i];
+    const double by_accel = std::sqrt(0.5 * max_curvature_share * width * max_accel_along(change, limits));
+    const double by_jerk = cube_root(0.25 * max_curvature_share * width * width * max_jerk_along(change, limits));
+    Junction joint;
+    joint.can_pass = true;
+    joint.speed = std::min(by_accel, by_jerk);
+    joint.can_stop = joint.speed < std::max(before.speed, after.speed);
+    joint.half_blend_length = 0.5 * width;
+    return joint;
+}
+
+double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at_begin, const Junction& end,
+                      bool stops_at_end) {
+    Side low = side_at(begin, stops_at_begin, leg), high = side_at(end, stops_at_end, leg);
+    if (low.speed > high.speed) std::swap(low, high);
+    const double rest = std::max(0.0, leg.length - low.half_blend_length - high.half_blend_length);
+    const double gain = 0.5 * ((stops_at_begin ? begin.gain : 0) + (stops_at_end ? end.gain : 0));
+    const auto way = [&](double from, double to) { return 0.5 * (from + to) * ramp_duration_s(to - from, leg); };
+    const auto turn_seconds = [](const Side& side) {
+        return side.half_blend_length > 0 ? side.half_blend_length / side.speed : 0;
+    };
+    double seconds = turn_seconds(low) - gain;
+    if (way(low.speed, high.speed) > rest) {
+        high.speed = fastest(low.speed, high.speed, rest, [&](double to) { return way(low.speed, to); });
+        return high.speed > 0 ? seconds + turn_seconds(high) + ramp_duration_s(high.speed - low.speed, leg)
+                              : no_corner_limit;
+    }
+    seconds += turn_seconds(high);
+    const auto ways = [&](double top) { return way(low.speed, top) + way(high.speed, top); };
+    const double top = fastest(high.speed, leg.speed, rest, ways);
+    if (top > 0)
+        seconds += ramp_duration_s(top - low.speed, leg) + ramp_duration_s(top - high.speed, leg) +
+                   std::max(0.0, rest - ways(top)) / top;
+    return seconds;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,347 @@
+// Pieces end at the knots of all turns; each begins with the programmed polygon's place plus what the turns that reach
+// there add, so that roundings do not add up.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/path/path_builder.hpp>
+
+namespace motionrack::control {
+namespace {
+
+/// Pieces that are shorter than this part of u are none: roundings of the same knot.
+constexpr double curve_rounding = 4e-16;
+
+Point cubic(const Point& a, const Point& b, const Point& c, const Point& d, double x) {
+    Point out;
+    for (int i = 0; i < axis_count; ++i) out[i] = a[i] + x * (b[i] + x * (0.5 * c[i] + x * (1.0 / 6) * d[i]));
+    return out;
+}
+
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// How fast XYZ run at most on the piece where u runs with 1, or the fastest rotary axis where only ABC move; a hardly
+/// greater number.
+double max_velocity_on(const CubicSegment& piece, bool rotary) {
+    const double x = piece.length;
+    if (rotary) {
+        double most = 0;
+        const Point out = tangent_on(piece, x);
+        for (int i = 3; i < axis_count; ++i) {
+            const double middle = piece.tangent[i] + 0.5 * x * piece.curvature[i];
+            const double beyond = std::max(std::fabs(piece.tangent[i]), std::fabs(out[i]));
+            most = std::max({most, beyond, 0.5 * (std::fabs(middle) + beyond)});
+        }
+        return most;
+    }
+    const Point out = tangent_on(piece, x);
+    // the square's second half derivative is a + b x + c x^2
+    const double a = dot(piece.curvature, piece.curvature) + dot(piece.tangent, piece.curvature_rate);
+    const double b = 3 * dot(piece.curvature, piece.curvature_rate);
+    const double c = 1.5 * dot(piece.curvature_rate, piece.curvature_rate);
+    double least = std::min(a, a + x * (b + x * c));
+    if (b < 0 && -b < 2 * c * x) least = std::min(least, a - b * b / (4 * c));
+    const double ends = std::max(dot(piece.tangent, piece.tangent), dot(out, out));
+    return std::sqrt(ends + std::max(0.0, -least) * x * x * 0.25);
+}
+
+/// What is left of the tolerance for spreading turns on a span.
+Tolerance room_on(const MergedSegment& span, double arcs) {
+    const double part = 1 - arcs - 2 * left_out_share;
+    return {part * span.tolerance.linear - span.merged.linear, part * span.tolerance.rotary - span.merged.rotary};
+}
+
+/// The same at the joint of two spans. Where one is an arc, both may be.
+Tolerance room_between(const MergedSegment& before, const MergedSegment& after) {
+    const bool lines = before.kind == MergedSegmentKind::line && after.kind == MergedSegmentKind::line;
+    const double arcs = lines ? 0 : 2 * (after.tangent ? arc_tangent_share : arc_corner_share);
+    const Tolerance a = room_on(before, arcs), b = room_on(after, arcs);
+    return {std::min(a.linear, b.linear), std::min(a.rotary, b.rotary)};
+}
+
+}  // namespace
+
+Point position_on(const CubicSegment& piece, double x) {
+    return cubic(piece.start, piece.tangent, piece.curvature, piece.curvature_rate, x);
+}
+
+Point tangent_on(const CubicSegment& piece, double x) {
+    Point out;
+    for (int i = 0; i < axis_count; ++i)
+        out[i] = piece.tangent[i] + x * (piece.curvature[i] + 0.5 * x * piece.curvature_rate[i]);
+    return out;
+}
+
+Point bend_on(const CubicSegment& piece, double x) {
+    Point out;
+    for (int i = 0; i < axis_count; ++i) out[i] = piece.curvature[i] + x * piece.curvature_rate[i];
+    return out;
+}
+
+bool is_straight(const CubicSegment& piece) {
+    return piece.curvature == Point{} && piece.curvature_rate == Point{};
+}
+
+PathBuilder::PathBuilder(const MachineLimits& limits, const Point& start) : spans_(limits, start), turns_(limits) {}
+
+void PathBuilder::push(const Move& move) {
+    spans_.push(move);
+}
+
+void PathBuilder::flush() {
+    spans_.flush();
+}
+
+bool PathBuilder::pull(PathElement& item) {
+    for (;;) {
+        if (begun_) {
+            item.rest = false;
+            if (next_piece(item.piece)) return true;
+        }
+        const bool all_pieces = !begun_ || (turns_.is_complete() && cursor_ >= turns_.end());
+        if (all_pieces && spans_.size() > 0 && spans_.at(0).kind == MergedSegmentKind::rest) {
+            end_curve(item);
+            return true;
+        }
+        if (!next_turn()) return false;
+    }
+}
+
+void PathBuilder::end_curve(PathElement& item) {
+    const MergedSegment& rest = spans_.at(0);
+    item.rest = true;
+    item.seconds = rest.seconds;
+    item.corner_tolerance_mm = rest.corner_tolerance_mm;
+    item.line = rest.line;
+    item.at = rest.end;
+    spans_.pop();
+    begun_ = false;
+}
+
+// ---- turns
+
+/// Makes the next turn, or tells that none follows; false if that is not known yet, or there is no room for it.
+bool PathBuilder::next_turn() {
+    if (begun_ && (turns_.is_complete() || !turns_.has_room())) return false;
+    if (in_arc_) {
+        add_arc_corner();
+        return true;
+    }
+    if (spans_.size() == 0) return false;
+    const MergedSegment& span = spans_.at(0);
+    if (span.kind == MergedSegmentKind::rest) {
+        turns_.complete(u_end_);
+        return true;
+    }
+    const bool arc = span.kind == MergedSegmentKind::arc;
+    if (arc && spans_.size() < 2) return false;
+    if (begun_)
+        add_corner(span);
+    else
+        begin_curve(span);
+    if (arc)
+        begin_arc(span, spans_.at(1));
+    else
+        add_line(span);
+    last_ = span;
+    spans_.pop();
+    return true;
+}
+
+CornerBlend& PathBuilder::add_turn(double u, const Point& at, const Point& tangent) {
+    CornerBlend& turn = turns_.add();
+    turn.u = turn.begin = turn.peak = turn.end = u;
+    turn.at = at;
+    turn.tangent = tangent;
+    return turn;
+}
+
+void PathBuilder::begin_curve(const MergedSegment& span) {
+    begun_ = true;
+    turns_.clear();
+    u_end_ = cursor_ = 0;
+    ease_in_ = {};
+    eased_from_ = std::numeric_limits<double>::infinity();
+    first_event_ = past_event_ = 0;
+    placed_ = alive_ = edge_ = 0;
+    CornerBlend& turn = add_turn(0, span.start, span.tangent_in);
+    turn.fixed = true;
+    turn.feed = span.feed;
+    turn.line = span.line;
+    turns_.added();
+}
+
+void PathBuilder::add_line(const MergedSegment& line) {
+    if (line.ease_in.length > 0) {
+        ease_in_ = line.ease_in;
+        add_event(u_end_ + ease_in_.length);
+    }
+    u_end_ += line.length;
+    if (line.ease_out.length > 0) {
+        ease_out_ = line.ease_out;
+        add_event(eased_from_ = u_end_ - ease_out_.length);
+    }
+}
+
+void PathBuilder::add_corner(const MergedSegment& span) {
+    CornerBlend& turn = add_turn(u_end_, span.start, span.tangent_in);
+    for (int i = 0; i < axis_count; ++i) turn.change[i] = span.tangent_in[i] - last_.tangent_out[i];
+    const Tolerance room = room_between(last_, span);
+    turn.tolerance = span.rotary ? room.rotary : room.linear;
+    turn.room_per_rotary = turn.tolerance / room.rotary;
+    turn.speed = std::max(last_.speed, span.speed);
+    turn.feed = span.feed;
+    turn.line = span.line;
+    turns_.added();
+}
+
+/// The first step of an arc's polygon at a joint: as long as its share of the tolerance allows, so that the curvature
+/// comes slowly.
+double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
+    if (neighbour.kind == MergedSegmentKind::rest) return 0;
+    const double share = tangent ? arc_tangent_share : arc_corner_share;
+    const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
+    const auto by_room = [room](const ArcCurve& bow) { return std::sqrt(room / (joint_error * bow.max_curvature())); };
+    // The first hat reaches over the joint, but not over the neighbour's other end, nor over many of its corners.
+    double step = std::min(by_room(arc.bow), neighbour.length / step_before_joint);
+    if (neighbour.kind == MergedSegmentKind::arc) {
+        const double other =
+            std::min(by_room(neighbour.bow), inner_step(neighbour.bow, inner_share * neighbour.tolerance.linear));
+        step = std::min(step, 2 * other);
+    }
+    // The way over the first corner is longer than the arc by this; the rotary axes turn with it.
+    const double rotary_room = share * std::min(arc.tolerance.rotary, neighbour.tolerance.rotary);
+    const double square = arc.bow.max_curvature() * arc.bow.max_curvature();
+    while (step_after_joint / 9 * step * step * step * square * arc.bow.rotary_rate() > rotary_room) step *= 0.5;
+    return step;
+}
+
+void PathBuilder::begin_arc(const MergedSegment& arc, const MergedSegment& next) {
+    const bool at_rest = turns_.size() == 1;
+    const double in = at_rest ? 0 : joint_step(arc, last_, arc.tangent);
+    const double out = joint_step(arc, next, next.tangent);
+    arc_ = ArcControlPolygon(arc.bow, in, out, inner_step(arc.bow, inner_share * arc.tolerance.linear));
+    arc_begin_ = u_end_;
+    u_end_ += arc_.length();
+    corner_ = arc_.next();
+    in_arc_ = true;
+}
+
+void PathBuilder::add_arc_corner() {
+    const ArcControlPoint corner = corner_;
+    Point tangent = last_.tangent_out;
+    if (!corner.last) {
+        corner_ = arc_.next();
+        const double per_length = 1 / (corner_.u - corner.u);
+        for (int i = 0; i < axis_count; ++i) tangent[i] = (corner_.at[i] - corner.at[i]) * per_length;
+    }
+    in_arc_ = !corner.last;
+    const Point before = turns_[turns_.size() - 1].tangent;
+    CornerBlend& turn = add_turn(arc_begin_ + corner.u, corner.at, tangent);
+    turn.fixed = true;
+    turn.begin = arc_begin_ + corner.begin;
+    turn.peak = arc_begin_ + corner.peak;
+    turn.end = arc_begin_ + corner.end;
+    for (int i = 0; i < axis_count; ++i) turn.change[i] = tangent[i] - before[i];
+    const Tolerance room = room_on(last_, 2 * arc_tangent_share);
+    turn.tolerance = room.linear;
+    turn.room_per_rotary = room.linear / room.rotary;
+    turn.feed = last_.feed;
+    turn.line = last_.line;
+    turns_.added();
+}
+
+// ---- pieces
+
+bool PathBuilder::next_piece(CubicSegment& piece) {
+    place_turns();
+    const std::int64_t settled = turns_.settled();
+    const bool all = turns_.is_complete();
+    // Turns that are not settled begin after this.
+    const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - CornerBlends::reach)].u;
+    const double least = curve_rounding * (1 + cursor_);
+    while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + least) ++first_event_;
+    double end = known;
+    if (first_event_ < past_event_ && events_[first_event_] < known - (all ? least : 0))
+        end = events_[first_event_];
+    else if (!all)
+        return false;
+    if (end <= cursor_ + (all ? 0 : least)) return false;
+    fill(piece, end);
+    cursor_ = end;
+    while (alive_ < placed_ && turns_[alive_].end <= cursor_) ++alive_;
+    turns_.drop_before(std::max<std::int64_t>(0, std::min({alive_, edge_, settled - CornerBlends::reach})));
+    return true;
+}
+
+void PathBuilder::place_turns() {
+    for (; placed_ < turns_.settled(); ++placed_) {
+        const CornerBlend& turn = turns_[placed_];
+        add_event(turn.begin);
+        if (turn.peak > turn.begin) add_event(turn.peak);
+        if (turn.end > turn.peak) add_event(turn.end);
+    }
+}
+
+void PathBuilder::add_event(double u) {
+    if (u <= cursor_) return;
+    if (past_event_ == max_events) {
+        std::copy(events_.begin() + static_cast<std::ptrdiff_t>(first_event_), events_.end(), events_.begin());
+        past_event_ -= first_event_;
+        first_event_ = 0;
+        MOTIONRACK_ASSERT(past_event_ < max_events);
+    }
+    std::size_t i = past_event_++;
+    for (; i > first_event_ && events_[i - 1] > u; --i) events_[i] = events_[i - 1];
+    events_[i] = u;
+}
+
+/// The piece from the cursor to `end`. A hat's integral F rises from 0 to 1 over its width; before its corner it adds F
+/// to the tangent, after it, it takes 1 - F away from it.
+void PathBuilder::fill(CubicSegment& piece, double end) {
+    const double from = cursor_;
+    const double middle = 0.5 * (from + end);
+    while (edge_ + 1 < turns_.size() && turns_[edge_ + 1].u <= middle) ++edge_;
+    const CornerBlend& edge = turns_[edge_];
+    piece.begin = from;
+    piece.length = end - from;
+    piece.line = edge.line;
+    piece.jerk_share = middle < ease_in_.length ? ease_in_.share : middle > eased_from_ ? ease_out_.share : 1;
+    piece.feed = edge.feed;
+    piece.tangent = edge.tangent;
+    piece.curvature = piece.curvature_rate = Point{};
+    const double after_corner = from - edge.u;
+    for (int i = 0; i < axis_count; ++i) piece.start[i] = edge.at[i] + after_corner * edge.tangent[i];
+    for (std::int64_t j = alive_; j < placed_; ++j) {
+        const CornerBlend& turn = turns_[j];
+        if (turn.end <= middle || turn.begin >= middle) continue;
+        double place = 0, tangent = 0, curvature = 0, curvature_rate = 0;
+        if (middle < turn.peak) {
+            const double x = from - turn.begin;
+            place = x * x * x * turn.rise * (1.0 / 3) - (j <= edge_ ? from - turn.u : 0);
+            tangent = x * x * turn.rise - (j <= edge_ ? 1 : 0);
+            curvature = 2 * x * turn.rise;
+            curvature_rate = 2 * turn.rise;
+        } else {
+            const double x = turn.end - from;
+            place = x * x * x * turn.fall * (1.0 / 3) + (j > edge_ ? from - turn.u : 0);
+            tangent = (j > edge_ ? 1 : 0) - x * x * turn.fall;
+            curvature = 2 * x * turn.fall;
+            curvature_rate = -2 * turn.fall;
+        }
+        for (int i = 0; i < axis_count; ++i) {
+            piece.start[i] += turn.change[i] * place;
+            piece.tangent[i] += turn.change[i] * tangent;
+            piece.curvature[i] += turn.change[i] * curvature;
+            piece.curvature_rate[i] += turn.change[i] * curvature_rate;
+        }
+    }
+    if (from == 0) piece.start = turns_[0].at;
+    const double fastest = max_velocity_on(piece, last_.rotary);
+    if (fastest > 1) piece.feed /= fastest;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,376 @@
+// Greedy merging: a chord grows while the ends of the moves in it lie along it, in order, and close enough.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/path/segment_merger.hpp>
+#include <motionrack/control/path_limits.hpp>
+
+namespace motionrack::control {
+namespace {
+
+/// Tolerances above this (mm) say no more than this.
+constexpr double widest_tolerance = 10;
+
+/// Distance from the axis (mm) at which a rotary axis may be off by the tolerance.
+constexpr double rotary_radius = 100;
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+/// Where an axis has no pulses: mm or degrees.
+constexpr double no_pulse = 1e-4;
+
+/// Paths that turn by more than 120 degrees rest.
+constexpr double sharpest_turn = -0.5;
+
+/// Turns whose own width would be less than this (mm or degrees) are rests.
+constexpr double min_width = 1e-6;
+
+/// Arcs that turn by less (rad) are shallow.
+constexpr double shallow = 0.1;
+
+double dot_from(const Point& a, const Point& b, int first) {
+    return a[first] * b[first] + a[first + 1] * b[first + 1] + a[first + 2] * b[first + 2];
+}
+
+double finest_pulse(const MachineLimits& limits, int first) {
+    double most = 0;
+    for (int i = first; i < first + 3; ++i)
+        if (limits[i].present) most = std::max(most, limits[i].pulses_per_unit);
+    return most > 0 ? 1 / most : no_pulse;
+}
+
+double merge_room(double tolerance, double pulse) {
+    return std::clamp(pulse, min_merge_share * tolerance, max_merge_share * tolerance);
+}
+
+bool same_feed(double a, double b) {
+    return a == b || std::fabs(a - b) <= 1e-9 * std::min(a, b);
+}
+
+}  // namespace
+
+SegmentMerger::SegmentMerger(const MachineLimits& limits, const Point& start)
+    : limits_(limits), half_pulse_{0.5 * finest_pulse(limits, 0), 0.5 * finest_pulse(limits, 3)}, position_(start) {}
+
+Tolerance SegmentMerger::path_tolerance(const Move& move) const {
+    if (move.path != PathControl::continuous) return half_pulse_;
+    const double linear = std::min(move.tolerance_mm, widest_tolerance);
+    return {std::max(linear, half_pulse_.linear),
+            std::max(linear / rotary_radius * degrees_per_radian, half_pulse_.rotary)};
+}
+
+/// The move's shape; an arc that no one can tell from a line is a line, which has the arc's tangents if it is a shallow
+/// one.
+Geometry SegmentMerger::shape_of(const Move& move) const {
+    const Geometry path = geometry_of(move, position_);
+    if (path.shape != PathShape::arc) return path;
+    const double turned = path.length / curvature_radius(path);
+    const double height = std::min(2 * path.radius, turned * path.length / 8) * (1 + std::fabs(path.radius_growth));
+    if (height > min_merge_share * path_tolerance(move).linear) return path;
+    Move straight = move;
+    straight.kind = MoveKind::feed;
+    Geometry line = geometry_of(straight, position_);
+    if (line.shape == PathShape::line && turned < shallow) {
+        line.tangent_in = path.tangent_in;
+        line.tangent_out = path.tangent_out;
+    }
+    return line;
+}
+
+Tolerance SegmentMerger::room_to_merge(const Tolerance& tolerance) const {
+    return {merge_room(tolerance.linear, 2 * half_pulse_.linear), merge_room(tolerance.rotary, 2 * half_pulse_.rotary)};
+}
+
+bool SegmentMerger::is_left_out(const Geometry& path) const {
+    if (path.shape == PathShape::nothing) return true;
+    if (path.shape == PathShape::arc || path.length > half_pulse_.linear) return false;
+    double linear = 0, rotary = 0;
+    for (int i = 0; i < axis_count; ++i) {
+        double& most = i < 3 ? linear : rotary;
+        most = std::max(most, std::fabs(path.end[i] - path.start[i]));
+    }
+    return linear < half_pulse_.linear * left_out_share && rotary < half_pulse_.rotary * left_out_share;
+}
+
+/// Length and tangents of a line from `start` to `end`.
+void SegmentMerger::make_line(MergedSegment& span) const {
+    Point change;
+    for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
+    span.length = span.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
+                              : std::sqrt(dot_from(change, change, 0));
+    for (int i = 0; i < axis_count; ++i) span.tangent_in[i] = span.tangent_out[i] = change[i] / span.length;
+}
+
+MergedSegment SegmentMerger::span_of(const Move& move, const Geometry& path) const {
+    MergedSegment span;
+    span.kind = MergedSegmentKind::line;
+    span.rotary = path.shape == PathShape::rotary;
+    span.line = move.line;
+    span.start = path.start;
+    span.end = path.end;
+    span.tolerance = path_tolerance(move);
+    Point worst;
+    if (path.shape == PathShape::arc) {
+        span.kind = MergedSegmentKind::arc;
+        span.bow = ArcCurve(path);
+        span.length = span.bow.length();
+        span.tangent_in = span.bow.at(0).tangent;
+        span.tangent_out = span.bow.at(span.length).tangent;
+        worst = max_tangent_components(path);
+    } else {
+        if (move.kind == MoveKind::arc) span.merged = room_to_merge(span.tolerance);
+        make_line(span);
+        worst = span.tangent_in;
+    }
+    const double fastest = max_velocity_along(worst, limits_);
+    if (move.kind == MoveKind::rapid)
+        span.feed = move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
+    else
+        span.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * span.length : move.feed;
+    span.speed = std::min(span.feed, fastest);
+    return span;
+}
+
+/// Does the path stand still between the last move and this one?
+bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& span) const {
+    if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || span.rotary != last_.rotary)
+        return true;
+    const Point& in = last_tangent_;
+    const Point& out = path.tangent_in;
+    if (is_same_direction(in, out)) return false;
+    if (last_move_.path == PathControl::exact_path) return true;
+    const int first = span.rotary ? 3 : 0;
+    if (dot_from(in, out, first) < sharpest_turn * std::sqrt(dot_from(in, in, first) * dot_from(out, out, first)))
+        return true;
+    return !has_width(span, in, out);
+}
+
+/// Whether the turn between the last span and this one can be spread over a width to speak of.
+bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const Point& out) const {
+    double linear = 0, rotary = 0;
+    for (int i = 0; i < axis_count; ++i) {
+        double& most = i < 3 ? linear : rotary;
+        most = std::max(most, std::fabs(out[i] - in[i]));
+    }
+    const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear),
+                         std::min(last_.tolerance.rotary, span.tolerance.rotary)};
+    return room.linear >= min_width * linear && room.rotary >= min_width * rotary;
+}
+
+/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
+/// Rotary axes go along.
+double SegmentMerger::corner_tolerance(const MergedSegment& before, const MergedSegment& after) const {
+    if (before.rotary || after.rotary) return 0;
+    double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
+    const double rotary =
+        corner_share * std::min(before.tolerance.rotary, after.tolerance.rotary) - before.merged.rotary;
+    for (std::size_t i = 3; i < before.tangent_out.size(); ++i) {
+        const double turned = std::max(std::fabs(before.tangent_out[i]), std::fabs(after.tangent_in[i]));
+        if (turned > 0) room = std::min(room, rotary / turned);
+    }
+    return std::max(0.0, room);
+}
+
+/// Of the turn: as wide as its tolerance allows, but within its moves.
+double SegmentMerger::width_between(const MergedSegment& before, const MergedSegment& after) const {
+    double linear = 0, rotary = 0;
+    for (std::size_t i = 0; i < before.tangent_out.size(); ++i) {
+        const double change = std::fabs(after.tangent_in[i] - before.tangent_out[i]);
+        if (i < 3)
+            linear += change * change;
+        else
+            rotary = std::max(rotary, change);
+    }
+    double width = std::min(before.length, after.length);
+    if (linear > 0)
+        width = std::min(
+            width, corner_share * 12 * std::min(before.tolerance.linear, after.tolerance.linear) / std::sqrt(linear));
+    if (rotary > 0)
+        width = std::min(width, corner_share * 12 * std::min(before.tolerance.rotary, after.tolerance.rotary) / rotary);
+    return width;
+}
+
+Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegment& after) const {
+    Junction joint;
+    if (!after.tangent) {
+        const LegLimits leg_in = leg_of(before.span), leg_out = leg_of(after);
+        const Point &in = before.span.tangent_out, &out = after.tangent_in;
+        joint = junction_between(leg_in, leg_out, in, out, width_between(before.span, after), limits_);
+        if (!joint.can_stop || before.span.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
+            return joint;
+        before.corner_tolerance_mm = corner_tolerance(before.span, after);
+        before.stop = corner_stop_between(leg_in, leg_out, in, out, before.corner_tolerance_mm, limits_);
+        joint.gain = before.stop.gain;
+        return joint;
+    }
+    joint.can_stop = false;
+    joint.can_pass = true;
+    joint.speed = std::numeric_limits<double>::infinity();
+    return joint;
+}
+
+LegLimits SegmentMerger::leg_of(const MergedSegment& span) const {
+    LegLimits leg{span.length, span.speed, max_accel_along(span.tangent_in, limits_),
+                  max_jerk_along(span.tangent_in, limits_)};
+    if (span.kind != MergedSegmentKind::arc) return leg;
+    for (const Point& tangent : {span.tangent_out, span.bow.at(0.5 * span.length).tangent}) {
+        leg.accel = std::min(leg.accel, max_accel_along(tangent, limits_));
+        leg.jerk = std::min(leg.jerk, max_jerk_along(tangent, limits_));
+    }
+    leg.speed = std::min(leg.speed, std::sqrt(max_curvature_share * leg.accel / span.bow.max_curvature()));
+    return leg;
+}
+
+void SegmentMerger::push(const Move& move) {
+    MOTIONRACK_ASSERT(made_ - taken_ + max_a_push <= capacity);
+    if (move.kind == MoveKind::dwell) {
+        rest(move.seconds, move.line);
+        return;
+    }
+    Geometry path = shape_of(move);
+    if (is_left_out(path)) {
+        any_left_out_ = true;
+        skipped_move_ = move;
+        stop_left_out_ = stop_left_out_ || move.path == PathControl::exact_stop;
+        return;
+    }
+    MergedSegment span = span_of(move, path);
+    bool rests = stops_between(path, span);
+    if (rests && any_left_out_) {
+        add_left_out();
+        path = shape_of(move);
+        span = span_of(move, path);
+    }
+    any_left_out_ = stop_left_out_ = false;
+    if (rests || !merge(move, span)) {
+        if (rests && open_) {
+            const double room = last_move_.path == PathControl::continuous ? corner_tolerance(last_, span) : 0;
+            rest(0, last_move_.line);
+            spans_[(made_ - 1) % capacity].corner_tolerance_mm = room;
+        }
+        close();
+        span.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
+        last_ = span;
+        open_ = true;
+        inner_count_ = 0;
+    }
+    last_move_ = move;
+    last_tangent_ = path.tangent_out;
+    position_ = move.end;
+}
+
+/// Makes the last span longer by a line, if all that is in it then lies along it.
+bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
+    const bool alike = last_.kind == MergedSegmentKind::line && next.kind == MergedSegmentKind::line &&
+                       move.kind != MoveKind::arc && move.kind == last_move_.kind && move.path == last_move_.path &&
+                       inner_count_ < max_merged && next.tolerance.linear == last_.tolerance.linear &&
+                       same_feed(next.feed, last_.feed);
+    if (!alike || !lies_along(next.end, next)) return false;
+    inner_[inner_count_++] = last_.end;
+    last_.merged = room_to_merge(last_.tolerance);
+    last_.end = next.end;
+    make_line(last_);
+    last_.feed = std::min(last_.feed, next.feed);
+    last_.speed = std::min(last_.speed, next.speed);
+    return true;
+}
+
+bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) const {
+    const int first = next.rotary ? 3 : 0;
+    const Tolerance room = room_to_merge(next.tolerance);
+    const double near = next.rotary ? room.rotary : room.linear;
+    Point change;
+    for (int i = 0; i < axis_count; ++i) change[i] = end[i] - last_.start[i];
+    const double square = dot_from(change, change, first);
+    if (!(square > near * near)) return false;
+    double done = 0;
+    for (std::size_t k = 0; k <= inner_count_; ++k) {
+        const Point& at = k < inner_count_ ? inner_[k] : last_.end;
+        Point way;
+        for (int i = 0; i < axis_count; ++i) way[i] = at[i] - last_.start[i];
+        const double part = dot_from(way, change, first) / square;
+        if (!(part > done && part < 1)) return false;
+        done = part;
+        for (int i = 0; i < axis_count; ++i) way[i] -= part * change[i];
+        if (dot_from(way, way, first) > near * near) return false;
+        for (int i = 3; i < axis_count; ++i)
+            if (std::fabs(way[i]) > room.rotary) return false;
+    }
+    return true;
+}
+
+/// Before a rest: what was left out becomes part of the last line, or a line of its own.
+void SegmentMerger::add_left_out() {
+    any_left_out_ = stop_left_out_ = false;
+    Move move = skipped_move_;
+    if (move.kind == MoveKind::arc) move.kind = MoveKind::feed;
+    const Geometry path = geometry_of(move, position_);
+    if (path.shape == PathShape::nothing) return;
+    const bool rotary = path.shape == PathShape::rotary;
+    if (open_ && last_.kind == MergedSegmentKind::line && last_.length > 1000 * path.length &&
+        (rotary || !last_.rotary)) {
+        last_.end = position_ = move.end;
+        make_line(last_);
+        return;
+    }
+    if (open_) rest(0, last_move_.line);
+    position_ = move.end;
+    last_move_ = move;
+    last_ = span_of(move, path);
+    open_ = true;
+    inner_count_ = 0;
+}
+
+/// The last span is whole: it waits until it is known whether the path rests at its end.
+void SegmentMerger::close() {
+    if (!open_) return;
+    open_ = false;
+    if (waiting_ == waiting_past_) {
+        choice_.begin();
+    } else {
+        PendingSegment& before = waiting(waiting_past_ - 1);
+        choice_.add(leg_of(before.span), joint_between(before, last_));
+    }
+    waiting(waiting_past_++) = {last_, last_move_.line, 0, {}};
+    make_decided();
+}
+
+void SegmentMerger::make_decided() {
+    while (choice_.decided() > 0) {
+        PendingSegment& ended = waiting(waiting_++);
+        const bool stops = choice_.take() && waiting_ < waiting_past_;
+        if (stops) {
+            ended.span.ease_out = ended.stop.before;
+            waiting(waiting_).span.ease_in = ended.stop.after;
+        }
+        make(ended.span);
+        if (stops) make_rest(0, ended.last_line, ended.corner_tolerance_mm, ended.span.end);
+    }
+}
+
+void SegmentMerger::make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at) {
+    MergedSegment span;
+    span.seconds = seconds;
+    span.line = line;
+    span.corner_tolerance_mm = corner_tolerance_mm;
+    span.start = span.end = at;
+    make(span);
+}
+
+void SegmentMerger::rest(double seconds, std::int32_t line) {
+    if (any_left_out_) add_left_out();
+    close();
+    if (waiting_ < waiting_past_) {
+        choice_.add(leg_of(waiting(waiting_past_ - 1).span), Junction{});
+        make_decided();
+    }
+    make_rest(seconds, line, 0, position_);
+}
+
+void SegmentMerger::flush() {
+    if (any_left_out_) add_left_out();
+    if (open_) rest(0, last_move_.line);
+}
+
+}  // namespace motionrack::control

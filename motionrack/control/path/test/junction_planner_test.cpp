@@ -1,0 +1,85 @@
+// Rows of joints: the choice against all rows that there are.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <motionrack/control/path/junction_planner.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+struct ChoiceRow {
+    std::vector<LegLimits> legs;
+    std::vector<Junction> joints;  ///< one more: the row's begin first
+};
+
+ChoiceRow random_row(unsigned seed, std::size_t legs) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+    ChoiceRow out;
+    out.joints.push_back({});
+    for (std::size_t i = 0; i < legs; ++i) {
+        out.legs.push_back({between(0.01, 3), between(5, 100), between(500, 3000), between(1e4, 1e5)});
+        Junction joint;
+        joint.can_pass = i + 1 < legs;
+        joint.can_stop = !joint.can_pass || random() % 4 > 0;
+        joint.speed = between(0.1, 30);
+        joint.half_blend_length = between(0, 0.3);
+        joint.gain = between(0, 0.01);
+        out.joints.push_back(joint);
+    }
+    return out;
+}
+
+/// `stops`: bit i of the end of leg i.
+double seconds_of_row(const ChoiceRow& row, unsigned stops) {
+    double seconds = 0;
+    for (std::size_t i = 0; i < row.legs.size(); ++i) {
+        const bool begin = i == 0 || (stops >> (i - 1) & 1) != 0, end = (stops >> i & 1) != 0;
+        if (!(end ? row.joints[i + 1].can_stop : row.joints[i + 1].can_pass))
+            return std::numeric_limits<double>::infinity();
+        seconds += leg_duration_s(row.legs[i], row.joints[i], begin, row.joints[i + 1], end);
+    }
+    return seconds;
+}
+
+unsigned chosen(const ChoiceRow& row) {
+    JunctionPlanner choice;
+    choice.begin();
+    unsigned stops = 0, taken = 0;
+    for (std::size_t i = 0; i < row.legs.size(); ++i) {
+        choice.add(row.legs[i], row.joints[i + 1]);
+        while (choice.decided() > 0) stops |= static_cast<unsigned>(choice.take()) << taken++;
+        EXPECT_LE(i + 1 - taken, JunctionPlanner::most);
+    }
+    EXPECT_EQ(taken, row.legs.size());
+    return stops;
+}
+
+TEST(AChoiceOfJoints, IsTheQuickestOfAllRows) {
+    for (unsigned seed = 1; seed <= 300; ++seed) {
+        const ChoiceRow row = random_row(seed, 1 + seed % 9);
+        double least = std::numeric_limits<double>::infinity();
+        for (unsigned stops = 0; stops < 1u << row.legs.size(); ++stops)
+            least = std::min(least, seconds_of_row(row, stops));
+        ASSERT_NEAR(seconds_of_row(row, chosen(row)) / least, 1, 1e-12) << seed;
+    }
+}
+
+TEST(AChoiceOfJoints, OfALongRowIsMadeWithoutItsEnd) {
+    for (unsigned seed = 1; seed <= 20; ++seed) chosen(random_row(seed, 30));
+}
+
+TEST(ALeg, WithoutRoomForItsTurnsIsNoWay) {
+    const LegLimits leg{0.1, 100, 1000, 20'000};
+    Junction turn;
+    turn.speed = 10;
+    turn.half_blend_length = 0.1;
+    EXPECT_GT(leg_duration_s(leg, turn, false, Junction{}, true), 1e9);
+    EXPECT_LT(leg_duration_s(leg, Junction{}, true, Junction{}, true), 0.1);
+}
+
+}  // namespace
+}  // namespace motionrack::control

@@ -1,0 +1,248 @@
+// Laws of the curve, for random programs: it meets itself smoothly, stays near the path and is never faster than u.
+// MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many there are.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <motionrack/control/path/test/path_builder_support.hpp>
+#include <tests/environment.hpp>
+
+namespace motionrack::control {
+namespace {
+
+using namespace curve_test;
+
+double greatest(const Point& a) {
+    double most = 0;
+    for (const double x : a) most = std::max(most, std::fabs(x));
+    return most;
+}
+
+double difference(const Point& a, const Point& b) {
+    double most = 0;
+    for (int i = 0; i < axis_count; ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+    return most;
+}
+
+struct Case {
+    std::uint64_t seed;
+    std::vector<Move> moves;
+    std::vector<PathElement> items;
+};
+
+template <class ProgramCheck>
+void for_programs(std::uint64_t everyday, ProgramCheck check) {
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
+        ProgramMaker maker(seed);
+        Case one = {seed, maker.program(1 + maker.one_of(12)), {}};
+        one.items = curve_of(one.moves);
+        check(one);
+        if (::testing::Test::HasFailure()) return;
+    }
+}
+
+template <class ProgramCheck>
+void for_random_programs(ProgramCheck check) {
+    for_programs(1000, check);
+}
+
+TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
+    for_random_programs([](const Case& one) {
+        const CubicSegment* last = nullptr;
+        for (const PathElement& item : one.items) {
+            if (!item.rest && last) {
+                const CubicSegment& piece = item.piece;
+                const double x = last->length;
+                const double bends =
+                    greatest(bend_on(piece, piece.length)) + greatest(piece.curvature) + greatest(last->curvature);
+                ASSERT_DOUBLE_EQ(last->begin + x, piece.begin) << "line " << piece.line;
+                ASSERT_LE(difference(position_on(*last, x), piece.start), 1e-9) << "line " << piece.line;
+                ASSERT_LE(difference(tangent_on(*last, x), piece.tangent), 1e-9 * (1 + greatest(piece.tangent)))
+                    << "line " << piece.line << " u " << piece.begin << " length " << x << " after " << last->line;
+                ASSERT_LE(difference(bend_on(*last, x), piece.curvature), 1e-9 * (1 + bends))
+                    << "line " << piece.line << " u " << piece.begin << " lengths " << x << " " << piece.length;
+            }
+            last = item.rest ? nullptr : &item.piece;
+        }
+    });
+}
+
+bool same(const PathElement& a, const PathElement& b) {
+    if (a.rest || b.rest) return a.rest == b.rest && a.seconds == b.seconds && a.line == b.line && a.at == b.at;
+    const CubicSegment &p = a.piece, &q = b.piece;
+    return p.begin == q.begin && p.length == q.length && p.start == q.start && p.tangent == q.tangent &&
+           p.curvature == q.curvature && p.curvature_rate == q.curvature_rate && p.line == q.line && p.feed == q.feed;
+}
+
+TEST(CurveLaws, PiecesAreTheSameWheneverTheyArePulled) {
+    for_random_programs([](const Case& one) {
+        ProgramMaker chance(one.seed);
+        PathBuilder builder(machine(), Point{});
+        std::size_t count = 0;
+        PathElement item;
+        const auto pull = [&] {
+            if (!builder.pull(item)) return false;
+            EXPECT_LT(count, one.items.size());
+            EXPECT_TRUE(count < one.items.size() && same(item, one.items[count])) << "item " << count;
+            ++count;
+            return true;
+        };
+        const int eagerness = chance.one_of(4);
+        for (const Move& move : one.moves) {
+            while (!builder.has_room() && pull()) continue;
+            ASSERT_TRUE(builder.has_room());
+            builder.push(move);
+            for (int i = chance.one_of(1 + 4 * eagerness); i > 0; --i) pull();
+        }
+        while (!builder.has_room() && pull()) continue;
+        builder.flush();
+        while (pull()) continue;
+        ASSERT_EQ(count, one.items.size());
+    });
+}
+
+TEST(CurveLaws, AMoveMakesFewPieces) {
+    for_random_programs([](const Case& one) {
+        std::vector<int> count(one.moves.size() + 1);
+        for (const CubicSegment& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
+        const std::vector<Geometry> paths = paths_of(one.moves);
+        for (std::size_t i = 0; i < paths.size(); ++i) {
+            // three knots a turn; up to 8 turns on either side reach over a move
+            const double turned = std::fabs(paths[i].sweep) * std::sqrt(std::sqrt(1 + paths[i].radius / half_pulse));
+            ASSERT_LE(count[i + 1], 100 + 3 * turned) << "line " << i + 1;
+        }
+    });
+}
+
+TEST(CurveLaws, CurvesBeginAndEndWhereTheProgramDoes) {
+    for_random_programs([](const Case& one) {
+        Point at = {};
+        const CubicSegment* last = nullptr;
+        for (const PathElement& item : one.items) {
+            if (item.rest) {
+                if (last) {
+                    ASSERT_LE(difference(position_on(*last, last->length), item.at), 1e-9) << item.line;
+                }
+                at = item.at;
+            } else if (!last) {
+                ASSERT_EQ(item.piece.start, at);
+                ASSERT_EQ(item.piece.begin, 0);
+            }
+            last = item.rest ? nullptr : &item.piece;
+        }
+        ASSERT_TRUE(one.items.empty() || one.items.back().rest);
+        if (!one.moves.empty()) {
+            ASSERT_LE(difference(at, one.moves.back().end), 1.1e-9);
+        }
+    });
+}
+
+/// What the program allows on a move, mm/s (degrees/s).
+double programmed(const Move& move, const Geometry& path) {
+    if (move.kind == MoveKind::rapid) return std::numeric_limits<double>::infinity();
+    if (move.feed_mode == FeedMode::units_per_second) return move.feed;
+    return move.feed * (path.length + 4e-6);  // moves before it that were left out
+}
+
+TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
+    for_random_programs([](const Case& one) {
+        const std::vector<Geometry> paths = paths_of(one.moves);
+        for (const CubicSegment& piece : pieces_of(one.items)) {
+            const std::size_t i = static_cast<std::size_t>(piece.line - 1);
+            const double feed = programmed(one.moves[i], paths[i]);
+            // lines of moves that were left out have no direction of their own
+            if (feed == std::numeric_limits<double>::infinity() || piece.length < 2e-6) continue;
+            const double grown = paths[i].radius_growth * (1 + paths[i].radius / paths[i].length);
+            const double spiral = grown * grown;  // lengths of spirals are nominal
+            const bool rotary = paths[i].shape == PathShape::rotary;
+            for (int k = 0; k <= 8; ++k) {
+                const Point tangent = tangent_on(piece, piece.length * k / 8);
+                const double speed = rotary ? greatest(tangent) : xyz_size(tangent);
+                ASSERT_LE(piece.feed * speed, feed * (1 + 1e-8 + spiral))
+                    << "line " << piece.line << " u " << piece.begin << " + " << piece.length;
+                ASSERT_GT(piece.feed, 0);
+            }
+        }
+    });
+}
+
+TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
+    double worst = 0;
+    for_random_programs([&worst](const Case& one) {
+        const std::vector<Geometry> paths = paths_of(one.moves);
+        for (const CubicSegment& piece : pieces_of(one.items)) {
+            for (int k = 0; k < 4; ++k) {
+                const Point p = position_on(piece, piece.length * k / 4);
+                double best = std::numeric_limits<double>::infinity();
+                const int first = std::max(0, piece.line - 12),
+                          past = std::min(static_cast<int>(paths.size()), piece.line + 45);
+                for (int i = first; i < past; ++i) {
+                    const Move& move = one.moves[static_cast<std::size_t>(i)];
+                    const bool exact = move.path != PathControl::continuous;
+                    const double tolerance = exact ? half_pulse : std::max(move.tolerance_mm, half_pulse);
+                    const Geometry& path = paths[static_cast<std::size_t>(i)];
+                    best = std::min(best, distance_to(path, p[0], p[1], p[2]) / tolerance);
+                }
+                worst = std::max(worst, best);
+                ASSERT_LE(best, 1 + 1e-6)
+                    << "line " << piece.line << " u " << piece.begin << " + " << piece.length * k / 4;
+            }
+        }
+    });
+    RecordProperty("worst", std::to_string(worst));
+    EXPECT_GT(worst, 0.5);
+}
+
+/// The least part of the tolerances, XYZ and ABC at once, within which a point is of a line.
+double part_of_tolerances(const Geometry& line, const Point& at, double tolerance, double rotary) {
+    const auto part = [&](double s) {
+        double square = 0, most = 0;
+        for (int i = 0; i < axis_count; ++i) {
+            const double off = at[i] - (line.start[i] + s * (line.end[i] - line.start[i]));
+            if (i < 3)
+                square += off * off;
+            else
+                most = std::max(most, std::fabs(off) / rotary);
+        }
+        return std::max(most, std::sqrt(square) / tolerance);
+    };
+    double low = 0, high = 1;
+    for (int i = 0; i < 60; ++i) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (part(a) < part(b) ? high : low) = part(a) < part(b) ? b : a;
+    }
+    return part(low);
+}
+
+TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
+    double worst = 0;
+    for_programs(300, [&worst](const Case& one) {
+        const std::vector<Geometry> paths = paths_of(one.moves);
+        for (const CubicSegment& piece : pieces_of(one.items)) {
+            double best = std::numeric_limits<double>::infinity();
+            const int first = std::max(0, piece.line - 12),
+                      past = std::min(static_cast<int>(paths.size()), piece.line + 45);
+            const Point at = position_on(piece, 0.3 * piece.length);
+            bool arcs = false;
+            for (int i = first; i < past && !arcs; ++i) {
+                const Move& move = one.moves[static_cast<std::size_t>(i)];
+                const Geometry& path = paths[static_cast<std::size_t>(i)];
+                arcs = path.shape == PathShape::arc;
+                const bool exact = move.path != PathControl::continuous;
+                const double tolerance = exact ? half_pulse : std::max(move.tolerance_mm, half_pulse);
+                const double rotary = std::max(exact ? 0.0 : move.tolerance_mm / 100 * 180 / pi, half_pulse);
+                best = std::min(best, part_of_tolerances(path, at, tolerance, rotary));
+            }
+            if (arcs) continue;
+            worst = std::max(worst, best);
+            ASSERT_LE(best, 1 + 1e-6) << "line " << piece.line << " u " << piece.begin;
+        }
+    });
+    EXPECT_GT(worst, 0.5);
+}
+
+}  // namespace
+}  // namespace motionrack::control

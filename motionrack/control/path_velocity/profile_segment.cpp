@@ -1,0 +1,136 @@
+// Power series instead of hyperbolic and circular functions: cells are short, so a few terms do, and every compiler
+// finds the same sums.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <motionrack/control/path_velocity/profile_segment.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// What is off falls to about its square in a step, so after one of this part of the time nothing is left.
+constexpr double settled_part = 1e-10;
+constexpr double feed_rounding = 4e-16;
+/// Beside a rest the square of the speed may be rounded to 0. Its last digit is worth this part of the speed.
+constexpr double as_good_as_rest = 1e-8;
+
+constexpr int max_terms = 60;
+/// What makes the k-th term of a series out of the one before it.
+struct Factors {
+    std::array<double, max_terms> sine = {}, cosine = {};
+};
+constexpr Factors factors = [] {
+    Factors out;
+    for (int k = 1; k < max_terms; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        out.sine[i] = 1 / (2.0 * k * (2 * k + 1));
+        out.cosine[i] = 1 / ((2.0 * k + 1) * (2 * k + 2));
+    }
+    return out;
+}();
+
+/// sinh(q)/q and (cosh(q) - 1)/(q^2/2) for q^2 = `square`, which may be negative (then sin and cos).
+struct Series {
+    double sine, cosine;
+};
+Series series_of(double square) {
+    Series out{1, 1};
+    double sine = 1, cosine = 1;
+    for (std::size_t k = 1; k < max_terms; ++k) {
+        sine *= square * factors.sine[k];
+        cosine *= square * factors.cosine[k];
+        out.sine += sine;
+        out.cosine += cosine;
+        if (std::fabs(sine) < 1e-18) break;  // the other is less
+    }
+    return out;
+}
+
+/// Place on a cell after `time`.
+double moved(const ProfileSegment& cell, double speed, double time) {
+    const Series series = series_of(0.5 * cell.velocity2_curvature * time * time);
+    return speed * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
+}
+
+double square_at(const ProfileSegment& cell, double x) {
+    return std::max(0.0, cell.velocity2 + x * (cell.velocity2_slope + 0.5 * cell.velocity2_curvature * x));
+}
+
+}  // namespace
+
+ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend) {
+    ProfileSegment cell{ProfileSegmentKind::cell, begin, length, 0, square, slope, bend, 0};
+    cell.seconds = 2 * length / (std::sqrt(square) + std::sqrt(square_at(cell, length)));
+    return cell;
+}
+
+ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend) {
+    ProfileSegment cell = approximate_cell(begin, length, square, slope, bend);
+    settle(cell);
+    return cell;
+}
+
+void settle(ProfileSegment& cell) {
+    if (cell.phase != ProfileSegmentKind::cell) return;
+    const double length = cell.length, slope = cell.velocity2_slope, bend = cell.velocity2_curvature;
+    const double speed = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
+    // Slower than at the ends it is only where it has slowed down and speeds up again.
+    const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
+    const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
+    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)),
+           time = std::min(most, cell.seconds);
+    for (int step = 0; step < 60; ++step) {
+        const double there = moved(cell, speed, time);
+        (there < length ? least : most) = time;
+        double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
+        const bool inside = next > least && next < most;
+        if (!inside) next = 0.5 * (least + most);
+        const bool settled = std::fabs(next - time) <= (inside ? settled_part : feed_rounding) * time;
+        time = next;
+        if (settled) break;
+    }
+    cell.seconds = time;
+}
+
+ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {
+    return {ProfileSegmentKind::ramp, begin, length, seconds, speed * speed, 2 * accel, 0, jerk};
+}
+
+// speed = jerk t^2/2, length = jerk t^3/6
+ProfileSegment feed_launch(double begin, double length, double square) {
+    const double speed = std::sqrt(square), seconds = 3 * length / speed;
+    return {ProfileSegmentKind::launch, begin, length, seconds, 0, 0, 0, 2 * speed / (seconds * seconds)};
+}
+
+ProfileSegment feed_landing(double begin, double length, double square) {
+    ProfileSegment out = feed_launch(begin, length, square);
+    out.phase = ProfileSegmentKind::landing;
+    return out;
+}
+
+PathMotion ProfileSegment::at(double time) const {
+    if (phase == ProfileSegmentKind::launch)
+        return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
+    if (phase == ProfileSegmentKind::landing) {
+        const double left = seconds - time;
+        return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
+    }
+    if (phase == ProfileSegmentKind::ramp) {
+        const double speed = std::sqrt(velocity2), accel = 0.5 * velocity2_slope;
+        return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
+                speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
+    }
+    const double x = std::clamp(moved(*this, std::sqrt(velocity2), time), 0.0, length);
+    const double speed = std::sqrt(square_at(*this, x));
+    return {begin + x, speed, 0.5 * (velocity2_slope + velocity2_curvature * x), 0.5 * velocity2_curvature * speed};
+}
+
+PathMotion ProfileSegment::last() const {
+    if (phase != ProfileSegmentKind::cell) return at(seconds);
+    const double speed = std::sqrt(square_at(*this, length));
+    return {begin + length, speed, 0.5 * (velocity2_slope + velocity2_curvature * length),
+            0.5 * velocity2_curvature * speed};
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/path_velocity/reduced_jerk_profile.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+#include <optional>
+
+namespace motionrack::control {
+
+namespace {
+
+constexpr int max_steps = 60;
+constexpr double settled_part_of_ease = 1e-14;
+
+/// From rest to a greatest speed, phase by phase; lengths and s.
+struct Rise {
+    double accel = 0;                      ///< greatest
+    double even_from = 0, even_until = 0;  ///< speeds at which it is reached, and left
+    double steeper = 0, even = 0, flatter = 0;
+    double steeper_way = 0, even_way = 0, flatter_way = 0;
+};
+
+/// One end of the line, seen from its rest.
+class End {
+  public:
+    End(double eased_way, double eased_jerk, const LimitInterval& limits)
+        : way_(eased_way),
+          jerk_(limits.jerk),
+          max_accel_(limits.accel),
+          first_(cube_root(6 * eased_way / eased_jerk)),
+          accel_(eased_jerk * first_),
+          speed_(0.5 * accel_ * first_) {}
+
+    double eased_way() const { return way_; }
+    double speed() const { return speed_; }  ///< where the ease ends
+    double accel() const { return accel_; }
+    bool is_possible() const { return accel_ <= max_accel_; }
+    /// The least that can be the greatest one: the acceleration falls as soon as the ease ends.
+    double min_speed() const { return speed_ + 0.5 * accel_ * accel_ / jerk_; }
+
+    Rise to(double speed) const {
+        Rise out;
+        const double square = jerk_ * (speed - speed_) + 0.5 * accel_ * accel_;
+        out.accel = std::max(accel_, std::min(max_accel_, std::sqrt(std::max(0.0, square))));
+        out.steeper = (out.accel - accel_) / jerk_;
+        out.flatter = out.accel / jerk_;
+        out.even_from = speed_ + 0.5 * (accel_ + out.accel) * out.steeper;
+        out.even_until = speed - 0.5 * out.accel * out.flatter;
+        out.even = std::max(0.0, (out.even_until - out.even_from) / out.accel);
+        out.steeper_way = out.steeper * (speed_ + out.steeper * (0.5 * accel_ + out.steeper * jerk_ / 6));
+        out.even_way = 0.5 * out.even * (out.even_from + out.even_until);
+        out.flatter_way = out.flatter * (speed - out.flatter * out.accel / 6);
+        return out;
+    }
+    double way_to(double speed) const {
+        const Rise rise = to(speed);
+        return way_ + rise.steeper_way + rise.even_way + rise.flatter_way;
+    }
+
+  private:
+    double way_, jerk_, max_accel_, first_, accel_, speed_;
+};
+
+/// The greatest speed that leaves no less than nothing of the line: between false positions.
+std::optional<double> greatest_speed(const End& begin, const End& end, double length, double most) {
+    const auto over = [&](double speed) { return begin.way_to(speed) + end.way_to(speed) - length; };
+    double low = std::max(begin.min_speed(), end.min_speed()), high = most;
+    if (!(low <= high)) return std::nullopt;
+    double over_low = over(low), over_high = over(high);
+    if (over_low > 0) return std::nullopt;
+    if (over_high <= 0) return high;
+    int side = 0;
+    for (int step = 0; step < max_steps && high - low > settled_part_of_ease * high; ++step) {
+        const double speed = (low * over_high - high * over_low) / (over_high - over_low), here = over(speed);
+        if (!(speed > low && speed < high)) break;
+        if (here <= 0) {
+            low = speed, over_low = here;
+            if (side < 0) over_high *= 0.5;
+            side = -1;
+        } else {
+            high = speed, over_high = here;
+            if (side > 0) over_low *= 0.5;
+            side = 1;
+        }
+    }
+    return low;
+}
+
+/// Less jerk at one or both ends, all else alike.
+bool is_eased_line(std::span<const LimitInterval> spans, const LimitInterval& full) {
+    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
+        return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel &&
+               span.jerk <= full.jerk;
+    });
+}
+
+}  // namespace
+
+bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out) {
+    if (spans.size() < 2 || spans.size() > 3) return false;
+    const std::size_t first = spans.size() == 3 || spans[0].jerk < spans[1].jerk ? 1 : 0;
+    const LimitInterval& full = spans[first];
+    if (!is_eased_line(spans, full)) return false;
+    double length = 0;
+    for (const LimitInterval& span : spans) length += span.length;
+    const auto end_of = [&](bool there, std::size_t i) {
+        return there ? End(spans[i].length, spans[i].jerk, full) : End(0, full.jerk, full);
+    };
+    const End begin = end_of(first > 0, 0), end = end_of(first + 1 < spans.size(), spans.size() - 1);
+    if (!begin.is_possible() || !end.is_possible()) return false;
+    const std::optional<double> found = greatest_speed(begin, end, length, full.speed);
+    if (!found) return false;
+    const double peak = *found, jerk = full.jerk;
+    const Rise up = begin.to(peak), down = end.to(peak);
+    double at = 0;
+    const auto add = [&](double way, double seconds, double speed, double accel, double change) {
+        if (!(seconds > 0)) return;
+        out.push_back(feed_ramp(at, way, seconds, speed, accel, change));
+        at += way;
+    };
+    // Without an ease the first phase is the launch.
+    const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;
+    at = eased_begin ? begin.eased_way() : up.steeper_way;
+    out.push_back(feed_launch(0, at, eased_begin ? begin.speed() * begin.speed() : up.even_from * up.even_from));
+    if (eased_begin) add(up.steeper_way, up.steeper, begin.speed(), begin.accel(), jerk);
+    add(up.even_way, up.even, up.even_from, up.accel, 0);
+    add(up.flatter_way, up.flatter, up.even_until, up.accel, -jerk);
+    const double cruise = length - begin.way_to(peak) - end.way_to(peak);
+    add(cruise, cruise / peak, peak, 0, 0);
+    add(down.flatter_way, down.flatter, peak, 0, -jerk);
+    add(down.even_way, down.even, down.even_until, -down.accel, 0);
+    if (eased_end) add(down.steeper_way, down.steeper, down.even_from, -down.accel, jerk);
+    const double landing = eased_end ? end.eased_way() : down.steeper_way,
+                 landing_speed = eased_end ? end.speed() : down.even_from;
+    out.push_back(feed_landing(length - landing, landing, landing_speed * landing_speed));
+    return true;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,327 @@
+// Feed profiles: what holds at every instant, how near they are to the quickest, and that they fit together.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <motionrack/control/path_velocity/velocity_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+/// Spans at random: every number between its bounds, evenly by order of magnitude.
+class RandomSpans {
+  public:
+    explicit RandomSpans(unsigned seed) : random_(seed) {}
+    /// Slowing down is limited as speeding up, or otherwise.
+    std::vector<LimitInterval> next(int most, bool brakes_alike = true) {
+        std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(most));
+        for (LimitInterval& span : out)
+            span = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
+        if (!brakes_alike)
+            for (LimitInterval& span : out) span.brake = between(10, 1e4);
+        return out;
+    }
+    double between(double least, double most) {
+        return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_));
+    }
+
+  private:
+    std::mt19937 random_;
+};
+
+double length_of(const std::vector<LimitInterval>& spans) {
+    double length = 0;
+    for (const LimitInterval& span : spans) length += span.length;
+    return length;
+}
+
+double seconds_of_feed(std::span<const ProfileSegment> pieces) {
+    double seconds = 0;
+    for (const ProfileSegment& piece : pieces) seconds += piece.seconds;
+    return seconds;
+}
+
+/// Greatest parts of the limits, and of any jump between pieces, that a profile has anywhere.
+struct FeedPeaks {
+    double speed = 0, accel = 0, jerk = 0, jump = 0;
+};
+FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<LimitInterval>& spans) {
+    FeedPeaks out;
+    const double length = length_of(spans);
+    PathMotion last;
+    const auto jump = [&](const PathMotion& state) {
+        out.jump = std::max({out.jump, std::fabs(state.u - last.u) / length,
+                             std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
+                             std::fabs(state.accel - last.accel) / spans.front().accel});
+    };
+    std::size_t k = 0;
+    double end = spans.front().length;
+    for (const ProfileSegment& piece : pieces) {
+        for (int i = 0; i <= 6; ++i) {
+            const PathMotion state = piece.at(piece.seconds * i / 6);
+            if (i == 0) jump(state);
+            while (k + 1 < spans.size() && state.u > end + 1e-10 * length) end += spans[++k].length;
+            // Where two spans meet those of either hold.
+            LimitInterval span = spans[k];
+            if (k + 1 < spans.size() && state.u > end - 1e-10 * length)
+                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel),
+                        std::max(span.jerk, spans[k + 1].jerk), std::max(span.brake, spans[k + 1].brake)};
+            out.speed = std::max(out.speed, state.speed / span.speed);
+            out.accel = std::max({out.accel, state.accel / span.accel, -state.accel / span.brake});
+            out.jerk = std::max(out.jerk, std::fabs(state.jerk) / span.jerk);
+            last = state;
+        }
+    }
+    jump({length, 0, 0, 0});
+    return out;
+}
+
+TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
+    VelocityPlanner planner;
+    for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
+        for (const double speed : {100.0, 5.0}) {
+            const std::vector<LimitInterval> spans = {{0.3 * length, speed, 1000, 20'000},
+                                                      {0.7 * length, speed, 1000, 20'000}};
+            const auto pieces = planner.plan(spans);
+            EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(length, speed, 1000, 20'000).duration(), 1, 1e-12)
+                << length;
+            const FeedPeaks peaks = peaks_of(pieces, spans);
+            EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
+            EXPECT_LE(peaks.jump, 1e-9) << length;
+        }
+}
+
+/// Jerk may last for so short a way that places beside it have no digits for it.
+TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
+    VelocityPlanner planner;
+    for (const double jerk : {1e9, 1e12, 1e15}) {
+        const std::vector<LimitInterval> spans = {{92, 50, 1000, jerk}};
+        const auto pieces = planner.plan(spans);
+        EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
+        const FeedPeaks peaks = peaks_of(pieces, spans);
+        EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
+        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // roundings of 50 beside speeds of 1e-12
+        for (const ProfileSegment& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
+    }
+}
+
+TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
+    VelocityPlanner planner;
+    for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
+        const std::vector<LimitInterval> spans = {{0.5 * length, 100, 1000, 20'000},
+                                                  {0.5 * length, 100.000001, 1000, 20'000}};
+        const double quickest = SCurveProfile(length, 100, 1000, 20'000).duration();
+        const double seconds = seconds_of_feed(planner.plan(spans));
+        EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
+        EXPECT_LE(seconds, quickest * 1.01) << length;
+    }
+}
+
+TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
+    VelocityPlanner planner;
+    RandomSpans random(20261122);
+    for (int run = 0; run < 3000; ++run) {
+        const std::vector<LimitInterval> spans = random.next(12, run % 2 == 0);
+        const FeedPeaks peaks = peaks_of(planner.plan(spans), spans);
+        ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.jump, 1e-6) << run;
+    }
+}
+
+/// One way's limit is not the other's.
+TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
+    VelocityPlanner planner;
+    const std::vector<LimitInterval> spans = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
+    double up = 0, down = 0;
+    for (const ProfileSegment& piece : planner.plan(spans)) {
+        up = std::max(up, piece.at(0).accel);
+        down = std::min(down, piece.at(0).accel);
+    }
+    EXPECT_NEAR(up, 1000, 1e-3);
+    EXPECT_NEAR(down, -4000, 1e-3);
+    const double peak = std::sqrt(200 / (1.0 / 2000 + 1.0 / 8000));
+    EXPECT_NEAR(seconds_of_feed(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
+}
+
+/// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the
+/// place is left.
+TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
+    VelocityPlanner planner;
+    RandomSpans random(7);
+    int slower = 0;
+    for (int run = 0; run < 1000; ++run) {
+        const std::vector<LimitInterval> spans = random.next(6);
+        double stopping = 0;
+        for (const LimitInterval& span : spans)
+            stopping += SCurveProfile(span.length, span.speed, span.accel, span.jerk).duration();
+        const double seconds = seconds_of_feed(planner.plan(spans));
+        ASSERT_LE(seconds, 1.5 * stopping) << run;
+        slower += seconds > 1.01 * stopping;
+    }
+    EXPECT_LT(slower, 60);
+}
+
+TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
+    VelocityPlanner planner;
+    const std::vector<LimitInterval> spans = {{50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
+    double slowest = 100, fastest = 0;
+    for (const ProfileSegment& piece : planner.plan(spans)) {
+        const PathMotion state = piece.at(0);
+        if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.speed);
+        fastest = std::max(fastest, state.speed);
+    }
+    EXPECT_NEAR(slowest, 20, 1e-6);
+    EXPECT_NEAR(fastest, 100, 1e-6);
+}
+
+/// A slalom: the speed that its curvature allows rises and falls, and the profile follows it.
+TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
+    VelocityPlanner planner;
+    std::vector<LimitInterval> spans;
+    double quickest = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const double speed = 100 + 50 * std::sin(i * 0.002);
+        spans.push_back({0.1, speed, 2000, 100'000});
+        quickest += 0.1 / speed;
+    }
+    const double ends = 2 * (SCurveProfile(1000, 100, 2000, 100'000).duration() - 10);
+    EXPECT_LE(seconds_of_feed(planner.plan(spans)), 1.003 * quickest + ends);
+}
+
+TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
+    VelocityPlanner used, fresh;
+    RandomSpans random(3);
+    for (int run = 0; run < 50; ++run) {
+        const std::vector<LimitInterval> spans = random.next(9);
+        fresh = VelocityPlanner();
+        const auto a = used.plan(spans), b = fresh.plan(spans);
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            ASSERT_EQ(a[i].velocity2, b[i].velocity2);
+            ASSERT_EQ(a[i].seconds, b[i].seconds);
+        }
+    }
+}
+
+TEST(AFeedProfile, TakesLimitsOfAnySize) {
+    VelocityPlanner planner;
+    RandomSpans random(11);
+    for (int run = 0; run < 2000; ++run) {
+        std::vector<LimitInterval> spans(1 + run % 5);
+        for (LimitInterval& span : spans)
+            span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7),
+                    random.between(1e-3, 1e10)};
+        for (LimitInterval& span : spans) span.brake = run % 2 == 0 ? span.accel : random.between(1e-3, 1e7);
+        const auto pieces = planner.plan(spans);
+        const double seconds = seconds_of_feed(pieces);
+        ASSERT_TRUE(seconds > 0 && seconds < 1e12) << run << ": " << seconds;
+        ASSERT_LT(pieces.size(), 2500U) << run;
+        for (const ProfileSegment& piece : pieces) ASSERT_TRUE(piece.seconds >= 0) << run;
+    }
+}
+
+TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
+    std::vector<LimitInterval> spans;
+    for (int i = 0; i < 300; ++i)
+        spans.push_back({0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
+    std::uint64_t fold = 0;
+    VelocityPlanner planner;
+    for (const ProfileSegment& piece : planner.plan(spans))
+        for (const double value : {piece.begin, piece.length, piece.seconds, piece.velocity2, piece.velocity2_slope,
+                                   piece.velocity2_curvature, piece.jerk, piece.at(0.3 * piece.seconds).u})
+            fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
+    EXPECT_EQ(fold, 713957576561859831u);
+}
+
+TEST(AFeedProfile, OfNothingIsEmpty) {
+    VelocityPlanner planner;
+    EXPECT_TRUE(planner.plan({}).empty());
+}
+
+TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
+    const ProfileSegment cell = feed_cell(5, 2, 100, 30, 8);
+    EXPECT_NEAR(cell.at(0).speed, 10, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).speed, std::sqrt(100 + 60 + 16), 1e-12);
+    const double time = 0.3 * cell.seconds, step = 1e-5;
+    const auto before = cell.at(time - step), here = cell.at(time), after = cell.at(time + step);
+    EXPECT_NEAR((after.u - before.u) / (2 * step), here.speed, 1e-6);
+    EXPECT_NEAR((after.speed - before.speed) / (2 * step), here.accel, 1e-6);
+    EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
+}
+
+/// What is left of spans from a place on.
+std::vector<LimitInterval> spans_from(const std::vector<LimitInterval>& spans, double place) {
+    std::vector<LimitInterval> out;
+    double end = 0;
+    for (LimitInterval span : spans) {
+        end += span.length;
+        if (end <= place) continue;
+        span.length = std::min(span.length, end - place);
+        out.push_back(span);
+    }
+    return out;
+}
+
+TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
+    VelocityPlanner planner, on_the_way;
+    RandomSpans random(77);
+    int steady = 0, steady_found = 0, found = 0, all = 0;
+    for (int n = 0; n < 1500; ++n) {
+        std::vector<LimitInterval> spans = random.next(20);
+        for (LimitInterval& span : spans)
+            span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000),
+                    random.between(5e3, 1e5)};
+        const std::span<const ProfileSegment> plan = planner.plan(spans);
+        double time = random.between(0.02, 0.9) * seconds_of_feed(plan), left = seconds_of_feed(plan) - time;
+        std::size_t k = 0;
+        while (time > plan[k].seconds) time -= plan[k++].seconds;
+        const PathMotion state = plan[k].at(time);
+        const std::vector<LimitInterval> rest = spans_from(spans, state.u);
+        const std::span<const ProfileSegment> next =
+            on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
+        const bool is_steady = state.accel > -1 && state.jerk > -1;
+        ++all;
+        steady += is_steady;
+        if (next.empty()) continue;
+        ++found;
+        steady_found += is_steady;
+        const PathMotion first = next[0].at(0);
+        EXPECT_NEAR(first.speed, state.speed, 1e-9 * state.speed);
+        EXPECT_NEAR(first.accel, state.accel, 1e-6 * rest[0].accel);
+        const FeedPeaks peaks = peaks_of(next, rest);
+        EXPECT_LE(peaks.speed, 1 + 1e-6);
+        EXPECT_LE(peaks.accel, 1 + 1e-6);
+        EXPECT_LE(peaks.jerk, 1 + 1e-6);
+        EXPECT_LE(seconds_of_feed(next), 1.1 * left);
+    }
+    EXPECT_GT(steady_found, 0.99 * steady);
+    EXPECT_GT(found, 0.85 * all);
+}
+
+TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
+    VelocityPlanner planner;
+    const std::vector<LimitInterval> spans = {{0.2, 10, 1000, 20'000}};
+    EXPECT_TRUE(planner.plan_from({100, 0}, spans).empty());  // the jerk needs 0.2236 mm
+    EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<LimitInterval>{{0.3, 10, 1000, 20'000}}).empty());
+    EXPECT_TRUE(
+        planner.plan_from({101, 0}, std::vector<LimitInterval>{{50, 10, 1000, 20'000}}).empty());  // too fast already
+}
+
+TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {
+    const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // least 2.25 at the half
+    EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).speed, 2, 1e-9);
+    EXPECT_GT(cell.seconds, 0.5);
+}
+
+}  // namespace
+}  // namespace motionrack::control

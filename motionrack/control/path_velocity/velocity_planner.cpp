@@ -1,0 +1,303 @@
+// Two passes and a hull over the cells.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/path_velocity/reduced_jerk_profile.hpp>
+#include <motionrack/control/path_velocity/velocity_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
+constexpr double first_guess = 2, guess_falls = 0.3;
+
+/// Of the square that a motion goes on with.
+constexpr double min_square = 1e-6;
+
+bool all_alike(std::span<const LimitInterval> spans) {
+    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
+        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel &&
+               span.jerk == spans[0].jerk;
+    });
+}
+
+}  // namespace
+
+std::span<const ProfileSegment> VelocityPlanner::plan(std::span<const LimitInterval> spans) {
+    return plan_from({}, spans);
+}
+
+std::span<const ProfileSegment> VelocityPlanner::plan_from(const InitialPathState& start,
+                                                           std::span<const LimitInterval> spans) {
+    plan_approximate(start, spans);
+    for (ProfileSegment& piece : pieces_) settle(piece);
+    return pieces_;
+}
+
+std::span<const ProfileSegment> VelocityPlanner::plan_approximate(const InitialPathState& start,
+                                                                  std::span<const LimitInterval> spans) {
+    start_ = start.velocity2 > 0 ? start : InitialPathState{};
+    return sketch(spans, false);
+}
+
+std::span<const ProfileSegment> VelocityPlanner::replan_approximate(std::span<const LimitInterval> spans) {
+    before_.swap(pieces_);
+    return sketch(spans, !before_.empty());
+}
+
+std::span<const ProfileSegment> VelocityPlanner::sketch(std::span<const LimitInterval> spans, bool again) {
+    measure_length(spans);
+    if (!(length_ > 0)) return pieces_;
+    if (all_alike(spans)) {
+        if (moving())
+            write_travel(spans.front());
+        else
+            write_s_curve(spans.front());
+        return pieces_;
+    }
+    if (!moving() && write_reduced_jerk_profile(spans, pieces_)) return pieces_;
+    build_cells(spans);
+    if (again)
+        solve_from_previous();
+    else
+        solve_from_limits();
+    if (!moving() || found_) write();
+    return pieces_;
+}
+
+void VelocityPlanner::measure_length(std::span<const LimitInterval> spans) {
+    pieces_.clear();
+    ends_.clear();
+    length_ = 0;
+    for (const LimitInterval& span : spans) ends_.push_back(length_ += span.length);
+}
+
+/// The limits first, then nearer and nearer to what they allow.
+void VelocityPlanner::solve_from_limits() {
+    found_ = can_start_ = true;
+    compute_bounds();
+    compute_slope_limits();
+    forward_backward_pass();
+    restore_start();
+    refine();
+}
+
+/// At once near to what was found before.
+void VelocityPlanner::solve_from_previous() {
+    found_ = can_start_ = true;
+    compute_bounds();
+    compute_slope_limits();
+    left_.assign(cells_.size() + 2, 0);
+    std::size_t k = 0, known = before_.size();  // the piece whose speeds these are
+    double begin = 0, end = 0;
+    const auto square_at = [&](double place) {
+        while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
+        const ProfileSegment& piece = before_[k];
+        if (known != k) {
+            begin = piece.at(0).speed;
+            end = piece.last().speed;
+            known = k;
+        }
+        const double part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
+        return begin * begin + part * (end * end - begin * begin);
+    };
+    double at_begin = cells_.empty() ? 0 : square_at(cells_.front().begin);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const double at_end = square_at(cells_[i].begin + cells_[i].length);
+        left_[i + 1] = std::max(at_begin, at_end);
+        at_begin = at_end;
+    }
+    refine();
+}
+
+/// From a first idea in left_.
+void VelocityPlanner::refine() {
+    tighten_limits(left_, first_guess);
+    solve();
+    double guess = first_guess;
+    for (int i = 0; i < settings_.refinements; ++i, guess = 1 + (guess - 1) * guess_falls)
+        if (is_loose(guess)) {
+            tighten_limits(square_, guess);
+            solve();
+        }
+}
+
+/// Bounds of control points, and the ways between them.
+void VelocityPlanner::compute_bounds() {
+    const std::size_t n = cells_.size();
+    way_.assign(n + 1, 0);
+    bound_.assign(n + 2, 0);
+    for (std::size_t i = 0; i < n; ++i)
+        bound_[i + 1] = std::min(
+            {cells_[i].velocity2, cells_[i == 0 ? 0 : i - 1].velocity2, cells_[std::min(i + 1, n - 1)].velocity2});
+    for (std::size_t k = 0; k <= n; ++k)
+        way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) +
+                         (k == n ? 1.5 * landing_.length : cells_[k].length));
+    if (!moving()) return;
+    // As if a cell like the first were before it: the two points about the start are what is going on.
+    way_[0] = cells_[0].length;
+    const double most = bound_[1];
+    bound_[1] = start_.velocity2 + 0.5 * start_.velocity2_slope * cells_[0].length;
+    bound_[0] = bound_[1] - start_.velocity2_slope * way_[0];
+    can_start_ = std::max(start_.velocity2, bound_[1]) <= most * (1 + rounding) &&
+                 start_.velocity2_slope <= cells_[0].up * (1 + rounding) &&
+                 -start_.velocity2_slope <= cells_[0].down * (1 + rounding);
+}
+
+/// Whether a tighter bound would be news: where points could bend more, or slopes change more.
+bool VelocityPlanner::is_loose(double guess) const {
+    for (std::size_t i = 1; i <= cells_.size(); ++i) {
+        const Cell& cell = cells_[i - 1];
+        const bool eased = std::min(up_[i - 1], up_[i]) < cell.up || std::min(down_[i - 1], down_[i]) < cell.down;
+        if ((eased ? bound_[i] : left_[i]) > guess * square_[i]) return true;
+    }
+    return false;
+}
+
+/// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
+void VelocityPlanner::tighten_limits(const std::vector<double>& found, double guess) {
+    for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+        cells_[i].velocity2 = std::min(cells_[i].velocity2, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
+}
+
+void VelocityPlanner::solve() {
+    compute_slope_limits();
+    limit_slope_rates();
+    stalls_ = false;
+    forward_backward_pass();
+    found_ = !moving() || (can_start_ && !stalls_ && left_[1] >= bound_[1]);
+    restore_start();
+    limit_deceleration_jerk();
+    // What goes on bends into what follows as the jerk allows: then the second point is a corner of the hull.
+    if (moving()) found_ = found_ && edges_.size() > 1 && edges_[1].from == 1;
+    restore_start();
+}
+
+/// The start's points stand, whatever follows.
+void VelocityPlanner::restore_start() {
+    if (!moving()) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+        left_[i] = bound_[i];
+        if (i < square_.size()) square_[i] = bound_[i];
+    }
+}
+
+void VelocityPlanner::forward_backward_pass() {
+    accelerate_pass(left_, false);
+    accelerate_pass(right_, true);
+    for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = std::min(left_[i], right_[i]);
+}
+
+/// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's
+/// end is what constant jerk makes of w there, whatever jerk it is.
+void VelocityPlanner::compute_slope_limits() {
+    const std::size_t n = cells_.size();
+    up_.assign(n + 1, 0);
+    down_.assign(n + 1, 0);
+    for (std::size_t k = 0; k <= n; ++k) {
+        const Cell &before = cells_[k == 0 ? 0 : k - 1], &after = cells_[std::min(k, n - 1)];
+        up_[k] = std::min(before.up, after.up);
+        down_[k] = std::min(before.down, after.down);
+    }
+    // Constant jerk: w' = 2 jerk t, u = jerk t^3 / 6.
+    const auto end_slope = [](const End& end) { return 2 * end.jerk * cube_root(6 * end.length / end.jerk); };
+    if (!moving()) up_.front() = std::min(up_.front(), end_slope(launch_));
+    down_.back() = std::min(down_.back(), end_slope(landing_));
+}
+
+/// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed
+/// would reach over.
+void VelocityPlanner::limit_slope_rates() {
+    limit_slope_rate(up_);
+    limit_slope_rate(down_);
+}
+
+void VelocityPlanner::limit_slope_rate(std::vector<double>& slopes) const {
+    const std::size_t n = cells_.size();
+    const auto change = [&](const Cell& cell) {
+        return cell.velocity2_curvature / std::sqrt(cell.velocity2) * cell.length;
+    };
+    for (std::size_t k = 1; k <= n; ++k) slopes[k] = std::min(slopes[k], slopes[k - 1] + change(cells_[k - 1]));
+    for (std::size_t k = n; k-- > 0;) slopes[k] = std::min(slopes[k], slopes[k + 1] + change(cells_[k]));
+}
+
+// ---- passes
+
+/// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
+void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
+    const std::size_t n = cells_.size();
+    const std::vector<double>& slopes = back ? down_ : up_;
+    const auto point = [&](std::size_t i) { return back ? n + 1 - i : i; };
+    out.assign(n + 2, 0);
+    double slope = 0, square = 0;
+    const bool from_motion = moving() && !back;
+    const double least = from_motion ? min_square * start_.velocity2 : 0;
+    if (from_motion) {
+        out[0] = bound_[0];
+        out[1] = square = bound_[1];
+        slope = start_.velocity2_slope;
+    }
+    for (std::size_t i = from_motion ? 1 : 0; i <= n; ++i) {
+        const double way = way_[back ? n - i : i];
+        const double steepest = slopes[back ? n - i : i];
+        if (i == 0) {
+            slope = steepest;
+        } else {
+            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than
+            // will be; on the way down from a motion that goes on, at the speed before.
+            const Cell& cell = cells_[back ? n - i : i - 1];
+            const double more = cell.velocity2_curvature * cell.length;
+            const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
+            slope = std::min(steepest, slope + more / std::sqrt(std::max({most, square, out[point(i - 1)]})));
+        }
+        const std::size_t at = point(i + 1);
+        const double next = square + slope * way, bound = moving() && at < 2 ? next : bound_[at];
+        if (next > bound) slope = std::max(0.0, (bound - square) / way);
+        stalls_ = stalls_ || next < least;
+        out[at] = square = std::max(std::min(next, bound), least);
+    }
+}
+
+/// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex
+/// hull. All sums are of what lies between two corners, so that small speeds near a rest keep their digits.
+void VelocityPlanner::limit_deceleration_jerk() {
+    const std::size_t n = cells_.size();
+    square_.resize(n + 2);
+    fall_.assign(n + 2, 0);
+    for (std::size_t i = 1; i <= n; ++i)
+        fall_[i] = cells_[i - 1].velocity2_curvature / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) *
+                   cells_[i - 1].length;
+    edges_.clear();
+    for (std::size_t i = 1; i < n + 2; ++i) {
+        Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
+        // The corner between two edges is on the hull if the slope falls there by less than it may.
+        while (!edges_.empty() && edges_.back().slope_out() - fall_[edge.from] >= edge.slope_in()) {
+            const Edge& before = edges_.back();
+            const double fall = before.fall + fall_[edge.from];
+            edge = {before.from, before.length + edge.length, fall + edge.fall,
+                    before.moment + fall * edge.length + edge.moment, before.rise + edge.rise};
+            edges_.pop_back();
+        }
+        edges_.push_back(edge);
+    }
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+        evaluate_hull_edge(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
+}
+
+/// From its lower end, where digits count.
+void VelocityPlanner::evaluate_hull_edge(const Edge& edge, std::size_t to) {
+    square_[edge.from] = left_[edge.from];
+    square_[to] = left_[to];
+    if (left_[edge.from] <= left_[to]) {
+        double slope = edge.slope_in();
+        for (std::size_t i = edge.from; i + 1 < to; slope -= fall_[++i]) square_[i + 1] = square_[i] + slope * way_[i];
+    } else {
+        double slope = edge.slope_out();
+        for (std::size_t i = to; i > edge.from + 1; slope += fall_[--i])
+            square_[i - 1] = square_[i] - slope * way_[i - 1];
+    }
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,85 @@
+// What was found, as pieces; and where no limit changes the quickest, which is known.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/axis_profile/axis_profile.hpp>
+#include <motionrack/control/path_velocity/velocity_planner.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+
+namespace motionrack::control {
+
+/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a
+/// short one has no digits.
+///
+///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
+void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
+    const SCurveProfile curve(length_, limits.speed, limits.accel, limits.jerk);
+    const auto ends = curve.phase_ends();
+    const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
+    const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
+    const double part = jerk * rise * rise * rise / 6, gain = 0.5 * jerk * rise * rise, top = peak - gain;
+    const ProfileSegment launch{ProfileSegmentKind::launch, 0, part, rise, 0, 0, 0, jerk};
+    ProfileSegment landing = launch;
+    landing.phase = ProfileSegmentKind::landing;
+    landing.begin = length_ - part;
+    double begin = part;
+    const auto add = [&](double seconds, double length, double speed, double now, double more) {
+        if (!(seconds > 0)) return;
+        pieces_.push_back(feed_ramp(begin, length, seconds, speed, now, more));
+        begin += length;
+    };
+    pieces_.push_back(launch);
+    add(even, 0.5 * even * (gain + top), gain, accel, 0);
+    add(rise, peak * rise - part, top, accel, -jerk);
+    add(cruise, peak * cruise, peak, 0, 0);
+    add(rise, peak * rise - part, peak, 0, -jerk);
+    add(even, 0.5 * even * (gain + top), top, -accel, 0);
+    pieces_.push_back(landing);
+}
+
+/// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.
+void VelocityPlanner::write_travel(const LimitInterval& limits) {
+    const double speed = std::sqrt(start_.velocity2), accel = 0.5 * start_.velocity2_slope;
+    if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
+    const KinematicState start{0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)};
+    const auto found = time_optimal_profile(start, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
+    if (!found) return;
+    const auto phases = found->phases();
+    double begin = 0;
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+        const double seconds = std::fabs(phases[i].seconds);
+        const ProfileSample at = phases[i].at(phases[i].end - seconds), then = phases[i].at(phases[i].end);
+        const bool lands = i + 1 == phases.size();
+        const double turn =
+            !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // where the speed is greatest or least in it
+        const double within = turn > 0 && turn < seconds ? at.speed + 0.5 * at.accel * turn : at.speed;
+        if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 ||
+            std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||
+            std::fabs(at.accel) > limits.accel * (1 + rounding)) {
+            pieces_.clear();
+            return;
+        }
+        const double on = seconds * (at.speed + seconds * (0.5 * at.accel + seconds * at.jerk * (1.0 / 6)));
+        const double length = lands ? at.speed * seconds / 3 : on;
+        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.speed * at.speed)
+                                : feed_ramp(begin, length, seconds, at.speed, at.accel, at.jerk));
+        begin += length;
+    }
+}
+
+void VelocityPlanner::write() {
+    const std::size_t n = cells_.size();
+    const auto slope = [&](std::size_t knot) { return (square_[knot + 1] - square_[knot]) / way_[knot]; };
+    const double first = slope(0) * 0.75 * launch_.length, last = -slope(n) * 0.75 * landing_.length;
+    if (!moving()) pieces_.push_back(feed_launch(0, launch_.length, first));
+    double before = slope(0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double after = slope(i + 1);
+        const Cell& cell = cells_[i];
+        pieces_.push_back(approximate_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before,
+                                           (after - before) / cell.length));
+        before = after;
+    }
+    pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));
+}
+
+}  // namespace motionrack::control

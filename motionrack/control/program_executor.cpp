@@ -1,0 +1,208 @@
+// The loop of a part program.
+#include <fmt/format.h>
+
+#include <motionrack/control/make_planner.hpp>
+#include <motionrack/control/probing.hpp>
+#include <motionrack/control/program_executor.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+std::string override_words(const gcode::CanonCall& step) {
+    const bool on = step.value != 0;
+    switch (step.port) {
+        case 48:
+        case 49:
+            return fmt::format("overrides {} (M{})", on ? "on" : "off: feeds and rapids as programmed", step.port);
+        case 50:
+            return fmt::format("feed override {} (M50)", on ? "on" : "off: feeds and rapids as programmed");
+        case 51:
+            return fmt::format("spindle override {} (M51)", on ? "on" : "off");
+        case 52:
+            return "adaptive feed off (M52)";
+        default:
+            return fmt::format("feed stop switch {} (M53)", on ? "on" : "off");
+    }
+}
+
+int output_code(const gcode::CanonCall& step) {
+    if (step.analog) return step.with_motion ? 67 : 68;
+    return (step.with_motion ? 62 : 64) + (step.value == 0);
+}
+
+std::string input_words(const gcode::CanonCall& step) {
+    const char* kind = step.analog ? "analog" : "digital";
+    if (step.value < 0)
+        return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind,
+                           step.port);
+    return fmt::format("{} input {} (M66): {:g}, nothing is connected to it", kind, step.port, step.value);
+}
+
+std::string words_of(const gcode::CanonCall& step) {
+    using gcode::CanonCallKind;
+    switch (step.kind) {
+        case CanonCallKind::comment:
+            return fmt::format("comment: {}", step.text);
+        case CanonCallKind::message:
+            return fmt::format("message: {}", step.text);
+        case CanonCallKind::spindle_speed:
+            return fmt::format("spindle speed {} rpm", step.speed_rpm);
+        case CanonCallKind::spindle:
+            if (step.spindle == gcode::Spindle::off) return "spindle off";
+            return fmt::format("spindle {} at {} rpm",
+                               step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
+                               step.speed_rpm);
+        case CanonCallKind::coolant:
+            return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
+        case CanonCallKind::tool_select:
+            return fmt::format("tool {} selected", step.tool);
+        case CanonCallKind::tool_number:
+            return fmt::format("tool {} is in the spindle", step.tool);
+        case CanonCallKind::tool_change:
+            return fmt::format("tool {} changed in", step.tool);
+        case CanonCallKind::overrides:
+            return override_words(step);
+        case CanonCallKind::output:
+            return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value,
+                               output_code(step));
+        case CanonCallKind::input:
+            return input_words(step);
+        case CanonCallKind::pause:
+            return "pause (M0): nobody waits in simulated time, the program goes on";
+        case CanonCallKind::optional_pause:
+            return "optional pause (M1): not asked for, the program goes on";
+        case CanonCallKind::end:
+            return "end of program";
+        case CanonCallKind::move:
+            break;
+    }
+    return {};
+}
+
+}  // namespace
+
+ProgramExecutor::ProgramExecutor(AxisGroup& axes, const ExecutorSettings& settings) : axes_(axes), settings_(settings) {
+    plan_from(settings.gcode.start);
+}
+
+void ProgramExecutor::plan_from(const Point& start) {
+    read_to_ = start;
+    if (settings_.jerk_limited)
+        planner_ = std::make_unique<TrajectoryInterpolator>(
+            make_trajectory_interpolator(axes_, settings_.gcode.limits, settings_.accel_reserve, {}, start));
+    else
+        planner_ = std::make_unique<LookAheadPlanner>(
+            make_look_ahead_planner(axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, start));
+}
+
+Result<void> ProgramExecutor::submit() {
+    PlannedMove planned;
+    while (true) {
+        if (!held_ && is_stop_requested()) held_ = planner_->hold();
+        if (!planner_->pull(planned)) return held_ ? stopped() : Result<void>{};
+        tell(planned);
+        MOTIONRACK_CHECK(axes_.follow(planned));
+    }
+}
+
+/// A move was read: with its number.
+Move ProgramExecutor::programmed(const Move& read) {
+    Move move = read;
+    move.index = read_++;
+    if (on_move_) on_move_(move, read_to_);
+    if (move.kind != MoveKind::dwell) read_to_ = move.end;
+    return move;
+}
+
+/// A block is about to be driven.
+void ProgramExecutor::tell(const PlannedMove& planned) {
+    summary_.add(planned);
+    if (on_block_) on_block_(blocks_, planned);
+    ++blocks_;
+    line_ = planned.move.line;
+}
+
+/// What the axes had is driven, and it ends at rest.
+Result<void> ProgramExecutor::stopped() {
+    MOTIONRACK_CHECK(axes_.finish());
+    return stopped_on_request(line_, axes_.commanded_position(), settings_.gcode.limits);
+}
+
+void ProgramExecutor::remember(const gcode::CanonCall& step, ProgramResult& run) {
+    note({step.line, blocks_ - 1, words_of(step)}, run);
+}
+
+void ProgramExecutor::note(ProgramEvent event, ProgramResult& run) {
+    if (run.events.size() < settings_.event_limit)
+        run.events.push_back(std::move(event));
+    else
+        ++run.events_left_out;
+}
+
+Result<void> ProgramExecutor::take(const gcode::CanonCall& step, ProgramResult& run) {
+    using gcode::CanonCallKind;
+    if (step.kind == CanonCallKind::move) {
+        run.moves += step.move.kind != MoveKind::dwell;
+        if (!planner_->has_room()) MOTIONRACK_CHECK(submit());
+        return planner_->push(programmed(step.move));
+    }
+    // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
+    if (gcode::needs_standstill(step)) {
+        planner_->flush();
+        MOTIONRACK_CHECK(submit());
+    }
+    remember(step, run);
+    if (step.kind == CanonCallKind::end) run.ended = true;
+    return {};
+}
+
+/// Everything before it is driven, then the probing move alone; the program goes on where the machine stands.
+Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run) {
+    run.moves += 1;
+    planner_->flush();
+    MOTIONRACK_CHECK(submit());
+    MOTIONRACK_CHECK(axes_.finish());
+    MOTIONRACK_TRY(const PlannedMove planned,
+                   plan_single_move(axes_, settings_.gcode.limits, settings_.accel_reserve, programmed(step.move)));
+    tell(planned);
+    MOTIONRACK_TRY(const ProbeResult outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
+    const Point stands = axes_.commanded_position();
+    reader.set_probe_result(outcome.hit, outcome.at, stands);
+    plan_from(stands);
+    if (run.probes.size() < settings_.event_limit) run.probes.push_back({step.line, step.probe, outcome});
+    const std::string what = probe_text(step.probe, outcome);
+    note({step.line, blocks_ - 1, what}, run);
+    if (outcome.hit || !gcode::probe_must(step.probe)) return {};
+    return fail(ErrorKind::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what),
+                {step.line, 1});
+}
+
+Result<void> ProgramExecutor::run(std::string_view text, const std::string& file, ProgramResult& run) {
+    MOTIONRACK_CHECK(axes_.begin());
+    gcode::ProgramReader reader(text, settings_.gcode, file);
+    Result<void> outcome;
+    while (outcome) {
+        auto step = reader.next();
+        run.lines = reader.walk().highest_line();
+        if (!step) {
+            outcome = tl::unexpected<Error>(step.error());
+            break;
+        }
+        if (*step == nullptr) break;
+        outcome = (*step)->probe != gcode::Probe::none ? probe(**step, reader, run) : take(**step, run);
+    }
+    // What was read before a problem is driven to its end, so that the machine stands where the program says.
+    const bool axes_stopped =
+        !outcome && (outcome.error().kind == ErrorKind::machine || outcome.error().kind == ErrorKind::stopped);
+    if (!axes_stopped) {
+        planner_->flush();
+        Result<void> rest = submit();
+        if (rest) rest = axes_.finish();
+        if (outcome) outcome = rest;
+    }
+    run.plan = summary_;
+    return outcome;
+}
+
+}  // namespace motionrack::control

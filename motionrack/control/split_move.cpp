@@ -1,0 +1,80 @@
+// Parts end on the path of the whole; a rest begins where the machine stands.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/split_move.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// An arc that has this much more to turn than there was left of it has missed its end.
+constexpr double too_much_turn = 0.5;
+
+double share_of_time(const Move& move, double whole, double part) {
+    return move.feed_mode == FeedMode::inverse_time && part > 0 ? move.feed * (whole / part) : move.feed;
+}
+
+double length_on_arc(const Geometry& path, const Point& place) {
+    const double x0 = path.start[path.first] - path.centre_first, y0 = path.start[path.second] - path.centre_second;
+    const double x = place[path.first] - path.centre_first, y = place[path.second] - path.centre_second;
+    const double whole = std::fabs(path.sweep);
+    double angle = motionrack::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
+    if (path.sweep < 0) angle = -angle;
+    if (angle < 0) angle += 2 * pi;
+    if (angle > whole) angle = angle - whole < 2 * pi - angle ? whole : 0;
+    return path.length * (angle / whole);
+}
+
+double length_on_straight(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    double along = 0, square = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        const double tangent = path.tangent_in[i] * pulses[i];
+        along += (place[i] - path.start[i]) * pulses[i] * tangent;
+        square += tangent * tangent;
+    }
+    return square > 0 ? std::clamp(along / square, 0.0, path.length) : 0;
+}
+
+}  // namespace
+
+Move sub_move(const Move& move, const Geometry& path, double from, double to) {
+    Move part = move;
+    part.end = position_at(path, to);
+    part.feed = share_of_time(move, path.length, to - from);
+    if (path.shape == PathShape::arc) {
+        const double turned = std::fabs(path.sweep) * (to - from) / path.length;
+        const int turns = 1 + static_cast<int>((turned - min_sweep_rad) / (2 * pi));
+        part.turns = move.turns > 0 ? turns : -turns;
+    }
+    return part;
+}
+
+Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    Nearest out;
+    if (path.shape == PathShape::arc)
+        out.length = length_on_arc(path, place);
+    else if (path.shape != PathShape::nothing)
+        out.length = length_on_straight(path, place, pulses);
+    const Point nearest = position_at(path, out.length);
+    for (std::size_t i = 0; i < place.size(); ++i)
+        out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]) * pulses[i]);
+    return out;
+}
+
+Move remaining_move(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    const double left = path.length - nearest_point(path, place, pulses).length;
+    Move rest = move;
+    rest.feed = share_of_time(move, path.length, left);
+    if (path.shape != PathShape::arc) return rest;
+    const double turn_left = std::fabs(path.sweep) * left / path.length;
+    rest.turns = move.turns > 0 ? 1 : -1;
+    const Geometry tried = geometry_of(rest, place);
+    if (left <= 0 || tried.shape != PathShape::arc || std::fabs(tried.sweep) > turn_left + too_much_turn) {
+        rest.kind = MoveKind::feed;
+        rest.turns = 0;
+    }
+    return rest;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,368 @@
+// Entries go from the reader to the planner to the axes, and leave at the front when the machine has passed them.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/make_planner.hpp>
+#include <motionrack/control/split_move.hpp>
+#include <motionrack/control/stream_executor.hpp>
+#include <utility>
+
+namespace motionrack::control {
+
+namespace {
+
+using gcode::CanonCall;
+using gcode::CanonCallKind;
+
+/// Pieces of an arc are short enough to tell from a place where on it the machine is.
+constexpr double max_sweep = 2 * pi / 3;
+/// And all pieces long enough that their ends on whole pulses do not matter.
+constexpr double min_pulses = 200;
+
+}  // namespace
+
+StreamExecutor::StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings)
+    : axes_(&axes),
+      host_(host),
+      settings_(settings),
+      limits_(settings.gcode.limits),
+      interpreter_(settings.gcode),
+      planner_(make_look_ahead_planner(axes, settings.gcode.limits, settings.accel_reserve, settings.planner,
+                                       settings.gcode.start)),
+      read_to_(settings.gcode.start) {
+    if (settings_.jerk_limited) ride_ = new_ride(settings.gcode.start);
+}
+
+// ---- reading
+
+gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number) {
+    text_ = text;
+    if (gcode::Outcome<void> read = interpreter_.line(text_, number); !read) return read;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
+gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk) {
+    text_ = text;
+    gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
+    if (!read) {
+        walk.line_rejected(text_, read.error());
+        return read;
+    }
+    if (gcode::Outcome<void> taken = walk.line_accepted(interpreter_); !taken) return taken;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
+gcode::Outcome<void> StreamExecutor::program_over() {
+    if (gcode::Outcome<void> done = interpreter_.finish(); !done) return done;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
+void StreamExecutor::move(const Move& move) {
+    CanonCall step;
+    step.line = move.line;
+    step.move = move;
+    begin_cut(step, true);
+    interpreter_.resync_position(move.end);
+    unpulled_ = true;
+    pull_steps();
+}
+
+void StreamExecutor::pull_steps() {
+    while (entries_.size() < settings_.max_entries) {
+        if (cutting_) {
+            add_piece();
+            continue;
+        }
+        const CanonCall* step = unpulled_ ? interpreter_.pull() : nullptr;
+        unpulled_ = step != nullptr;
+        if (step == nullptr) return;
+        if (step->probe != gcode::Probe::none) {
+            probe_waits_ = true;
+            ++moves_;
+            entries_.push_back({*step, {}, read_to_});
+            entries_.back().step.move.index = read_++;
+            if (on_move_) on_move_(entries_.back().step.move, read_to_);
+        } else if (step->kind == CanonCallKind::move && step->move.kind != MoveKind::dwell) {
+            begin_cut(*step, false);
+        } else {
+            entries_.push_back({*step, std::string(step->text), read_to_});
+            if (step->kind != CanonCallKind::move) continue;
+            ++moves_;
+            entries_.back().step.move.index = read_++;
+        }
+    }
+}
+
+void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
+    Cutting cut{step, geometry_of(step.move, read_to_)};
+    cut.by_hand = by_hand;
+    cut.step.move.index = read_++;
+    if (on_move_) on_move_(cut.step.move, read_to_);
+    if (cut.path.shape == PathShape::nothing) return;
+    const double wanted = limits_.along(cut.path, step.move).speed * settings_.slice_s;
+    const Point worst = max_tangent_components(cut.path);
+    double pulses = 0;  // of the fastest axis for a unit of length
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
+    const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / min_pulses);
+    // Axes that position one by one would come to rest at the end of each.
+    if (!ride_ && !settings_.gcode.point_to_point)
+        cut.pieces = static_cast<int>(
+            std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / max_sweep), 1e9))));
+    cutting_ = cut;
+    ++moves_;
+}
+
+void StreamExecutor::add_piece() {
+    const double each = cutting_->path.length / cutting_->pieces;
+    const double from = each * cutting_->done++;
+    const bool last = cutting_->done == cutting_->pieces;
+    Entry piece{cutting_->step, {}, read_to_};
+    piece.last = last;
+    piece.by_hand = cutting_->by_hand;
+    Move& move = piece.step.move;
+    move = sub_move(cutting_->step.move, cutting_->path, from, last ? cutting_->path.length : each * cutting_->done);
+    if (!last && move.path == PathControl::exact_stop) move.path = PathControl::exact_path;
+    read_to_ = move.end;
+    entries_.push_back(std::move(piece));
+    if (last) cutting_.reset();
+}
+
+// ---- wishes
+
+void StreamExecutor::hold() {
+    if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
+        return;
+    wish_ = Wish::hold;
+    stop_flag_ = !ride_ && !probing_;
+}
+
+void StreamExecutor::resume() {
+    if (state_ != ExecutionState::feed_hold && state_ != ExecutionState::paused) return;
+    state_ = ExecutionState::running;
+    if (ride_) ride_->rider().resume();
+}
+
+void StreamExecutor::stop() {
+    if (!path_begun_ && !has_work()) {
+        // A pause behind which nothing waits would make the next line wait.
+        if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
+        return;
+    }
+    wish_ = Wish::stop;
+    stop_flag_ = !ride_ || probing_;
+}
+
+void StreamExecutor::set_overrides(double feed, double rapid) {
+    feed_wanted_ = std::clamp(feed, 0.01, 2.0);
+    rapid_wanted_ = std::clamp(rapid, 0.01, 1.0);
+}
+
+// ---- driving
+
+Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
+    if (ride_) return drive_ride(more_may_come);
+    const bool brakes = wish_ != Wish::none;
+    if (brakes && !path_begun_) return stand();
+    if (!brakes && (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)) return state_;
+    pull_steps();
+    if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
+        feed_ = feed_wanted_;
+        rapid_ = rapid_wanted_;
+        std::size_t at = handed_;
+        planner_.change_feeds([&](PlannedMove& planned) {
+            while (!entries_[at].is_move()) ++at;
+            entries_[at].override_feed(planned.move, feed_, rapid_);
+            for (std::int32_t left = planned.moves; left > 0; ++at) left -= entries_[at].is_move();
+        });
+    }
+    if (Result<void> filled = fill_planner(); !filled) {
+        forget();
+        return tl::unexpected<Error>(filled.error());
+    }
+    // A last move is kept back while there is time for the line after it: then it need not end at rest. Who brakes gets
+    // all the path there is: that is what it brakes along.
+    const bool rest_follows = !more_may_come || planned_ < entries_.size();
+    const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
+    if (planner_.size() <= 1 && keep_back) return state_ = ExecutionState::waiting;
+    if (PlannedMove planned; planner_.pull_early(planned)) return submit(planned);
+    return path_begun_ ? finish_path() : stand();
+}
+
+Result<void> StreamExecutor::fill_planner() {
+    for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
+        const Entry& entry = entries_[planned_];
+        if (!entry.is_move()) {
+            planner_.keep_apart();  // it is told of where it stands in the program
+            continue;
+        }
+        Move move = entry.step.move;
+        entry.override_feed(move, feed_, rapid_);
+        MOTIONRACK_CHECK(planner_.push(move));
+    }
+    return {};
+}
+
+bool StreamExecutor::stops_before(const Entry& entry) const {
+    if (single_step_ && entry.step.line != entries_.front().step.line) return true;
+    return entry.is_probe() || gcode::needs_standstill(entry.step);
+}
+
+/// Whether what the axes have goes on for longer than the margin.
+bool StreamExecutor::time_left() {
+    if (block_began_ == never) return false;
+    double seconds = 0;
+    for (std::size_t i = 0; i < handed_; ++i) seconds += entries_[i].seconds;
+    return block_began_ + from_seconds(seconds) > host_.now() + settings_.margin;
+}
+
+Result<ExecutionState> StreamExecutor::submit(const PlannedMove& planned) {
+    if (!path_begun_) {
+        if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
+        path_begun_ = true;
+        first_block_ = 0;
+        block_began_ = never;
+        blocks_.clear();
+    }
+    if (ride_) {
+        blocks_.push_back(planned.number);
+    } else {
+        blocks_.push_back(planned.moves);
+        double seconds = seconds_of(planned);
+        for (std::int32_t left = planned.moves; left > 0; ++handed_)
+            if (entries_[handed_].is_move()) {
+                entries_[handed_].seconds = std::exchange(seconds, 0.0);
+                --left;
+            }
+    }
+    state_ = ExecutionState::running;
+    const Result<void> followed = axes_->follow(planned);
+    take_move_starts();
+    if (!followed) return interrupted(followed.error());
+    return state_;
+}
+
+Result<ExecutionState> StreamExecutor::finish_path() {
+    const Result<void> finished = axes_->finish();
+    take_move_starts();
+    if (!finished) return interrupted(finished.error());
+    path_begun_ = false;
+    if (ride_) pop_driven(ride_->rider().first_pending_move());
+    while (handed_ > 0) pop();
+    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
+    if (ride_ && wish_ == Wish::hold && !has_work()) ride_->rider().resume();
+    return stand();
+}
+
+/// The axes stand where the path that they had ends.
+Result<ExecutionState> StreamExecutor::stand() {
+    const Wish wish = std::exchange(wish_, Wish::none);
+    stop_flag_ = false;
+    if (wish == Wish::stop) {
+        forget();
+        return state_;
+    }
+    if (wish == Wish::hold && has_work()) return state_ = ExecutionState::feed_hold;
+    while (!entries_.empty() && !entries_.front().is_move()) {
+        if (entries_.front().is_probe()) return probe();
+        const bool pause = entries_.front().step.kind == CanonCallKind::pause;
+        pop();
+        if (pause) return state_ = ExecutionState::paused;
+    }
+    return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
+}
+
+Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
+    const bool held = !ride_ && error.kind == ErrorKind::stopped && wish_ == Wish::hold;
+    wish_ = Wish::none;
+    stop_flag_ = false;
+    path_begun_ = false;
+    if (!held) {
+        forget();
+        if (error.kind == ErrorKind::stopped) return state_;
+        return tl::unexpected<Error>(error);
+    }
+    keep_rest_of_path();
+    return state_ = ExecutionState::feed_hold;
+}
+
+void StreamExecutor::forget() {
+    entries_.clear();
+    cutting_.reset();
+    moves_ = 0;
+    unpulled_ = probe_waits_ = false;
+    planned_ = handed_ = 0;
+    state_ = ExecutionState::idle;
+    interpreter_.reset_after_program();
+    resync_axes(*axes_);
+}
+
+void StreamExecutor::resync_axes(AxisGroup& axes) {
+    axes_ = &axes;
+    read_to_ = axes_->commanded_position();
+    interpreter_.resync_position(read_to_);
+    new_planner(read_to_);
+}
+
+gcode::Settings StreamExecutor::fresh_settings() const {
+    gcode::Settings settings = settings_.gcode;
+    settings.start = interpreter_.position();
+    settings.work_offsets = interpreter_.frame().work;
+    settings.g28 = interpreter_.frame().g28;
+    settings.g30 = interpreter_.frame().g30;
+    return settings;
+}
+
+void StreamExecutor::reset_modal_state() {
+    interpreter_ = gcode::Interpreter(fresh_settings());
+    line_driven_ = 0;
+}
+
+void StreamExecutor::clear_offsets() {
+    gcode::Settings settings = fresh_settings();
+    settings.work_offsets = {};
+    settings.g28 = settings.g30 = {};
+    interpreter_ = gcode::Interpreter(settings);
+}
+
+void StreamExecutor::new_planner(const Point& place) {
+    planner_ =
+        make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, place);
+    if (ride_) ride_ = new_ride(place);
+    ride_ends_ = true;
+}
+
+// ---- what the machine has passed
+
+void StreamExecutor::take_move_starts() {
+    for (const MoveStart& start : axes_->take_move_starts()) {
+        if (start.block < 0) continue;
+        block_began_ = start.at;
+        pop_before_block(start.block);
+        while (!entries_.empty() && !entries_.front().is_move()) pop();
+        line_driven_ = start.line;
+    }
+}
+
+/// The first entry was passed.
+void StreamExecutor::pop() {
+    Entry& front = entries_.front();
+    if (front.is_move()) {
+        moves_ -= front.last;
+    } else {
+        line_driven_ = front.step.line;
+        front.step.text = front.text;
+        if (on_event_) on_event_(front.step);
+    }
+    entries_.pop_front();
+    planned_ -= planned_ > 0;
+    handed_ -= handed_ > 0;
+}
+
+}  // namespace motionrack::control

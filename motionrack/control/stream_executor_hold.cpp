@@ -1,0 +1,58 @@
+// What is left of the path of a stream where a hold has brought the axes to rest.
+#include <limits>
+#include <motionrack/control/split_move.hpp>
+#include <motionrack/control/stream_executor.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// Pulses that a place may be beside the straight line that they are of.
+constexpr double beside_pulses = 1.5;
+
+/// Where one path ends and the other begins the way turns back by more than a right angle.
+bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUnit& pulses) {
+    double cosine = 0;
+    for (std::size_t i = 0; i < pulses.size(); ++i)
+        cosine += before.tangent_out[i] * after.tangent_in[i] * pulses[i] * pulses[i];
+    return cosine < 0;
+}
+
+}  // namespace
+
+/// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
+void StreamExecutor::keep_rest_of_path() {
+    const Point place = axes_->commanded_position();
+    while (!entries_.empty() && !entries_.front().is_move()) pop();
+    PulsesPerUnit pulses;
+    for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
+    // A block may stand for several moves.
+    std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
+    known += blocks_.size() > 1 ? blocks_[1] : 0;
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    Geometry path;  // the nearest one
+    for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
+        if (!entries_[i].is_move()) continue;
+        --known;
+        const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
+        const double off = nearest_point(here, place, pulses).distance;
+        // A way back is as near as the way there, of which nothing may be left out.
+        if (off >= (turns_back(path, here, pulses) ? least - beside_pulses : least)) continue;
+        least = off;
+        nearest = i;
+        path = here;
+    }
+    for (; nearest > 0; --nearest) pop();
+    if (!entries_.empty() && handed_ > 0) {
+        Entry& entry = entries_.front();
+        entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
+        entry.start = place;
+        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
+            pop();
+    }
+    planned_ = handed_ = 0;
+    new_planner(place);
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,95 @@
+// A stream with limited jerk: the ride holds, resumes and overrides along its curve; the axes get its moves one by one.
+#include <algorithm>
+#include <motionrack/control/make_planner.hpp>
+#include <motionrack/control/stream_executor.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// s of motion that the axes have at once: how soon a wish is felt.
+constexpr double max_line_seconds = 0.03;
+/// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no
+/// line has come for so long, and so long before it would slow down for the end of what it tells.
+constexpr double ends_before = 0.2;
+constexpr Duration sender_is_silent = milliseconds(50);
+
+}  // namespace
+
+TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
+    InterpolatorSettings settings;
+    settings.max_seconds = max_line_seconds;
+    settings.cut_dwells = true;
+    return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
+}
+
+Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
+    if (wish_ != Wish::none) {
+        if (!path_begun_) return stand();
+        ride_->rider().hold();
+    } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
+        return state_;
+    }
+    pull_steps();
+    ride_->rider().set_overrides(feed_wanted_, rapid_wanted_);
+    if (Result<void> filled = fill_ride(); !filled) {
+        forget();
+        return tl::unexpected<Error>(filled.error());
+    }
+    const bool rest_follows = !more_may_come || planned_ < entries_.size();
+    if (ride_may_wait(rest_follows)) return state_ = ExecutionState::waiting;
+    const bool late = ride_->rider().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
+    if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
+        ride_->flush();
+        ride_ends_ = true;
+    }
+    if (PlannedMove planned; ride_->pull(planned, true)) return submit(planned);
+    const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
+    if (path_begun_) {
+        // Where the ride stands: at the end of what is known, or held.
+        Result<ExecutionState> finished = finish_path();
+        if (!finished || !more_follows) return finished;
+    } else {
+        pop_driven(ride_->rider().first_pending_move());  // dwells of no time
+    }
+    return more_follows ? state_ = ExecutionState::waiting : stand();
+}
+
+/// A first move alone waits for the line after it: then it need not end at rest.
+bool StreamExecutor::ride_may_wait(bool rest_follows) const {
+    return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !ride_ends_;
+}
+
+Result<void> StreamExecutor::fill_ride() {
+    for (; ride_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
+        Entry& entry = entries_[planned_];
+        if (!entry.is_move()) continue;
+        entry.number = ride_->rider().pushed();
+        MOTIONRACK_CHECK(ride_->push(entry.step.move, entry.is_overridable()));
+        ride_ends_ = false;
+        last_push_ = host_.now();
+    }
+    return {};
+}
+
+/// Of one move of a ride the axes get several blocks; else a block may stand for several moves.
+void StreamExecutor::pop_before_block(std::int64_t block) {
+    for (; first_block_ < block; ++first_block_) {
+        for (std::int64_t left = ride_ ? 0 : blocks_.front(); left > 0; pop()) left -= entries_.front().is_move();
+        blocks_.pop_front();
+    }
+    if (ride_) pop_driven(blocks_.front());
+}
+
+/// All up to the last move before this one.
+void StreamExecutor::pop_driven(std::int64_t first_pending_move) {
+    std::size_t driven = 0;
+    for (std::size_t i = 0; i < planned_; ++i)
+        if (entries_[i].is_move()) {
+            if (entries_[i].number >= first_pending_move) break;
+            driven = i + 1;
+        }
+    for (; driven > 0; --driven) pop();
+}
+
+}  // namespace motionrack::control

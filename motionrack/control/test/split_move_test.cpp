@@ -1,0 +1,104 @@
+// Parts of moves put together again are the move; the rest of a move ends where the move ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <motionrack/control/split_move.hpp>
+
+namespace motionrack::control {
+namespace {
+
+Move line_to(double x, double y, double a = 0) {
+    Move move;
+    move.kind = MoveKind::feed;
+    move.feed = 10;
+    move.end = {x, y, 0, a, 0, 0};
+    return move;
+}
+
+/// From (10, 0) about (0, 0), helical, to `turn` of a circle.
+Move helix(double turn, double z, bool counter_clockwise = true) {
+    Move move;
+    move.kind = MoveKind::arc;
+    move.feed = 10;
+    move.turns = counter_clockwise ? 1 : -1;
+    const double angle = (counter_clockwise ? 1 : -1) * turn * 2 * 3.14159265358979;
+    move.end = {10 * std::cos(angle), 10 * std::sin(angle), z, 0, 0, 0};
+    return move;
+}
+
+constexpr Point at_ten = {10, 0, 0, 0, 0, 0};
+
+TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
+    for (const Move& whole : {line_to(3, -4, 77), helix(0.6, 5), helix(0.6, 5, false), helix(1, 0)}) {
+        const Geometry path = geometry_of(whole, at_ten);
+        Point at = at_ten;
+        double length = 0;
+        for (int i = 0; i < 7; ++i) {
+            const Move part =
+                sub_move(whole, path, path.length * i / 7, i == 6 ? path.length : path.length * (i + 1) / 7);
+            const Geometry piece = geometry_of(part, at);
+            EXPECT_NEAR(piece.length, path.length / 7, 1e-9);
+            for (double s = 0; s <= 1; s += 0.25) {
+                const Point place = position_at(piece, s * piece.length);
+                EXPECT_LT(distance_to(path, place[0], place[1], place[2]), 1e-9);
+            }
+            length += piece.length;
+            at = part.end;
+        }
+        EXPECT_NEAR(length, path.length, 1e-9);
+        EXPECT_EQ(at, whole.end);
+    }
+}
+
+TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
+    Move whole = line_to(0, 0);
+    whole.feed_mode = FeedMode::inverse_time;
+    whole.feed = 0.5;  // 2 s
+    const Geometry path = geometry_of(whole, at_ten);
+    EXPECT_DOUBLE_EQ(sub_move(whole, path, 2, 4).feed, 2.5);  // 0.4 s
+    EXPECT_DOUBLE_EQ(remaining_move(whole, path, {2.5, 0, 0, 0, 0, 0}).feed, 2);
+}
+
+TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
+    for (const Move& whole : {helix(0.3, 0), helix(0.3, 0, false), helix(0.3, 2)}) {
+        const Geometry path = geometry_of(whole, at_ten);
+        for (double part = 0; part < 0.999; part += 0.1) {
+            Point place = position_at(path, part * path.length);
+            place[0] += 0.001;
+            EXPECT_NEAR(nearest_point(path, place).length, part * path.length, 0.002);
+            const Geometry rest = geometry_of(remaining_move(whole, path, place), place);
+            EXPECT_EQ(rest.shape, PathShape::arc);
+            EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.002);
+            EXPECT_EQ(rest.end, whole.end);
+        }
+    }
+}
+
+TEST(TheRestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
+    const Move whole = helix(0.25, 0);
+    const Geometry path = geometry_of(whole, at_ten);
+    const Geometry rest = geometry_of(remaining_move(whole, path, {-0.001, 10, 0, 0, 0, 0}), {-0.001, 10, 0, 0, 0, 0});
+    EXPECT_EQ(rest.shape, PathShape::line);
+    EXPECT_LT(rest.length, 0.0011);
+}
+
+TEST(ThePlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
+    Move whole = line_to(10, 0, 90);
+    const Geometry path = geometry_of(whole, at_ten);
+    EXPECT_EQ(path.shape, PathShape::rotary);
+    EXPECT_NEAR(nearest_point(path, {10, 0, 0, 30, 0, 0}).length, 30, 1e-9);
+    EXPECT_NEAR(nearest_point(path, {10, 0, 0, 100, 0, 0}).distance, 10, 1e-9);
+    EXPECT_NEAR(nearest_point(path, {9.5, 0, 0, 30, 0, 0}).distance, 0.5, 1e-9);
+}
+
+TEST(ThePlaceOnAPath, CountsEachAxisInItsPulses) {
+    const Geometry path = geometry_of(line_to(20, 0, 90), at_ten);
+    const PulsesPerUnit pulses = {640, 640, 640, 10, 0, 0};
+    const Point half_way = {15, 0, 0, 45, 0, 0}, turned_wrong = {15, 0, 0, 47, 0, 0}, beside = {15, 0, 0.5, 45, 7, 0};
+    EXPECT_NEAR(nearest_point(path, half_way, pulses).distance, 0, 1e-9);
+    EXPECT_NEAR(nearest_point(path, turned_wrong, pulses).distance, 20, 1);
+    EXPECT_NEAR(nearest_point(path, beside, pulses).distance, 320, 1e-9);
+}
+
+}  // namespace
+}  // namespace motionrack::control

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/trajectory/section_planner.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// Rounds of planning, and the part of the time that must be won for another one.
+constexpr int max_rounds = 3;
+constexpr double worth_another = 0.995;
+/// So much faster than found last it may become.
+constexpr double first_slack = 0.35, slack_falls = 0.3;
+/// What comes so near to a limit is held by it; so much more a limit must become to be worth it.
+constexpr double nearly = 1.01;
+/// What a piece needed for changing the speed becomes more where neighbours become quicker.
+constexpr double reserve = 1.3;
+
+}  // namespace
+
+bool SectionPlanner::plan(const InitialPathState& start, std::span<const CubicSegment> curve,
+                          std::span<SegmentTuning> use, double from, double to) {
+    feed_.clear();
+    seconds_ = 0;
+    if (curve.empty() || !(to > from)) return false;
+    measure(curve, use, from, to);
+    compute_reachable_velocities(start);
+    double slack = 1 + first_slack;
+    for (int round = 0; round < max_rounds; ++round) {
+        const std::span<const ProfileSegment> found =
+            round == 0 ? planner_.plan_approximate(start, spans_) : planner_.replan_approximate(spans_);
+        double seconds = 0;
+        for (const ProfileSegment& piece : found) seconds += piece.seconds;
+        const bool much = seconds < worth_another * seconds_;
+        if (!found.empty() && (feed_.empty() || seconds < seconds_)) {
+            feed_.assign(found.begin(), found.end());
+            seconds_ = seconds;
+            std::copy(use_.begin(), use_.end(), use.begin());
+        }
+        if (feed_.empty() || (round > 0 && !much) || !tighten_limits(slack)) break;
+        compute_reachable_velocities(start);
+        slack = 1 + (slack - 1) * slack_falls;
+    }
+    seconds_ = 0;
+    for (ProfileSegment& piece : feed_) {
+        piece.begin += from;
+        settle(piece);
+        seconds_ += piece.seconds;
+    }
+    return !feed_.empty();
+}
+
+void SectionPlanner::measure(std::span<const CubicSegment> curve, std::span<const SegmentTuning> use, double from,
+                             double to) {
+    pieces_.clear();
+    spans_.clear();
+    use_.assign(use.begin(), use.end());
+    for (const CubicSegment& piece : curve) {
+        pieces_.emplace_back(piece, limits_);
+        spans_.push_back({std::min(to, piece.begin + piece.length) - std::max(from, piece.begin)});
+    }
+}
+
+/// How fast each piece can be, and what is left for changing the speed then.
+void SectionPlanner::compute_reachable_velocities(const InitialPathState& start) {
+    const std::size_t n = pieces_.size();
+    squares_.assign(n + 1, 0);
+    most_.resize(n);
+    for (std::size_t i = 0; i < n; ++i)
+        most_[i] = std::min(use_[i].speed, pieces_[i].max_velocity_for(use_[i].jerk_share));
+    for (std::size_t i = n; i-- > 0;) {
+        const double most = std::min(most_[i], most_[i == 0 ? 0 : i - 1]);
+        squares_[i] = std::min(most * most, pieces_[i].velocity2_before(squares_[i + 1], spans_[i].length));
+    }
+    squares_[0] = start.velocity2;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double length = spans_[i].length, up = pieces_[i].velocity2_after(squares_[i], length);
+        squares_[i + 1] = std::min(squares_[i + 1], up);
+        spans_[i] = pieces_[i].up_to(
+            pieces_[i].straight ? most_[i] : std::min(most_[i], std::sqrt(max_segment_velocity(i, up))), length);
+    }
+}
+
+/// The square where speeding up from the piece's begin, `up` at its end, meets slowing down to its end.
+double SectionPlanner::max_segment_velocity(std::size_t i, double up) const {
+    const double begin = squares_[i], end = squares_[i + 1], down = pieces_[i].velocity2_before(end, spans_[i].length);
+    const double rise = up - begin, fall = down - end;
+    return rise + fall > 0 ? begin + rise * std::clamp((down - begin) / (rise + fall), 0.0, 1.0) : std::max(begin, end);
+}
+
+/// The greatest that was found up to there; `k`: the first part of the feed that is looked at, then the last.
+PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
+    PathMotion most;
+    for (;; ++k) {
+        for (const PathMotion& state : {feed_[k].at(0), feed_[k].last()})
+            most = PathMotion{0, std::max(most.speed, state.speed), std::max(most.accel, std::fabs(state.accel)),
+                              std::max(most.jerk, std::fabs(state.jerk))};
+        if (k + 1 == feed_.size() || feed_[k].begin + feed_[k].length >= end) return most;
+    }
+}
+
+/// No piece much faster than it was found to be; more of the jerk for the bends that are held back by it. False: that
+/// is no news.
+bool SectionPlanner::tighten_limits(double slack) {
+    bool news = false;
+    std::size_t k = 0;
+    double end = 0;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        end += spans_[i].length;
+        const PathMotion most = max_found(end, k);
+        if (pieces_[i].straight) continue;
+        if (most.speed * slack < spans_[i].speed) {
+            use_[i].speed = most.speed * slack;
+            news = true;
+        } else if (most.speed * nearly > most_[i]) {
+            const double share = pieces_[i].jerk_share_beside(most.speed, reserve * most.accel, reserve * most.jerk);
+            if (pieces_[i].max_velocity_for(share) < nearly * most_[i]) continue;
+            use_[i].jerk_share = share;
+            news = true;
+        }
+    }
+    return news;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/path/junction.hpp>
+#include <motionrack/control/rest_profiles.hpp>
+#include <motionrack/control/trajectory/segment_limits.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// Of an axis' acceleration and of its jerk a curvature takes this much at most; the rest changes the speed.
+constexpr double accel_of_bend = 0.995, max_jerk_of_bend = 0.97;
+/// Of what jerk is left, changing the speed on a curvature takes so much; the rest changes the acceleration.
+constexpr double share_of_bend = 0.7;
+constexpr double no_limit = 1e300;
+
+struct Range {
+    double min, most;
+    double max() const { return std::max(-min, most); }
+};
+
+/// Of a tangent over the piece: a parabola, whose ends or whose summit it is.
+Range tangents_of(double tangent, double curvature, double curvature_rate, double length) {
+    const double end = tangent + length * (curvature + 0.5 * curvature_rate * length);
+    Range out{std::min(tangent, end), std::max(tangent, end)};
+    const double summit = curvature_rate != 0 ? -curvature / curvature_rate : -1;
+    if (summit > 0 && summit < length) {
+        const double there = tangent + 0.5 * curvature * summit;
+        out = {std::min(out.min, there), std::max(out.most, there)};
+    }
+    return out;
+}
+
+AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, std::size_t i, const Range& tangents) {
+    const double end = piece.curvature[i] + piece.curvature_rate[i] * piece.length;
+    const Range bends{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
+    // With the tangent's sign a curvature takes from speeding up; against it from slowing down.
+    const bool with = (tangents.most > 0 && bends.most > 0) || (tangents.min < 0 && bends.min < 0);
+    const bool against = (tangents.most > 0 && bends.min < 0) || (tangents.min < 0 && bends.most > 0);
+    const double tangent = tangents.max(), curvature = bends.max(), jerk = piece.jerk_share * effective_jerk(limits);
+    AxisSegmentLimits axis;
+    axis.tangent = tangent / limits.max_accel;
+    axis.curvature = curvature / limits.max_accel;
+    axis.bend_up = with ? axis.curvature : 0;
+    axis.bend_down = against ? axis.curvature : 0;
+    axis.jerk_tangent = tangent / jerk;
+    axis.jerk_bend = curvature / jerk;
+    axis.jerk_twist = std::fabs(piece.curvature_rate[i]) / jerk;
+    return axis;
+}
+
+}  // namespace
+
+SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& limits) : speed(piece.feed) {
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+        const Range tangents = tangents_of(piece.tangent[i], piece.curvature[i], piece.curvature_rate[i], piece.length);
+        if (tangents.max() == 0) continue;
+        const AxisSegmentLimits axis = axes[count++] = axis_on(piece, limits[i], i, tangents);
+        speed = std::min(speed, limits[i].max_velocity / tangents.max());
+        if (axis.curvature > 0) speed = std::min(speed, std::sqrt(accel_of_bend / axis.curvature));
+        curvature_rate = std::max(curvature_rate, axis.jerk_twist);
+        straight = straight && axis.curvature == 0 && axis.jerk_twist == 0;
+    }
+}
+
+double SegmentLimits::max_velocity_for(double jerk_share) const {
+    return curvature_rate > 0 ? std::min(speed, cube_root(jerk_share / curvature_rate)) : speed;
+}
+
+double SegmentLimits::jerk_share_beside(double at_speed, double accel, double jerk) const {
+    double share = max_jerk_of_bend;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double bent = 3 * axes[i].jerk_bend * at_speed * accel;
+        share = std::min(share, 1 - std::max(axes[i].jerk_tangent * jerk + bent, bent / share_of_bend));
+    }
+    return std::max(share, max_curvature_share);
+}
+
+LimitInterval SegmentLimits::up_to(double top, double length) const {
+    LimitInterval out{length, top, no_limit, no_limit, no_limit};
+    const double square = out.speed * out.speed;
+    for (std::size_t i = 0; i < count; ++i) {
+        const AxisSegmentLimits& axis = axes[i];
+        const double bent = axis.curvature > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.speed) /
+                                                     (3 * axis.jerk_bend * out.speed)
+                                               : no_limit;
+        out.accel = std::min({out.accel, bent, (1 - axis.bend_up * square) / axis.tangent});
+        out.brake = std::min({out.brake, bent, (1 - axis.bend_down * square) / axis.tangent});
+    }
+    const double accel = std::max(out.accel, out.brake);
+    for (std::size_t i = 0; i < count; ++i) {
+        const AxisSegmentLimits& axis = axes[i];
+        out.jerk =
+            std::min(out.jerk, (1 - axis.jerk_twist * square * out.speed - 3 * axis.jerk_bend * out.speed * accel) /
+                                   axis.jerk_tangent);
+    }
+    return out;
+}
+
+/// From w0 to w1, the greater one: w1 - w0 = 2 length (1 - curvature w1) / tangent, for the axis that has least.
+double SegmentLimits::compute_reachable_velocities(double square, double length,
+                                                   double AxisSegmentLimits::*curvature) const {
+    double most = no_limit;
+    for (std::size_t i = 0; i < count; ++i)
+        most = std::min(most,
+                        (axes[i].tangent * square + 2 * length) / (axes[i].tangent + 2 * length * axes[i].*curvature));
+    return most;
+}
+
+}  // namespace motionrack::control

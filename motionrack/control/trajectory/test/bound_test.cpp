@@ -1,0 +1,179 @@
+// How near jerk-limited rides are to the quickest with any jerk: never quicker, and how much slower on smooth shapes in
+// short chords.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/path/test/path_builder_support.hpp>
+#include <motionrack/control/trajectory/min_duration.hpp>
+#include <motionrack/control/trajectory/test/offline_trajectory_support.hpp>
+#include <motionrack/control/trajectory/test/oracle.hpp>
+#include <tests/environment.hpp>
+
+namespace motionrack::control {
+namespace {
+
+using curve_test::line_to;
+using curve_test::machine;
+using curve_test::ProgramMaker;
+
+MachineLimits with_jerk(double jerk) {
+    MachineLimits limits = machine();
+    for (AxisLimits& axis : limits) axis.max_jerk = jerk, axis.pulses_per_unit = 10'000;
+    return limits;
+}
+
+// ---- shapes in chords
+
+std::vector<Move> circle(double chord, double radius = 20) {
+    std::vector<Move> out;
+    const int count = static_cast<int>(2 * pi * radius / chord);
+    for (int i = 1; i <= count; ++i) {
+        const SinCos at = sin_cos(2 * pi * i / count);
+        out.push_back(line_to({radius * at.sin, radius - radius * at.cos}));
+    }
+    return curve_test::numbered(out);
+}
+
+std::vector<Move> sine(double chord) {
+    std::vector<Move> out;
+    for (int i = 1; i * chord <= 100; ++i) out.push_back(line_to({i * chord, 8 * sin_cos(i * chord * 0.2).sin}));
+    return curve_test::numbered(out);
+}
+
+std::vector<Move> spiral(double chord) {
+    std::vector<Move> out;
+    for (double angle = 0; angle < 8 * pi;) {
+        angle += chord / (3 + angle);
+        const SinCos at = sin_cos(angle);
+        out.push_back(line_to({(3 + angle) * at.cos - 3, (3 + angle) * at.sin}));
+    }
+    return curve_test::numbered(out);
+}
+
+std::vector<Move> at_feed(std::vector<Move> moves, double feed) {
+    for (Move& move : moves) move.feed = feed;
+    return moves;
+}
+
+struct Seconds {
+    double ride = 0, bound = 0, referee = 0;
+};
+
+Seconds seconds_of(const std::vector<Move>& moves, const MachineLimits& limits, int of_piece = 20) {
+    Seconds out;
+    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, limits)) {
+        out.ride += kept.stretch.seconds;
+        out.bound += min_duration_s(kept.curve, limits);
+        out.referee += ride_test::time_optimal_s(kept.curve, limits, of_piece);
+    }
+    return out;
+}
+
+TEST(AnAccelBound, OfALineIsItsTrapezoid) {
+    const MachineLimits limits = machine();
+    const auto bound = [&](const Move& move) { return seconds_of({move}, limits).bound; };
+    Move slow = line_to({50, 0}), traverse = line_to({30, 40});
+    traverse.kind = MoveKind::rapid;
+    EXPECT_NEAR(bound(slow), 50.0 / 100 + 100.0 / 2000, 1e-12);  // way / speed + speed / acceleration
+    EXPECT_NEAR(bound(traverse), 40.0 / 200 + 200.0 / 2000, 1e-12);
+    EXPECT_NEAR(bound(line_to({0, 2})), 2 * std::sqrt(2.0 / 2000), 1e-12);
+    EXPECT_EQ(min_duration_s({}, limits), 0);
+}
+
+/// No axis may take the circle faster than sqrt(2 acceleration radius), and at sqrt(acceleration radius) both can hold
+/// the speed.
+TEST(AnAccelBound, OfACircleIsNearTheSpeedOfItsBend) {
+    const MachineLimits limits = with_jerk(1e6);
+    const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
+    EXPECT_LT(seconds, 1.02 * (2 * pi * 20 / std::sqrt(2000.0 * 20) + 200.0 / 2000));
+    EXPECT_GT(seconds, 2 * pi * 20 / 283.0);
+}
+
+/// The referee asks at both ends of its steps, the bound in the middle of its cells: the truth is near both.
+TEST(AnAccelBound, IsWhatTheRefereeFinds) {
+    const MachineLimits limits = with_jerk(1e6);
+    for (const double feed : {100.0, 1000.0})
+        for (const double chord : {0.1, 0.25})
+            for (const auto& shape : {circle(chord), sine(chord), spiral(chord)}) {
+                const Seconds found = seconds_of(at_feed(shape, feed), limits);
+                EXPECT_NEAR(found.bound / found.referee, 1, 3e-4) << chord << " " << feed;
+            }
+    for (std::uint64_t seed = 1; seed <= 15; ++seed) {
+        const Seconds found = seconds_of(ProgramMaker(seed).program(3), machine());
+        EXPECT_NEAR(found.bound / found.referee, 1, 2e-3) << seed;
+    }
+}
+
+/// Chords that are too long to be smooth curvature the curve by jerks; there more is between the two.
+TEST(AnAccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
+    const MachineLimits limits = with_jerk(1e6);
+    for (const double feed : {100.0, 1000.0})
+        for (const auto& shape : {circle(1), sine(1), spiral(1)}) {
+            const Seconds found = seconds_of(at_feed(shape, feed), limits, 60);
+            EXPECT_LE(found.bound / found.referee, 1 + 1e-4) << feed;
+            EXPECT_GE(found.bound / found.referee, 1 - 6e-3) << feed;
+        }
+}
+
+TEST(AnAccelBound, IsNoShorterWithTighterLimits) {
+    MachineLimits limits = machine();
+    const std::vector<Move> moves = ProgramMaker(8).program(4);
+    double last = 0;
+    for (int i = 0; i < 6; ++i) {
+        const double seconds = seconds_of(moves, limits, 1).bound;
+        EXPECT_GE(seconds, last * (1 - 1e-3)) << i;
+        last = seconds;
+        limits[static_cast<std::size_t>(i) % 3].max_accel *= 0.5;
+    }
+}
+
+TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
+    std::uint64_t fold = 0;
+    for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
+        fold = (fold ^ std::bit_cast<std::uint64_t>(
+                           min_duration_s(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) *
+               0x9E3779B97F4A7C15u;
+    EXPECT_EQ(fold, 18085057422729386909u);
+}
+
+TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
+    for (const double jerk : {1e3, 1e6})
+        for (const double chord : {0.1, 0.25, 1.0})
+            for (const auto& shape : {circle(chord), sine(chord), spiral(chord)}) {
+                const Seconds found = seconds_of(shape, with_jerk(jerk));
+                EXPECT_GE(found.ride, found.referee * (1 - 1e-3)) << jerk << " " << chord;
+            }
+    const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 6, 40);
+    for (std::uint64_t seed = 1; seed <= count; ++seed)
+        for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
+            EXPECT_GE(kept.stretch.seconds, ride_test::time_optimal_s(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
+}
+
+struct Nearness {
+    const char* name;
+    std::vector<Move> moves;
+    double at_feed, as_fast_as_can_be;  ///< how many times the quickest
+};
+
+/// With a jerk that asks for no time. At the feed what is lost is at the ends and on bends that are sharper than the
+/// feed allows; without one, on bends where the speed changes, for a limit holds for a part of the curve at its
+/// sharpest; long chords have bends that come and go.
+TEST(ARide, IsNearTheQuickestOnSmoothShapes) {
+    const std::vector<Nearness> shapes = {
+        {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},
+        {"circle 1", circle(1), 1.001, 1.011},      {"sine 0.1", sine(0.1), 1.008, 1.023},
+        {"sine 0.25", sine(0.25), 1.007, 1.023},    {"sine 1", sine(1), 1.032, 1.055},
+        {"spiral 0.1", spiral(0.1), 1.001, 1.008},  {"spiral 0.25", spiral(0.25), 1.001, 1.008},
+        {"spiral 1", spiral(1), 1.009, 1.036}};
+    const MachineLimits limits = with_jerk(1e8);
+    for (const Nearness& shape : shapes) {
+        const Seconds fed = seconds_of(shape.moves, limits), free = seconds_of(at_feed(shape.moves, 1000), limits);
+        EXPECT_LE(fed.ride, shape.at_feed * fed.referee) << shape.name;
+        EXPECT_LE(free.ride, shape.as_fast_as_can_be * free.referee) << shape.name;
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::control

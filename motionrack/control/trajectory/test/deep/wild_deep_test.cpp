@@ -1,0 +1,27 @@
+// Ten thousand wild programs, a thousand in each test; minutes in all.
+#include <gtest/gtest.h>
+
+#include <motionrack/control/trajectory/test/offline_trajectory_checks.hpp>
+
+namespace motionrack::control {
+namespace {
+
+constexpr std::uint64_t in_a_test = 1000;
+
+class ARideOfAnything : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
+    int faults = 0;
+    for (std::uint64_t seed = GetParam() * in_a_test + 1; seed <= (GetParam() + 1) * in_a_test && faults < 5; ++seed) {
+        const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
+        const ride_test::Fault fault = ride_test::fault_of(program);
+        EXPECT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n"
+                                  << ride_test::text_of(ride_test::reduced(program));
+        faults += !fault.name.empty();
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Thousand, ARideOfAnything, testing::Range<std::uint64_t>(0, 10));
+
+}  // namespace
+}  // namespace motionrack::control

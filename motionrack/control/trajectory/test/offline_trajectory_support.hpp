@@ -1,0 +1,64 @@
+// What the ride's tests share: whole rides, kept beyond the callback.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/trajectory/offline_trajectory.hpp>
+#include <vector>
+
+namespace motionrack::control::ride_test {
+
+/// A stretch with its own pieces.
+struct KeptStretch {
+    std::vector<CubicSegment> curve;
+    std::vector<ProfileSegment> feed;
+    StoredRamp before;
+    PathSection stretch;
+
+    explicit KeptStretch(const PathSection& from)
+        : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {
+        before.keep(from.before);
+    }
+    /// Valid as long as this is.
+    PathSection view() const {
+        PathSection out = stretch;
+        out.curve = curve;
+        out.feed = feed;
+        out.before = before.end();
+        return out;
+    }
+};
+
+inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits,
+                                          const Point& start = {}) {
+    std::vector<KeptStretch> out;
+    OfflineTrajectory ride(limits, start, [&](const PathSection& stretch) { out.emplace_back(stretch); });
+    for (const Move& move : moves) ride.push(move);
+    ride.flush();
+    return out;
+}
+
+inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimits& limits) {
+    double seconds = 0;
+    for (const KeptStretch& kept : kept_ride(moves, limits))
+        seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
+    return seconds;
+}
+
+/// By the planner of trapezoids; S-curves from stop to stop.
+inline double seconds_stopping(std::vector<Move> moves, const MachineLimits& limits) {
+    LookAheadPlanner planner(limits, {});
+    PlanSummary sum;
+    PlannedMove planned;
+    for (Move& move : moves) {
+        move.path = PathControl::exact_stop;
+        while (!planner.has_room() && planner.pull(planned)) sum.add(planned);
+        EXPECT_TRUE(planner.push(move));
+    }
+    planner.flush();
+    while (planner.pull(planned)) sum.add(planned);
+    return sum.seconds;
+}
+
+}  // namespace motionrack::control::ride_test

@@ -1,0 +1,125 @@
+// The slow referee of times: how quick a curve could be driven with axes' speeds and accelerations limited and any
+// jerk.
+//
+// Fine steps over u, each with constant acceleration along u. Whether a step may be driven from one square of speed to
+// another is asked of every axis at both ends of the step; the greatest squares are sought by halving.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/path/path_builder.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::control::ride_test {
+
+/// Place by place along a curve: what the axes see of it.
+struct OracleStep {
+    double length = 0;
+    Point tangent_in = {}, bend_in = {}, tangent_out = {}, bend_out = {};
+};
+
+class Oracle {
+  public:
+    /// Each piece is cut into at least `of_piece` steps, and the curve into about `of_curve`.
+    Oracle(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
+        : limits_(limits) {
+        if (curve.empty()) return;
+        const double whole = curve.back().begin + curve.back().length;
+        caps_.push_back(0);
+        for (const CubicSegment& piece : curve) {
+            const int count = of_piece + static_cast<int>(of_curve * std::min(1.0, piece.length / whole));
+            for (int i = 0; i < count; ++i) {
+                const double begin = piece.length * i / count, end = piece.length * (i + 1) / count;
+                steps_.push_back({piece.length / count, tangent_on(piece, begin), bend_on(piece, begin),
+                                  tangent_on(piece, end), bend_on(piece, end)});
+                caps_.back() = std::min(caps_.back(), cap(steps_.back().tangent_in, piece.feed));
+                caps_.push_back(cap(steps_.back().tangent_out, piece.feed));
+            }
+        }
+        caps_.back() = 0;
+    }
+
+    /// From rest to rest.
+    double seconds() const {
+        std::vector<double> most = caps_;
+        for (std::size_t i = steps_.size(); i-- > 0;)
+            most[i] = greatest(caps_[i], [&](double square) {
+                return compute_reachable_velocities(steps_[i], square, most[i + 1]).some();
+            });
+        double seconds = 0, square = 0;
+        for (std::size_t i = 0; i < steps_.size(); ++i) {
+            const double next =
+                std::clamp(compute_reachable_velocities(steps_[i], square, most[i + 1]).high, 0.0, most[i + 1]);
+            seconds += 2 * steps_[i].length / (std::sqrt(square) + std::sqrt(next));
+            square = next;
+        }
+        return seconds;
+    }
+
+  private:
+    struct Reach {
+        double low = 0, high = 0;
+        bool some() const { return low <= high; }
+    };
+
+    double cap(const Point& tangent, double feed) const {
+        double speed = std::min(feed, 1e100);
+        for (std::size_t i = 0; i < tangent.size(); ++i)
+            if (tangent[i] != 0) speed = std::min(speed, limits_[i].max_velocity / std::fabs(tangent[i]));
+        return speed * speed;
+    }
+
+    /// The squares at the step's end that can be reached from one at its begin.
+    Reach compute_reachable_velocities(const OracleStep& step, double square, double most) const {
+        Reach out{0, most};
+        const double per_accel = 2 * step.length;
+        for (std::size_t i = 0; i < limits_.size(); ++i) {
+            // begin: |tangent a + curvature w0| <= accel, where a = (w1 - w0) / (2 length)
+            within(out, step.tangent_in[i] / per_accel,
+                   step.bend_in[i] * square - step.tangent_in[i] / per_accel * square, limits_[i].max_accel);
+            // end: |tangent a + curvature w1| <= accel
+            within(out, step.tangent_out[i] / per_accel + step.bend_out[i], -step.tangent_out[i] / per_accel * square,
+                   limits_[i].max_accel);
+        }
+        return out;
+    }
+
+    /// Narrows w to |by w + with| <= most.
+    static void within(Reach& w, double by, double with, double most) {
+        if (by == 0) {
+            if (std::fabs(with) > most) w.high = -1;
+            return;
+        }
+        const double a = (-most - with) / by, b = (most - with) / by;
+        w.low = std::max(w.low, std::min(a, b));
+        w.high = std::min(w.high, std::max(a, b));
+    }
+
+    template <class Can>
+    static double greatest(double cap, Can can) {
+        if (can(cap)) return cap;
+        double low = 0, high = cap;
+        while (high - low > 1e-12 * high && high > 1e-290) {
+            // By size first: caps may be far too great.
+            const double middle = low > 0 && high < 4 * low ? 0.5 * (low + high)
+                                  : low > 0                 ? std::sqrt(low) * std::sqrt(high)
+                                                            : high * 1e-3;
+            (can(middle) ? low : high) = middle;
+        }
+        return low;
+    }
+
+    MachineLimits limits_;
+    std::vector<OracleStep> steps_;
+    std::vector<double> caps_;
+};
+
+/// Seconds.
+inline double time_optimal_s(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20,
+                             int of_curve = 4000) {
+    return Oracle(curve, limits, of_piece, of_curve).seconds();
+}
+
+}  // namespace motionrack::control::ride_test

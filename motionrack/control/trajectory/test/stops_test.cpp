@@ -1,0 +1,63 @@
+// Rides against exact stops, as S-curves, on programs of straight lines. What a row of corners takes is estimated
+// before they are chosen to be passed or stopped at, so a few programs would be quicker with stops, by little.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/path/test/path_builder_support.hpp>
+#include <motionrack/control/trajectory/test/offline_trajectory_support.hpp>
+
+namespace motionrack::control {
+namespace {
+
+using curve_test::line_to;
+using curve_test::machine;
+
+double times_stopping(const std::vector<Move>& moves) {
+    return ride_test::seconds_of_ride(moves, machine()) / ride_test::seconds_stopping(moves, machine());
+}
+
+TEST(ARideBesideExactStops, IsSeldomSlower) {
+    int slower = 0, tried = 0;
+    double most = 0;
+    for (std::uint64_t seed = 1; seed < 1000; ++seed) {
+        const std::vector<Move> moves = curve_test::ProgramMaker(seed).program(2);
+        if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; }))
+            continue;
+        const double times = times_stopping(moves);
+        ++tried;
+        slower += times > 1.02;
+        most = std::max(most, times);
+    }
+    RecordProperty("slower", slower);
+    RecordProperty("most", std::to_string(most));
+    EXPECT_LE(slower, 0.005 * tried) << "of " << tried;
+    EXPECT_LE(most, 1.04);
+}
+
+/// Short, long, short with turns of 40 degrees.
+TEST(ARideBesideExactStops, IsNotSlowerBetweenShortLines) {
+    std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
+    EXPECT_LE(times_stopping(moves), 1.0);
+}
+
+/// Nearly straight.
+TEST(ARideBesideExactStops, TakesTheProgrammedTimeInInverseTime) {
+    std::vector<Move> moves;
+    double x = 0, y = 0, heading = 0, programmed = 0;
+    for (const double length : {0.043, 0.014, 0.143, 0.014, 0.043}) {
+        x += length;
+        y += length * heading;
+        heading += 1e-4;
+        moves.push_back(line_to({x, y}, 0.01));
+        moves.back().feed_mode = FeedMode::inverse_time;
+        moves.back().feed = length < 0.02 ? 2 : 3;
+        programmed += 1 / moves.back().feed;
+    }
+    const double seconds = ride_test::seconds_of_ride(moves, machine());
+    EXPECT_GE(seconds, programmed);
+    EXPECT_LE(seconds, 1.02 * programmed);
+}
+
+}  // namespace
+}  // namespace motionrack::control

@@ -1,0 +1,171 @@
+// Programs that are held while they are driven: they stand soon, and on their path.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/trajectory/test/driven.hpp>
+#include <motionrack/control/trajectory/test/offline_trajectory_support.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+using ride_test::arc_from;
+using ride_test::Driven;
+using ride_test::expect_end;
+using ride_test::expect_limits;
+using ride_test::line_to;
+using ride_test::long_line;
+using ride_test::machine;
+using ride_test::program;
+
+/// Whatever comes on its way to where it stands: corners, bends, the end of what is known. Where a leg has begun before
+/// the one before it has ended, both are driven as planned until that one ends.
+TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        std::mt19937 random(seed);
+        const std::vector<Move> moves = program(random);
+        const double whole = ride_test::seconds_of_ride(moves, machine());
+        for (int holds = 0; holds < 10; ++holds) {
+            const double when = whole * std::uniform_real_distribution<>(0, 1)(random);
+            SCOPED_TRACE(::testing::Message() << "seed " << seed << ", held at " << when << " s");
+            Driven driven(moves, {64});
+            while (driven.now < when && driven.step(0.001, true)) {
+            }
+            driven.rider.hold();
+            double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it slows down
+            while (driven.rider.next(true) == NextMotion::motion) {
+                const TrajectoryPoint before = driven.last;
+                const double at = driven.now;
+                driven.step(0.001, true);
+                const double way = driven.last.u - before.u;
+                if (driven.now - at < 0.0005) continue;  // too short to tell a speed
+                if (at - when < 0.02 || way < 0) {       // not heard yet, or on the next leg
+                    greatest = 0, lowest = 1e9;
+                    continue;
+                }
+                const double speed = way / (driven.now - at);
+                greatest = std::max(greatest, speed);
+                if (speed < 0.98 * greatest) lowest = std::min(lowest, speed);
+                rise = std::max(rise, speed - 1.05 * lowest);
+            }
+            EXPECT_LT(rise, 0.1);
+            EXPECT_LT(driven.now - when, 1);
+            expect_limits(driven);
+        }
+    }
+}
+
+TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
+    Driven driven({long_line(50)}, {});
+    while (driven.now < 0.5) driven.step(0.001, true);
+    driven.rider.hold();
+    const double asked = driven.now;
+    while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+    // twice sqrt(speed / jerk): its acceleration is not reached
+    EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
+    EXPECT_TRUE(driven.rider.stands());
+    EXPECT_EQ(driven.rider.next(true), NextMotion::nothing);
+    driven.rider.resume();
+    while (driven.step(0.001, true)) {
+    }
+    EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
+    expect_limits(driven);
+}
+
+/// A line, the same in short ones, a circle, the same in chords.
+std::vector<std::vector<Move>> ways_at(double feed) {
+    std::vector<std::vector<Move>> out = {{long_line(feed)}, {}, {arc_from({}, 0, 30, 6)}, {}};
+    for (int i = 1; i <= 200; ++i) out[1].push_back(line_to({0.5 * i}));
+    for (int i = 1; i <= 600; ++i)
+        out[3].push_back(line_to({30 * std::sin(0.01 * i), 30 - 30 * std::cos(0.01 * i)}, 0.02));
+    for (std::vector<Move>& way : out)
+        for (Move& move : way) move.feed = feed;
+    return out;
+}
+
+TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
+    for (const std::vector<Move>& way : ways_at(50)) {
+        const auto held_after = [&](double feed, double after) {
+            Driven driven(way, {});
+            while (driven.now < 0.5) driven.step(0.001, true);
+            driven.rider.set_overrides(feed, 1);
+            while (driven.now < 0.5 + after) driven.step(0.001, true);
+            driven.rider.hold();
+            const double asked = driven.now;
+            while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+            expect_limits(driven);
+            return driven.now - asked;
+        };
+        const double alone = held_after(1, 0);
+        for (const double feed : {0.8, 0.4, 0.1, 0.02})
+            for (double after = 0.001; after < 1.2 * alone; after += 0.006)
+                EXPECT_LT(held_after(feed, after), alone + 0.03)
+                    << way.size() << " moves, feed " << feed << ", held " << after << " s after";
+    }
+}
+
+/// The curvature alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down
+/// takes from the same.
+TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
+    Move circle = arc_from({}, 0, 10, 50);
+    circle.feed = 1000;
+    for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
+        Driven driven({circle}, {});
+        while (driven.now < when) driven.step(0.001, true);
+        const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]),
+                     all = std::sqrt(machine()[0].max_accel * 10);
+        EXPECT_GT(speed, 0.9 * all);
+        driven.rider.hold();
+        const double asked = driven.now,
+                     alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
+        while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+        EXPECT_LT(driven.now - asked, 4 * alone) << when;
+        expect_limits(driven);
+    }
+}
+
+/// While it still speeds up, and at its full speed, where hardly any jerk is left to slow down with.
+TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
+    const auto speed_of = [](const Driven& driven) { return std::hypot(driven.last.speed[0], driven.last.speed[1]); };
+    for (const double radius : {2, 10})
+        for (double when = 0.05; when < 0.6; when += 0.05) {
+            SCOPED_TRACE(::testing::Message() << "radius " << radius << ", at " << when << " s");
+            Move circle = arc_from({}, 0, radius, 50);
+            circle.feed = 1000;
+            Driven held({circle}, {}), slowed({circle}, {});
+            while (held.now < when) held.step(0.001, true);
+            while (slowed.now < when) slowed.step(0.001, true);
+            const double speed = speed_of(held);
+            held.rider.hold();
+            while (held.rider.next(true) == NextMotion::motion) held.step(0.001, true);
+            EXPECT_LT(held.now - when, 0.5);
+            slowed.rider.set_overrides(0.5 * speed / circle.feed, 1);
+            while (speed_of(slowed) > 0.51 * speed && slowed.now < when + 1) slowed.step(0.001, true);
+            EXPECT_LT(slowed.now - when, 0.8);
+            expect_limits(held);
+            expect_limits(slowed);
+        }
+}
+
+/// Where the next line would begin before this one has ended.
+TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
+    Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
+    driven.step(0, true);
+    const double whole = driven.rider.seconds_to_standstill();
+    while (driven.rider.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
+    ASSERT_LT(driven.now, 0.8 * whole);
+    driven.rider.hold();
+    while (!driven.rider.stands()) driven.step(0.0005, true);
+    EXPECT_NEAR(driven.last.place[0], 10, 1e-3);
+    EXPECT_NEAR(driven.last.place[1], 0, 1e-3);
+    driven.rider.resume();
+    while (driven.step(0.0005, true)) {
+    }
+    expect_limits(driven);
+    expect_end(driven, {10, 10});
+}
+
+}  // namespace
+}  // namespace motionrack::control

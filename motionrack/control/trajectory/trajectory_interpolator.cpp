@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <motionrack/control/trajectory/trajectory_interpolator.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is
+/// nothing.
+constexpr double jump_share = 0.3, min_noise = 0.1;
+/// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be
+/// beside its path.
+constexpr double off_pulses = 0.4;
+constexpr double shortest = 0.0002;
+/// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near
+/// enough.
+constexpr double earliest = 0.35, near_enough = 0.05;
+constexpr int tries = 16;
+/// So much of half a pulse is left then.
+constexpr double noise_left = 0.25;
+/// From one length that is tried to the next.
+constexpr double shorter = 0.7;
+constexpr double min_accel = 1e-6;
+/// mm, degrees: no move at all.
+constexpr double min_move_length = 1e-6;
+
+/// Along the path: of XYZ, or of the fastest rotary axis where only these move.
+double size_of(const Point& way) {
+    const double linear = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    return linear > min_length_mm ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
+}
+
+Point between(const Point& from, const Point& to) {
+    Point way;
+    for (std::size_t i = 0; i < way.size(); ++i) way[i] = to[i] - from[i];
+    return way;
+}
+
+/// How far an axis' speed is from what it would be on the straight way.
+double turn_of(const TrajectoryPoint& state, const Point& way, double length, std::size_t axis) {
+    const double along = length > 0 ? size_of(state.speed) / length * way[axis] : 0;
+    return std::fabs(state.speed[axis] - along);
+}
+
+}  // namespace
+
+TrajectoryInterpolator::TrajectoryInterpolator(const MachineLimits& limits, const Point& start,
+                                               InterpolatorSettings settings)
+    : limits_(limits),
+      path_limits_(limits),
+      settings_(settings),
+      rider_(limits, start, settings.rider),
+      position_(start),
+      place_(start) {}
+
+Result<void> TrajectoryInterpolator::push(const Move& move, bool overridable) {
+    MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, path_limits_));
+    if (path.shape == PathShape::nothing && move.kind != MoveKind::dwell) return {};
+    const std::uint8_t axes = axes_of(path);
+    if (has_to_rest(path, axes)) {
+        rider_.flush();
+        run_axes_ = 0;
+    }
+    rider_.push({move, overridable, axes});
+    last_ = path;
+    last_axes_ = axes;
+    run_axes_ |= axes;
+    if (path.shape != PathShape::nothing) position_ = move.end;
+    return {};
+}
+
+std::uint8_t TrajectoryInterpolator::axes_of(const Geometry& path) const {
+    const Point worst = max_tangent_components(path);
+    unsigned axes = 0;
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        if (worst[i] * path.length * limits_[i].pulses_per_unit >= 0.5) axes |= 1u << i;
+    return static_cast<std::uint8_t>(axes);
+}
+
+/// Where the card has to stand between two moves: also before a corner is cut with more axes than it draws.
+bool TrajectoryInterpolator::has_to_rest(const Geometry& path, std::uint8_t axes) const {
+    if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
+    const bool alike = axes == last_axes_ && axes == run_axes_;
+    return (!alike && uses_auxiliary_axis(static_cast<std::uint8_t>(run_axes_ | axes))) ||
+           settings_.drive->max_junction_velocity(last_, path) <= 0;
+}
+
+/// More axes than the card draws together.
+bool TrajectoryInterpolator::uses_auxiliary_axis(std::uint8_t axes) const {
+    return settings_.drive && std::popcount(axes) > settings_.drive->max_interpolated_axes();
+}
+
+bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
+    planned = {};
+    const NextMotion next = rider_.next(early);
+    if (next == NextMotion::nothing) return false;
+    planned.start = place_;
+    if (next == NextMotion::dwell) {
+        planned.number = rider_.move_of_rest();
+        planned.move = rider_.move(planned.number).move;
+        planned.move.end = place_;
+        planned.move.seconds =
+            settings_.cut_dwells ? std::min(settings_.max_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
+        rider_.advance_dwell(planned.move.seconds);
+        return true;
+    }
+    const TrajectoryPoint begin = rider_.at(0);
+    const double seconds = last_seconds_ = seconds_of_next();
+    const TrajectoryPoint end = rider_.at(seconds);
+    const double length = size_of(between(place_, end.place));
+    if (length < min_move_length && size_of(end.speed) > 0) {  // where it turns round
+        rider_.advance(seconds);
+        return pull(planned, early);
+    }
+    planned.number = rider_.move_of(begin);
+    const TrajectoryMove& move = rider_.move(planned.number);
+    planned.move = move.move;
+    if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
+    if (planned.move.kind != MoveKind::rapid) planned.move.kind = MoveKind::feed;
+    planned.move.end = end.place;
+    const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
+    planned.length = length;
+    planned.entry_velocity = speed_in;
+    planned.cruise_velocity = std::max(speed_in, speed_out);
+    planned.exit_velocity = speed_out;
+    planned.accel = std::max(
+        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), min_accel);
+    planned.constant_accel = true;
+    planned.move.feed = planned.cruise_velocity;
+    place_ = end.place;
+    rider_.advance(seconds);
+    return true;
+}
+
+/// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move:
+/// no shorter than this matters.
+double TrajectoryInterpolator::seconds_of_next() const {
+    const TrajectoryPoint begin = rider_.at(0);
+    const double least = uses_auxiliary_axis(rider_.move(rider_.move_of(begin)).axes)
+                             ? settings_.drive->min_velocity_update_s()
+                             : shortest;
+    double seconds = std::min({settings_.max_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
+    for (; seconds >= 2 * shortest; seconds *= shorter) {
+        const ApproximationError is = roughness_of(begin, seconds);
+        if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
+        if (noise_left * is.quantisation > std::max(is.velocity_step, min_noise)) break;
+    }
+    // No crumb before the end.
+    const double left = rider_.left();
+    if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
+    return left < 2 * shortest || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
+}
+
+/// A little earlier the path may pass nearer to a place on whole pulses.
+double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, double seconds) const {
+    if (roughness_of(begin, seconds).quantisation <= min_noise) return seconds;
+    double best = seconds, min_off = 1;
+    for (int k = 0; k < tries && min_off > near_enough; ++k) {
+        const double time = seconds * (1 - earliest * k / tries),
+                     off = off_whole_pulses(begin.place, rider_.at(time).place);
+        if (off >= min_off) continue;
+        best = time;
+        min_off = off;
+    }
+    return best;
+}
+
+/// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more
+/// or less is a jump.
+double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point& end) const {
+    std::array<double, axis_count> way = {};
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (limits_[i].present) way[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
+    const auto longest = static_cast<std::size_t>(std::max_element(way.begin(), way.end()) - way.begin());
+    double off = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const double pulses = end[i] * limits_[i].pulses_per_unit;
+        if (limits_[i].present && i != longest) off = std::max(off, std::fabs(pulses - std::round(pulses)));
+    }
+    return off;
+}
+
+/// On a short way corners may lie on both sides of its middle.
+TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
+                                                                                double seconds) const {
+    const TrajectoryPoint middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
+    const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
+    double square = 0, along = 0, even = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        square += way[i] * way[i];
+        along += way[i] * gone[i];
+        even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with an even change of the speed
+    }
+    ApproximationError out;
+    const double length = size_of(way);
+    const double per_square = square > 0 ? 1 / square : 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        if (!limits_[i].present) continue;
+        const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].max_velocity_step;
+        out.chord_error = std::max(out.chord_error, std::fabs((along - even) * per_square * way[i]) * pulses);
+        out.velocity_step =
+            std::max({out.velocity_step, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
+        if (way[i] != 0) out.quantisation = std::max(out.quantisation, 0.5 / (pulses * seconds * jump));
+    }
+    out.chord_error = std::max(out.chord_error, beside(way, per_square, gone));
+    for (const double part : {0.25, 0.75})
+        if (out.chord_error <= off_pulses)
+            out.chord_error = std::max(out.chord_error,
+                                       beside(way, per_square, between(begin.place, rider_.at(part * seconds).place)));
+    return out;
+}
+
+/// Pulses of an axis, at most, by which what is `gone` is beside the straight way.
+double TrajectoryInterpolator::beside(const Point& way, double per_square, const Point& gone) const {
+    double along = 0, most = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (limits_[i].present)
+            most = std::max(most, std::fabs(gone[i] - along * per_square * way[i]) * limits_[i].pulses_per_unit);
+    return most;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,301 @@
+// Lines of a sender, one at a time, each with its one answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/grbl/grbl_session.hpp>
+#include <motionrack/grbl/line_rules.hpp>
+#include <motionrack/grbl/machine_view.hpp>
+
+namespace motionrack::grbl {
+
+using control::gcode::Block;
+using control::gcode::GrblStatus;
+using control::gcode::Problem;
+using operate::MachineState;
+
+namespace {
+
+/// Those that the machine has for reasons of its own are a lock.
+int decimal_of(const Problem& problem) {
+    return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
+}
+
+}  // namespace
+
+GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
+    : machine_(machine), settings_(std::move(settings)) {
+    settings_.axes = std::clamp(settings_.axes, 3, 4);
+    never_enabled_ = machine_.state() == MachineState::disabled;
+    watch_machine();
+    out_.clear();
+}
+
+// ---- bytes
+
+void GrblSession::receive(std::string_view bytes) {
+    for (const char c : bytes) {
+        const auto byte = static_cast<std::uint8_t>(c);
+        if (const std::optional<Realtime> what = realtime_of(byte)) {
+            act(*what);
+            continue;
+        }
+        if (intake_.room() == 0) work();  // a long line without an end so far
+        intake_.put(byte);
+        if (c == '\n' || c == '\r') work();
+    }
+    if (status_wanted_) report();
+}
+
+void GrblSession::observe(std::string_view bytes) {
+    for (const char c : bytes) {
+        const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
+        if (what == Realtime::reset && !settings_.onlookers_reset)
+            say("The reset of one who looks on was not carried out. ! holds the machine");
+        else if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
+                 what == Realtime::door || what == Realtime::jog_cancel)
+            act(*what);
+    }
+    if (status_wanted_) report();
+}
+
+void GrblSession::tick() {
+    watch_machine();
+    work();
+    if (status_wanted_) report();
+}
+
+void GrblSession::greet() {
+    intake_.clear();
+    line_.reset();
+    if (doing_) doing_->silent = true;
+    begin_again(false);
+    work();
+}
+
+// ---- lines
+
+/// Takes lines for as long as nothing makes them wait.
+void GrblSession::work() {
+    while (true) {
+        if (doing_ && !finish()) return;
+        if (!settled()) return;
+        if (boot_ != Boot::done) finish_boot();
+        if (critical_ || asleep_) return;
+        if (!line_) line_ = intake_.next();
+        if (!line_ || must_wait(*line_)) return;
+        if (status_wanted_) report();
+        const Line line = *std::exchange(line_, std::nullopt);
+        if (line.too_long)
+            answer(error_line_length);
+        else
+            carry_out(line.text);
+    }
+}
+
+/// The machine is in nobody's hands but the lines'.
+bool GrblSession::settled() const {
+    const MachineState state = machine_.state();
+    return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
+}
+
+bool GrblSession::has_room() const {
+    return machine_.has_room() && machine_.stream().moves() < planner_blocks;
+}
+
+bool GrblSession::must_wait(const Line& line) {
+    const std::string& text = line.text;
+    if (line.too_long || text.empty()) return false;
+    const State now = state();
+    if (text[0] == '$') return now == State::jog && text.compare(0, 3, "$J=") == 0 && !has_room();
+    if (now == State::hold || now == State::door) return true;
+    if (now != State::run || machine_.status().program_runs) return false;
+    if (!has_room()) return true;
+    Block block;
+    Problem problem;
+    return control::gcode::scan_line(text, {}, block, problem) &&
+           must_stand_first(block, interpreter(), own_.laser != 0);
+}
+
+void GrblSession::carry_out(const std::string& text) {
+    int error = error_none;
+    if (!text.empty() && text[0] == '$')
+        error = command(text);
+    else if (!text.empty())
+        error = gcode(text);
+    if (error != answer_later) answer(error);
+}
+
+int GrblSession::gcode(const std::string& text) {
+    using namespace control::gcode;
+    const State now = state();
+    if (now == State::alarm || now == State::jog) return error_locked;
+    if (text.find('%') != std::string::npos) return error_letter;
+    Block block;
+    Problem problem;
+    const bool good = scan_line(text, {}, block, problem);
+    if (good && !grbl_has(block, settings_.axes)) return error_unsupported;
+    const Outcome<void> read =
+        check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
+    if (!read) return refused(read.error());
+    if (block.has_g(g_motion)) was_g80_ = block.g[g_motion] == 800;
+    const bool ends = block.has_m(m_stop) && block.m[m_stop] >= 2;
+    if (check_) {
+        if (ends) say("Pgm End");
+        return error_none;
+    }
+    const bool probes = machine_.stream().probe_pending();
+    if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
+    doing_ = Doing{Doing::What::moving};
+    doing_->program_ends = ends;
+    return answer_later;
+}
+
+/// A line for the machine, which begins in G0 as a Grbl does.
+control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::int32_t n_word) {
+    if (!control()) {
+        Problem problem;
+        problem.kind = ErrorKind::refused;
+        return tl::unexpected<Problem>(std::move(problem));
+    }
+    energise();
+    if (interpreter().modes().motion == control::gcode::no_motion && !was_g80_) (void)machine_.line("G0", line_number_);
+    const auto read = machine_.line(text, line_number_ + 1);
+    if (!read) return read;
+    ++line_number_;
+    if (n_word > 0) n_words_.push_back({line_number_, n_word});
+    return {};
+}
+
+int GrblSession::refused(const Problem& problem) {
+    if (problem.status == GrblStatus::travel_exceeded) {
+        if (!check_ && machine_.state() == MachineState::moving) machine_.cancel();
+        doing_ = Doing{Doing::What::leaving_travel};
+        return answer_later;
+    }
+    if (problem.status == GrblStatus::none && !problem.message.empty()) say(problem.message);
+    return decimal_of(problem);
+}
+
+bool GrblSession::control() {
+    if (!settings_.take_control) return true;
+    const Result<void> taken = settings_.take_control();
+    if (!taken) say(taken.error().message);
+    return taken.has_value();
+}
+
+// ---- what others do
+
+/// A reset of a machine that stands has forgotten the modes in which waiting lines were meant.
+void GrblSession::stopped(const operate::StopReport& report) {
+    if (resets_) return;
+    const bool waits = held_ || door_ || line_ || doing_;
+    if (report.releases && std::exchange(stopped_, false)) return say(report.text + " The sender may go on");
+    if (report.releases && !waits) return;
+    never_enabled_ = false;
+    lock(report.text);
+}
+
+void GrblSession::lose_control(const std::string& to) {
+    if (operate::idle(machine_.state()) && !line_ && !doing_) return;
+    lock(fmt::format("{} has taken control", to.empty() ? "Somebody" : to));
+}
+
+/// Lines that wait are answered as all later ones: a line of which only the end is forgotten would be another line. A
+/// homing is alarmed when it has ended, a line past the travel as well.
+void GrblSession::lock(std::string_view why) {
+    const bool locked_before = std::exchange(stopped_, true) || critical_;
+    held_ = door_ = hold_seen_ = false;
+    n_words_.clear();
+    const bool alarms_later =
+        doing_ && (doing_->what == Doing::What::homing || doing_->what == Doing::What::leaving_travel);
+    if (!locked_before && !alarms_later) put(fmt::format("ALARM:{}\r\n", int{alarm_reset}));
+    say(why);
+    if (doing_ && !alarms_later) finish_answer(error_locked);
+}
+
+// ---- answers that had to wait
+
+/// Whether the line before is done with.
+bool GrblSession::finish() {
+    const MachineState state = machine_.state();
+    if (critical_ || (state == MachineState::error_stop && doing_->what != Doing::What::homing)) return false;
+    const bool stands = settled() && state != MachineState::moving && state != MachineState::hold;
+    if (!stands) return false;
+    switch (doing_->what) {
+        case Doing::What::moving:
+            if (doing_->program_ends) end_program();
+            break;
+        case Doing::What::leaving_travel:
+            alarm(alarm_soft_limit, true);
+            return false;
+        case Doing::What::homing:
+            return finish_homing();
+        case Doing::What::unlocking:
+            if (!std::exchange(doing_->declared, true)) {
+                (void)machine_.enable(true);
+                declare_positions();
+                return false;
+            }
+            if (!doing_->silent) say("Caution: Unlocked");
+            break;
+    }
+    finish_answer(error_none);
+    return true;
+}
+
+void GrblSession::finish_answer(int error) {
+    if (!std::exchange(doing_, std::nullopt)->silent) answer(error);
+}
+
+void GrblSession::end_program() {
+    spindle_override_ = 100;
+    machine_.set_overrides(1, 1);
+    if (!doing_->silent) say("Pgm End");
+}
+
+void GrblSession::finish_boot() {
+    const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
+    if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
+        critical_ = true;
+        say(machine_.status().reason);
+    }
+    if (locked())
+        say("'$H'|'$X' to unlock");
+    else if (after_reset)
+        startup();
+}
+
+void GrblSession::startup() {
+    for (const std::string& text : startup_lines_) {
+        if (text.empty()) continue;
+        const auto read = give(text, 0);
+        put(fmt::format(">{}:", text));
+        answer(read ? int{error_none} : decimal_of(read.error()));
+    }
+}
+
+// ---- answers
+
+void GrblSession::answer(int error) {
+    if (error == error_none)
+        put("ok\r\n");
+    else
+        put(fmt::format("error:{}\r\n", error));
+}
+
+/// In ASCII, and without what ends a message.
+void GrblSession::say(std::string_view text) {
+    put("[MSG:");
+    for (const char c : text) out_ += c >= ' ' && c <= '~' && c != '[' && c != ']' ? c : '?';
+    put("]\r\n");
+}
+
+void GrblSession::alarm(int number, bool needs_reset) {
+    alarm_ = true;
+    put(fmt::format("ALARM:{}\r\n", number));
+    if (!needs_reset) return;
+    critical_ = true;
+    say("Reset to continue");
+}
+
+}  // namespace motionrack::grbl

@@ -1,0 +1,77 @@
+// Accesses, one at a time and not too fast.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <motionrack/live/card_port.hpp>
+
+namespace motionrack::live {
+
+Result<std::unique_ptr<CardPort>> CardPort::open(const PortSpec& spec, const CardMap& map,
+                                                 std::unique_ptr<Clock> clock) {
+    std::uint32_t last = 0;
+    for (const RegisterInfo& reg : map.registers) {
+        if (reg.width != 16 || reg.offset % 2 != 0)
+            return fail(
+                ErrorKind::refused,
+                fmt::format("The {} has registers that are not words of 16 bits, which live ports do not reach. "
+                            "Nothing was opened.",
+                            map.name));
+        last = std::max(last, reg.offset);
+    }
+    MOTIONRACK_TRY(auto words, open_words(spec, std::uint64_t{last} / 2 * spec.stride + 2));
+    std::optional<InterruptLine> line;
+    if (!spec.interrupt.empty()) {
+        MOTIONRACK_TRY(line, InterruptLine::open(spec.interrupt));
+    }
+    if (!clock) clock = std::make_unique<MonotonicClock>();
+    return std::unique_ptr<CardPort>(new CardPort(std::move(words), std::move(line), std::move(clock), spec, last));
+}
+
+CardPort::CardPort(std::unique_ptr<WordAccess> words, std::optional<InterruptLine> line, std::unique_ptr<Clock> clock,
+                   const PortSpec& spec, std::uint32_t last)
+    : words_(std::move(words)),
+      line_(std::move(line)),
+      clock_(std::move(clock)),
+      path_(spec.path),
+      gap_(spec.gap),
+      stride_(spec.stride),
+      last_(last) {}
+
+bool CardPort::begin_access(std::uint32_t offset) {
+    MOTIONRACK_ASSERT(offset % 2 == 0 && offset <= last_);
+    if (trouble_) return false;
+    if (accessed_)
+        if (const Duration left = *accessed_ + gap_ - clock_->now(); left > Duration{0}) clock_->sleep(left);
+    return true;
+}
+
+void CardPort::end_access(int error, std::uint32_t offset, const char* what) {
+    accessed_ = clock_->now();
+    if (error != 0)
+        trouble_ =
+            Error{ErrorKind::io,
+                  fmt::format("The register at {:02X}h could not be {} through {}: {}. No access is made from here on; "
+                              "the card goes on with what it does.",
+                              offset, what, path_, std::strerror(error))};
+}
+
+void CardPort::write(std::uint32_t offset, std::uint16_t value) {
+    if (!begin_access(offset)) return;
+    end_access(words_->write(std::uint64_t{offset} / 2 * stride_, value), offset, "written");
+}
+
+std::uint16_t CardPort::read(std::uint32_t offset) {
+    std::uint16_t value = 0xFFFF;
+    if (!begin_access(offset)) return value;
+    end_access(words_->read(std::uint64_t{offset} / 2 * stride_, value), offset, "read");
+    return value;
+}
+
+bool CardPort::wait(Duration timeout) {
+    if (line_) return line_->wait(timeout, *clock_);
+    clock_->sleep(timeout);
+    return false;
+}
+
+}  // namespace motionrack::live

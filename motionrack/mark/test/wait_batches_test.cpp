@@ -1,0 +1,160 @@
+// Drawings longer than the field, and sources of the movement that are late or only guess it.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/mark/svg.hpp>
+#include <motionrack/mark/test/helpers.hpp>
+#include <motionrack/mark/wait_batches.hpp>
+
+namespace motionrack::mark {
+namespace {
+
+using testing::HasSubstr;
+
+/// A frame 300 mm long and 20 mm wide with a circle in it; the field has 121 mm.
+constexpr const char* long_svg = R"(<svg><rect x='-380' y='-10' width='300' height='20'/>)"
+                                 R"(<circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
+std::string long_job(const std::string& belt, const std::string& fly) {
+    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 3000\njump_mm_s = 6000\n[belt]\ncounts_per_mm "
+           "= 1000\n" +
+           belt + "\n[fly]\nwaits = 'auto'\n" + fly + "\n";
+}
+
+TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
+    const Drawing drawing = *read_svg(long_svg, "s");
+    const Box field{{-59, -59}, {59, 59}};
+    for (const Spot movement : {Spot{1, 0}, Spot{0.8, 0.6}}) {
+        Drawing turned = transformed(drawing, {movement.x, movement.y, -movement.y, movement.x, 0, 0});
+        const std::vector<WaitBatch> batches = *batches_of(turned, field, movement);
+        EXPECT_GT(batches.size(), 10u);
+        double length = 0, before = 0;
+        for (const WaitBatch& batch : batches) {
+            EXPECT_GE(batch.at_mm, before);
+            EXPECT_GT(batch.until_mm, batch.at_mm + 118 / 2.0);
+            before = batch.at_mm;
+            length += length_of({batch.strokes});
+            for (const double way : {batch.at_mm, batch.until_mm})
+                for (const parts::Segment& s : segments_of({batch.strokes})) {
+                    EXPECT_LE(std::fabs(s.to.x + way * movement.x), 59.01);
+                    EXPECT_LE(std::fabs(s.to.y + way * movement.y), 59.01);
+                }
+        }
+        EXPECT_NEAR(length, length_of(drawing), 1e-6) << "nothing twice, nothing left out";
+    }
+}
+
+TEST(Waits, WhatIsShorterThanAQuarterOfTheFieldStaysInOnePiece) {
+    const Drawing circle = *read_svg("<svg><circle cx='-100' cy='0' r='14'/></svg>", "s");
+    const std::vector<WaitBatch> batches = *batches_of(circle, {{-59, -59}, {59, 59}}, {1, 0});
+    ASSERT_EQ(batches.size(), 1u);
+    ASSERT_EQ(batches[0].strokes.size(), 1u);
+    EXPECT_NEAR(batches[0].at_mm, 114 - 59, 1e-6);
+}
+
+TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
+    for (const char* fly : {"mode = 'encoder'", "mode = 'simulated'", "mode = 'mcbsp'"})
+        for (const char* belt : {"speed_mm_s = 150", "speed_mm_s = -150\ndirection_deg = 180"}) {
+            const MarkingOutcome out = run(job_of(long_job(belt, fly)), long_svg);
+            EXPECT_LE(out.on.deviation.worst_mm, 0.006) << fly << belt;
+            EXPECT_EQ(out.on.deviation.missing_mm, 0) << fly << belt;
+            EXPECT_TRUE(out.on.overflows.empty()) << fly << belt;
+            EXPECT_TRUE(out.drawing_in_field);
+            ASSERT_TRUE(out.off);
+            EXPECT_GT(out.off->deviation.worst_mm, 1) << "pieces at their places, but sheared";
+            EXPECT_LT(out.off->deviation.worst_mm, 20);
+        }
+    // Without waits nearly all of it is outside the field.
+    const MarkingOutcome none =
+        run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"),
+            long_svg);
+    EXPECT_FALSE(none.on.overflows.empty());
+    EXPECT_GT(none.on.deviation.missing_mm, 300);
+}
+
+TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
+    // The trailing edge is at -380 mm: 380 - 59.57 mm of way at 150 mm/s.
+    const MarkingOutcome out = run(job_of(long_job("speed_mm_s = 150", "mode = 'encoder'")), long_svg);
+    EXPECT_GT(out.on.seconds, (380 - 59.57) / 150);
+    EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
+}
+
+TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
+    const std::string why = refusal(job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'")), long_svg);
+    EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks go up to"));
+    const std::size_t at = why.find("It just fits at ");
+    ASSERT_NE(at, std::string::npos) << why;
+    const double fits = std::stod(why.substr(at + 16));
+    MarkingJob job = job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'"));
+    job.belt.speed = fits * 0.999;
+    EXPECT_EQ(refusal(job, long_svg), "");
+    job.belt.speed = fits * 1.001;
+    EXPECT_NE(refusal(job, long_svg), "");
+    // A slower belt says the same speed.
+    job.belt.speed = fits / 2;
+    const MarkingOutcome slow = run(job, long_svg);
+    EXPECT_NEAR(*slow.fits_factor * job.belt.speed, fits, 0.02 * fits);
+}
+
+TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
+    const std::string belt = "speed_mm_s = 100", fly = "mode = 'encoder'";
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"),
+                HasSubstr("never is in the field"));
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M65 0 H70'/></svg>"),
+                HasSubstr("has left the field 10.431 mm before"));
+    EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg),
+                HasSubstr("leaves nothing of a field of 121."));
+    EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("Waits need a correction"));
+    EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never backwards"));
+    EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
+                HasSubstr("two values of 16 bits"));
+    EXPECT_THAT(errors_of("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 10\n[fly]\nmode = 'encoder'\nwaits = 'auto'\n"),
+                HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
+}
+
+TEST(Waits, GoTogetherWithPartsAndProfiles) {
+    const MarkingOutcome parts =
+        run(job_of(long_job("speed_mm_s = 150",
+                            "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
+            long_svg);
+    for (const PartMarked& part : parts.on.parts) {
+        EXPECT_EQ(part.fate, PartOutcome::marked);
+        EXPECT_LE(part.deviation.worst_mm, 0.006);
+        EXPECT_EQ(part.deviation.missing_mm, 0);
+    }
+    const MarkingOutcome profile =
+        run(job_of(long_job("profile = [[0, 50], [1, 300], [2, 0], [3, 0], [4, 200]]", "mode = 'encoder'")), long_svg);
+    EXPECT_LE(profile.on.deviation.worst_mm, 0.008);
+    EXPECT_EQ(profile.on.deviation.missing_mm, 0);
+}
+
+TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsSpeed) {
+    const std::string job =
+        "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
+    const MarkingOutcome encoder = run(job_of(job + "mode = 'encoder'\n"));
+    EXPECT_LE(encoder.on.deviation.worst_mm, 0.003);
+    const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_speed_mm_s = 100\n"));
+    // 40 ms from 100 to 60 mm/s: 0.04 * 20 = 0.8 mm less way than supposed at 80 ms.
+    EXPECT_NEAR(simulated.on.deviation.worst_mm, 0.8, 0.08);
+    EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_speed in [fly]"));
+    EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_speed_mm_s = 100\n"), HasSubstr("j.toml:8:24"));
+}
+
+TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantSpeed) {
+    const auto job = [](const std::string& belt, const std::string& offset) {
+        return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt +
+               "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
+    };
+    const std::string belt = "[belt]\nspeed_mm_s = 200", table = "[table]\nspeed_deg_s = 60\ncentre_y_mm = -50";
+    EXPECT_NEAR(run(job_of(job(belt, ""))).on.deviation.worst_mm, 0.3, 0.005) << "1.5 ms at 200 mm/s";
+    EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.worst_mm, 0.005);
+    EXPECT_GT(run(job_of(job(table, ""))).on.deviation.worst_mm, 0.05);
+    EXPECT_LE(run(job_of(job(table, "offset_us = 1500"))).on.deviation.worst_mm, 0.004);
+    // What is left when the speed changes: 1000 mm/s2 for 40 ms are 40 mm/s more, over 1.5 ms.
+    const std::string rising = "[belt]\nprofile = [[0, 200], [0.04, 200], [0.08, 240]]";
+    EXPECT_NEAR(run(job_of(job(rising, "offset_us = 1500"))).on.deviation.worst_mm, 0.06, 0.008);
+    EXPECT_THAT(errors_of(job(belt, "tracking_error_us = 100")), HasSubstr("encoders only"));
+}
+
+}  // namespace
+}  // namespace motionrack::mark

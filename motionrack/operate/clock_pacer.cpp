@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/operate/clock_pacer.hpp>
+
+namespace motionrack::operate {
+
+namespace {
+
+constexpr Duration max_wait = milliseconds(5);
+
+}  // namespace
+
+std::string_view name_of(ClockMode mode) {
+    switch (mode) {
+        case ClockMode::real:
+            return "real";
+        case ClockMode::free:
+            return "free";
+        case ClockMode::paused:
+            return "paused";
+    }
+    return "";
+}
+
+void Lateness::add(Duration late) {
+    late = std::max(late, Duration{0});
+    const auto bucket = static_cast<std::size_t>((late.count() + width.count() - 1) / width.count());
+    ++counts_[std::min(bucket, counts_.size() - 1)];
+    ++count_;
+    greatest_ = std::max(greatest_, late);
+}
+
+Duration Lateness::within(double part) const {
+    std::int64_t left = count_ - static_cast<std::int64_t>(std::ceil(part * static_cast<double>(count_)));
+    for (std::size_t i = counts_.size(); i-- > 0;) {
+        left -= counts_[i];
+        if (left < 0)
+            return i + 1 == counts_.size() ? greatest_ : std::min(greatest_, static_cast<std::int64_t>(i) * width);
+    }
+    return Duration{0};
+}
+
+ClockPacer::ClockPacer(live::Clock& clock, ClockMode mode, double factor)
+    : clock_(clock), mode_(mode), factor_(factor) {}
+
+Result<void> ClockPacer::set(ClockMode mode, double factor) {
+    if (!(factor >= min_factor && factor <= max_factor))
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
+                                min_factor, max_factor));
+    mode_ = mode;
+    factor_ = factor;
+    step_end_ = last_;
+    begun_ = false;
+    return {};
+}
+
+Result<void> ClockPacer::step(Duration duration) {
+    if (mode_ != ClockMode::paused)
+        return fail(
+            ErrorKind::refused,
+            fmt::format("Time steps only while it is paused; its mode is '{}'. Pause it first.", name_of(mode_)));
+    if (duration <= Duration{0} || duration > whole_seconds(3600))
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("A step of time is 100 ps to 3600 s, not {} s. Nothing was changed.", to_seconds(duration)));
+    step_end_ = std::max(step_end_, last_) + duration;
+    return {};
+}
+
+Instant ClockPacer::due(Instant now) const {
+    return real_base_ + Duration{static_cast<std::int64_t>(static_cast<double>((now - rack_base_).count()) / factor_)};
+}
+
+void ClockPacer::begin_here(Instant now) {
+    rack_base_ = now;
+    real_base_ = clock_.now();
+    begun_ = true;
+}
+
+bool ClockPacer::pace(Instant now) {
+    last_ = now;
+    if (mode_ == ClockMode::free) return true;
+    if (mode_ == ClockMode::paused) {
+        if (now < step_end_) return true;
+        clock_.sleep(max_wait);
+        return false;
+    }
+    if (!begun_) begin_here(now);
+    const Duration early = due(now) - clock_.now();
+    if (early > Duration{0}) clock_.sleep(std::min(early, max_wait));
+    if (early > max_wait) return false;
+    const Duration late = clock_.now() - due(now);
+    lateness_.add(late);
+    if (late > given_up) {
+        lost_ += late;
+        begin_here(now);
+    }
+    return true;
+}
+
+}  // namespace motionrack::operate

@@ -1,0 +1,399 @@
+// The motion thread: one thing at a time, until it is done, with everybody heard every slice.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/job.hpp>
+
+namespace motionrack::operate {
+
+bool can_home(const rack::RackConfig& config) {
+    return std::any_of(config.axes.begin(), config.axes.end(),
+                       [&](const rack::RackAxis& axis) { return config.can_home(axis); });
+}
+
+// ---- who holds the card's axes
+
+namespace {
+
+/// Where an axis stands at the start. `known`: nobody could find out by homing.
+InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& told, bool known) {
+    for (const InitialAxisState& one : told)
+        if (one.letter == axis.letter) return one;
+    return {axis.letter, axis.start_position, axis.start_position, known};
+}
+
+}  // namespace
+
+Result<void> Machine::start(const rack::RackConfig& config) {
+    rack_.start();
+    const bool known = !can_home(rack_.config());
+    for (rack::RunningAxis& axis : rack_.axes()) {
+        MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
+        const InitialAxisState here = standing_of(axis.config, settings_.standing, known);
+        if (here.position_valid) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
+    }
+    MOTIONRACK_TRY(control::AxisGroup * group, rack_.path_axes_here());
+    control::StreamExecutorSettings settings;
+    settings.gcode = rack::reader_settings(config);
+    settings.gcode.start = group->commanded_position();
+    settings.accel_reserve = rack_.axes().front().card->accel_reserve();
+    settings.jerk_limited = config.jerk_limited();
+    stream_ = std::make_unique<control::StreamExecutor>(*group, host_of(rack_), settings);
+    stream_->on_event([this](const control::gcode::CanonCall& step) { pass_event(step); });
+    group_holds_ = true;
+    rack_.set_stop_flag(stream_->stop_flag());
+    rack_.on_slice(settings_.slice, [this] { slice(); });
+    rack_.stop_latch().arm();
+    if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
+    publish_status();
+    return {};
+}
+
+Result<void> Machine::take_group() {
+    if (group_holds_) return {};
+    hands_over_ = true;
+    const Result<control::AxisGroup*> group = rack_.path_axes_here();
+    hands_over_ = false;
+    if (!group) return tl::unexpected<Error>(group.error());
+    rack_.set_stop_flag(stream_->stop_flag());
+    stream_->resync_axes(**group);
+    group_holds_ = true;
+    return {};
+}
+
+Result<control::Axis*> Machine::take_axis(char letter) {
+    for (rack::RunningAxis& axis : rack_.axes()) {
+        if (axis.config.letter != letter) continue;
+        group_holds_ = false;
+        hands_over_ = true;
+        Result<control::Axis*> taken = axis.card->axis(rack_.config(), letter);
+        hands_over_ = false;
+        return taken;
+    }
+    return fail(ErrorKind::invalid_input, fmt::format("There is no axis {}.", letter));
+}
+
+// ---- the loop
+
+void Machine::run() {
+    while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
+    publish_status();  // where it has come to rest
+}
+
+/// Between two runs of the kernel, perhaps in the middle of a drive.
+void Machine::slice() {
+    bool on = false;
+    while (!on) {
+        on = !settings_.pace || settings_.pace(now()) || quit_;
+        std::vector<std::function<void()>> work;
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            work.swap(inbox_);
+        }
+        for (const std::function<void()>& one : work) one();
+        take_stop();
+        if (hands_over_) continue;
+        if (!is_stationary(state_))  // a move may take long
+            for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+        publish_status();
+    }
+}
+
+/// In every slice, whatever moves or waits.
+void Machine::take_stop() {
+    rack::StopLatch& latch = rack_.stop_latch();
+    latch.look();
+    for (std::string& text : latch.contacts().take_alarms()) raise("emergency stop", std::move(text));
+    if (std::optional<std::string> opened = door_.take_opening(state_)) {
+        raise("door", std::move(*opened));
+        const bool in_work = state_ == MachineState::moving || state_ == MachineState::hold;
+        if (state_ == MachineState::moving) stream_->hold();
+        if (!in_work && !idle(state_)) cancel();
+        if (in_work) door_.keep_tools(status_);
+        tools_off();
+    }
+    if (latch.latched()) jogs_.let_go(), service_.break_off();
+    if (!latch.halted() || std::exchange(stop_taken_, true)) return;
+    cancel();
+}
+
+namespace {
+
+/// Whoever asked for the stop needs no alarm.
+std::string alarm_source(const rack::StopLatch& latch) {
+    return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
+}
+
+/// The alarm that is raised next says it of these axes, too.
+void supersede(std::vector<Alarm>& alarms, std::string_view axes) {
+    for (Alarm& alarm : alarms)
+        if (alarm.axis != '\0' && axes.find(alarm.axis) != std::string_view::npos)
+            alarm.active = false, alarm.acknowledged = true;
+}
+
+/// An axis that a search for home, or its own card, has left without a position says so itself.
+bool says_lost(const std::string& text) {
+    return text.find("not trusted") != std::string::npos;
+}
+
+/// What stopped the machine, or who, and what to do.
+std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_by) {
+    const bool ordered = latch.is_ordered() && !ordered_by.empty();
+    return fmt::format("{} {}", ordered ? ordered_by : latch.sentence(), latch.advice());
+}
+
+}  // namespace
+
+void Machine::step() {
+    if (service_.on()) return service_.step();
+    if (!accesses_.empty()) return access_bus();
+    if (jogs_.any()) return jog_all();
+    for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+    if (home_wanted_) return home_all();
+    if (!positions_wanted_.empty()) return change_positions();
+    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running) return drive();
+    if (stop_wanted_) return wait_for_standstill();
+    if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
+        const rack::StopLatch& latch = rack_.stop_latch();
+        return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
+    }
+    host_of(rack_).pass(settings_.slice);
+}
+
+/// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
+void Machine::enter_error_stop(std::string source, std::string text) {
+    rack::StopLatch& latch = rack_.stop_latch();
+    std::string lost;
+    text += service_.take_note();
+    if (latch.latched()) {
+        latch.settle();
+        stop_taken_ = true;
+        for (const rack::RackAxis& axis : rack_.config().axes) {
+            if (latch.keeps_position(axis.index())) continue;
+            trust_.lose(axis.letter);
+            lost += axis.letter;
+        }
+        if (!lost.empty() || !says_lost(text)) text += ' ' + latch.position_sentence();
+    }
+    const std::string unknown = trust_.lose_unknown();
+    if (!unknown.empty() && !says_lost(text))
+        text += fmt::format(" The position of {} is not trusted any more; home again.", unknown);
+    if (!source.empty()) supersede(status_.alarms, lost + unknown);
+    tools_off();
+    if (!source.empty()) raise(std::move(source), text);
+    enter(MachineState::error_stop, std::move(text));
+}
+
+/// Nothing moves any more after a stop.
+void Machine::wait_for_standstill() {
+    stop_wanted_ = false;
+    home_stop_ = false;
+    rack::StopLatch& latch = rack_.stop_latch();
+    if (latch.latched() && state_ != MachineState::error_stop)  // what was lost is lost, whoever resets at once
+        enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
+    const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // of what came later nobody knew
+    const Result<void> reset = asked ? latch.reset() : Result<void>();
+    if (!reset) status_.reason = reset.error().message;
+    if (asked && reset) {
+        stop_taken_ = false;
+        ordered_by_.clear();
+        stream_->reset_modal_state();
+        tools_off();
+        for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
+        if (state_ == MachineState::error_stop) enter(MachineState::standstill);
+    }
+    if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.reason);
+    for (std::size_t i = 0; i < enabled_.size(); ++i)
+        enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
+    const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();
+    if (!any && state_ == MachineState::standstill) enter(MachineState::disabled);
+}
+
+// ---- lines and programs
+
+void Machine::feed_program() {
+    std::string_view text;
+    while (walk_ && stream_->has_room()) {
+        if (walk_->next(text)) {
+            if (const auto read = stream_->line(text, walk_->number(), *walk_); !read) return failed(read.error());
+            continue;
+        }
+        walk_.reset();
+        over_ = true;
+    }
+    if (!over_ || !stream_->has_room()) return;
+    over_ = false;
+    if (const auto done = stream_->program_over(); !done) return failed(done.error());
+}
+
+void Machine::drive() {
+    feed_program();
+    if (state_ == MachineState::error_stop) return;
+    const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
+    const Result<control::ExecutionState> driven = stream_->drive(more);
+    if (!driven) return failed(driven.error());
+    if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a card's stop ends a hold, too
+    switch (*driven) {
+        case control::ExecutionState::waiting:
+            host_of(rack_).pass(milliseconds(1));
+            break;
+        case control::ExecutionState::feed_hold:
+        case control::ExecutionState::paused:
+            if (state_ == MachineState::moving)
+                enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
+                                              ? "held; resume goes on"
+                                              : "the program waits; resume goes on");
+            host_of(rack_).pass(settings_.slice);
+            break;
+        case control::ExecutionState::idle:
+            if (walk_ || over_) break;
+            if (program_runs_) stream_->reset_after_program();
+            program_runs_ = false;
+            if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
+            break;
+        case control::ExecutionState::running:
+            break;
+    }
+}
+
+// ---- by hand
+
+void Machine::jog_all() {
+    const auto take = [this](char letter) { return take_axis(letter); };
+    const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
+    for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
+        if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
+        status_.reason = one.how.error().message;
+        if (one.position_valid || !trust_.of(one.letter)) continue;
+        trust_.lose(one.letter);  // it stopped without a ramp, or does not know its counts
+        supersede(status_.alarms, {&one.letter, 1});
+        jogs_.let_go();
+        stop_wanted_ = true;
+        failed(one.how.error());
+    }
+    if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
+    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.reason, {}));
+}
+
+void Machine::home_all() {
+    rack::HomingSettings settings;
+    settings.axes = *std::exchange(home_wanted_, std::nullopt);
+    settings.stop = &home_stop_;
+    settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
+    settings.seen_indexes = &seen_indexes_;
+    settings.on_homed = [this](char letter, Instant since) { trust_.begin_at_home(letter, since); };
+    group_holds_ = false;
+    const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
+    for (const rack::HomedAxis& axis : homed.axes)
+        if (axis.begun && !axis.outcome.homed) trust_.lose(axis.letter);
+    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
+    if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
+}
+
+void Machine::change_positions() {
+    Result<void> done;
+    for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
+        const Declared declared = positions_wanted_[i];  // others may come meanwhile
+        const Result<control::Axis*> axis = take_axis(declared.letter);
+        done = axis ? trust_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
+    }
+    if (Result<void> taken = take_group(); done) done = taken;
+    positions_wanted_.clear();
+    if (!done) status_.reason = done.error().message;
+}
+
+// ---- what is told
+
+/// What moves, or was to move, in a few words.
+std::string Machine::at_work() const {
+    if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->current_line());
+    if (service_.on()) return "the service of card " + service_.card();
+    if (state_ == MachineState::moving || state_ == MachineState::hold)
+        return fmt::format("line {}", stream_->current_line());
+    return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
+}
+
+void Machine::failed(const Error& error) {
+    const std::string what = at_work();
+    walk_.reset();
+    over_ = false;
+    program_runs_ = false;
+    const rack::StopLatch& latch = rack_.stop_latch();
+    const bool known =
+        latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
+    enter_error_stop(known ? alarm_source(latch) : what, error.text());
+}
+
+void Machine::raise(std::string source, std::string text, char axis) {
+    std::vector<Alarm>& alarms = status_.alarms;
+    if (axis != '\0') supersede(alarms, {&axis, 1});
+    alarms.erase(std::remove_if(alarms.begin(), alarms.end(),
+                                [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
+                 alarms.end());
+    if (alarms.size() >= settings_.max_alarms) alarms.erase(alarms.begin());
+    alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
+    alarms.back().axis = axis;
+}
+
+void Machine::enter(MachineState state, std::string why) {
+    state_ = state;
+    status_.reason = std::move(why);
+}
+
+void Machine::pass_event(const control::gcode::CanonCall& step) {
+    using Kind = control::gcode::CanonCallKind;
+    if (step.kind == Kind::spindle_speed || step.kind == Kind::spindle) status_.spindle_rpm = step.speed_rpm;
+    if (step.kind == Kind::spindle) status_.spindle = step.spindle;
+    if (step.kind == Kind::coolant) {
+        status_.mist = step.mist;
+        status_.flood = step.flood;
+    }
+    if (step.kind == Kind::end) tools_off();
+    if (settings_.on_event) settings_.on_event(step);
+}
+
+void Machine::tools_off() {
+    status_.spindle = control::gcode::Spindle::off;
+    status_.mist = status_.flood = false;
+}
+
+static AxisStatus look_at(rack::RunningAxis& axis, bool position_valid, bool enabled, Instant now) {
+    AxisStatus out{.letter = axis.config.letter, .position_valid = position_valid, .enabled = enabled};
+    out.rotary = axis.config.index() >= 3;
+    out.pulses = axis.card->pulse_counter(axis.channel);
+    out.counts = axis.card->encoder_counter(axis.channel);
+    const double origin = axis.card->counter_origin();
+    out.commanded = origin + static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
+    const double counts = axis.config.counts_per_unit();
+    out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
+    out.true_position = axis.machine->position(now);
+    out.speed = axis.speed(now);
+    return out;
+}
+
+void Machine::publish_status() {
+    status_.at = now();
+    ++status_.sequence;
+    status_.state = state_;
+    status_.axes.clear();
+    for (rack::RunningAxis& axis : rack_.axes()) {
+        const bool enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
+        status_.axes.push_back(look_at(axis, position_valid(axis.config), enabled, now()));
+    }
+    status_.program = program_name_;
+    status_.line = stream_->current_line();
+    status_.lines = line_count_;
+    status_.program_runs = program_runs_;
+    status_.single_step = single_step_;
+    status_.feed_override = feed_;
+    status_.rapid_override = rapid_;
+    status_.service = service_.card();
+    status_.real = service_.live() != nullptr;
+    if (settings_.on_status) settings_.on_status(status_);
+    for (const auto& call : listeners_) call(status_);
+}
+
+}  // namespace motionrack::operate

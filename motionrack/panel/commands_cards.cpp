@@ -1,0 +1,113 @@
+// Orders to cards, wires and the clock, as a person with a screwdriver gives them.
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+#include <motionrack/panel/panel_context.hpp>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+/// Refused for a card for which a real one stands: what is done to the virtual one would be taken for its own.
+Result<void> check_virtual(PanelContext& desk, std::string_view name, std::string_view what) {
+    const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
+    if (live == nullptr) return {};
+    return fail(ErrorKind::refused,
+                fmt::format("{}: card {} is a real one at {}. Nothing was done. Call the functions of its library.",
+                            what, live->card, live->place));
+}
+
+Result<json> set_wire(PanelContext& desk, const json& fields) {
+    const auto& name = fields.at("name").get_ref<const std::string&>();
+    const json& value = fields.at("value");
+    MOTIONRACK_CHECK(check_virtual(desk, name, "The wire was not driven"));
+    return accepted(desk.machine.wires().force(
+        name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
+}
+
+Result<json> inject_fault(PanelContext& desk, const json& fields) {
+    const auto& target = fields.at("target").get_ref<const std::string&>();
+    MOTIONRACK_CHECK(check_virtual(desk, target, "Nothing was broken"));
+    return accepted(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
+}
+
+void access(PanelContext& desk, const json& fields, Ready ready) {
+    operate::Machine::BusAccess access{fields.at("card").get<std::string>(),
+                                       static_cast<int>(fields.at("bits").get<double>()),
+                                       static_cast<std::uint32_t>(fields.at("address").get<double>()),
+                                       {}};
+    if (fields.contains("value")) access.value = static_cast<std::uint32_t>(fields.at("value").get<double>());
+    if (const Result<void> is = check_virtual(desk, access.card, "The card was not accessed"); !is)
+        return ready(tl::unexpected<Error>(is.error()));
+    const Result<void> taken = desk.machine.access(access, [ready](std::uint32_t value) {
+        ready(json{{"value", value}});
+    });
+    if (!taken) ready(tl::unexpected<Error>(taken.error()));
+}
+
+Result<operate::ClockPacer*> pacer_of(PanelContext& desk) {
+    if (desk.settings.pacer != nullptr) return desk.settings.pacer;
+    return fail(ErrorKind::refused, "The clock of this machine cannot be changed.");
+}
+
+Result<json> set_clock(PanelContext& desk, const json& fields) {
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
+    if (const auto live = desk.machine.service().live_places(); !live.empty())
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The clock was not changed: card {} is a real one, whose time is the computer's, so the "
+                        "rack runs in real time with factor 1. Serve it without --live for another time.",
+                        live.front().card));
+    const auto& name = fields.at("mode").get_ref<const std::string&>();
+    for (const operate::ClockMode mode :
+         {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
+        if (operate::name_of(mode) == name)
+            return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
+    return fail(ErrorKind::invalid_input, "There is no such mode of the clock.");
+}
+
+Result<json> step_clock(PanelContext& desk, const json& fields) {
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
+    return accepted(pacer->step(from_seconds(fields.at("seconds").get<double>())));
+}
+
+constexpr std::array card_rows = {
+    OperationHandler{"set_wire",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
+    OperationHandler{"press_estop",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return accepted(desk.machine.wires().force("estop", fields.at("pressed").get<bool>() ? 0 : 1));
+                     }},
+    OperationHandler{"inject_fault",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
+    OperationHandler{"start_part",
+                     [](PanelContext& desk, const Caller&, const json& fields) {
+                         return accepted(
+                             rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));
+                     }},
+    OperationHandler{"write_register", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         access(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"read_register", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         access(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"set_clock",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
+    OperationHandler{"step_clock",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return step_clock(desk, fields); }},
+};
+
+}  // namespace
+
+std::span<const OperationHandler> card_doers() {
+    return card_rows;
+}
+
+}  // namespace motionrack::panel

@@ -1,0 +1,162 @@
+// Marking with a laser card of the rack while the rack runs: a job becomes a list, which the card works off over what
+// its scan head sees.
+//
+//   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──►
+//   work piece
+#include <fmt/format.h>
+
+#include <array>
+#include <motionrack/mark/marking_host.hpp>
+#include <motionrack/panel/panel_context.hpp>
+#include <motionrack/rack/bus_access.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+using Commands = std::vector<rtc5::Command>;
+
+/// What the card gets.
+struct Lists {
+    std::shared_ptr<const rtc5::Table> table;
+    Commands main;
+    Commands arming;  ///< before the first part; empty: the list is begun at once
+    double tracking_us = 0;
+    bool follows = false;
+    std::vector<std::string> notes;
+};
+
+/// The rack knows its optics, laser and belt better than the job.
+void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, const std::string& card) {
+    for (const rack::RackScanner& scanner : config.scanners) {
+        if (scanner.card != card) continue;
+        job.optics.bits_per_mm = scanner.bits_per_mm;
+        job.lens = scanner.lens;
+        const rack::RackConveyor* track = scanner.track ? config.track(*scanner.track) : nullptr;
+        if (track == nullptr) return;
+        job.belt.speed = track->speed;
+        job.belt.profile = track->profile;
+        job.belt.rotary = track->rotary;
+        job.belt.direction_deg = track->direction_deg;
+        job.belt.centre_x_mm = track->centre_x_mm;
+        job.belt.centre_y_mm = track->centre_y_mm;
+        job.belt.counts_per_unit = track->counts_per_unit;
+        return;
+    }
+}
+
+/// In the worker.
+Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, const std::string& text,
+                       const std::string& drawing, bool on_parts) {
+    mark::JobRead read = mark::read_job(text, "job");
+    if (!read.job) return tl::unexpected<Error>(read.errors.front());
+    mark::MarkingJob& job = *read.job;
+    if (job.parts)
+        return fail(ErrorKind::refused,
+                    "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give "
+                    "start = parts. Nothing was marked.");
+    as_the_rack_has_it(job, config, card);
+    const auto load = [&drawing](const std::string& path) -> Result<std::string> {
+        if (!drawing.empty()) return drawing;
+        return fail(ErrorKind::refused,
+                    fmt::format("The job names the file {}, and files of this computer are not read: "
+                                "send the drawing's text along. Nothing was marked.",
+                                path));
+    };
+    MOTIONRACK_TRY(const mark::Prepared prepared, mark::prepare(job, load));
+    const mark::ConveyorTracking following = mark::following_of(job);
+    Lists out;
+    out.table = prepared.table;
+    out.notes = prepared.notes;
+    out.follows = following.mode != mark::FlyMode::off;
+    out.tracking_us = job.fly.tracking_error_us;
+    MOTIONRACK_TRY(out.main, mark::list_of(job, prepared, following));
+    if (on_parts) {
+        MOTIONRACK_TRY(out.arming, mark::arming_list_of(job, prepared, following));
+    }
+    return out;
+}
+
+Result<void> not_stopped(PanelContext& desk) {
+    const rack::StopLatch& latch = desk.machine.rack().stop_latch();
+    if (!latch.latched()) return {};
+    return fail(ErrorKind::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
+}
+
+/// On the motion thread, between runs.
+Result<json> begin_marking(PanelContext& desk, const std::string& card, const Lists& lists) {
+    MOTIONRACK_CHECK(not_stopped(desk));
+    rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
+    if (!engine.at_rest())
+        return fail(
+            ErrorKind::refused,
+            fmt::format("Card {} works off a list; wait for its end, or stop it with mark_stop. Nothing was marked.",
+                        card));
+    if (lists.table) {
+        MOTIONRACK_CHECK(engine.load_correction(lists.table, 1));
+        MOTIONRACK_CHECK(engine.select_cor_table(1, 0));
+    }
+    const auto error = static_cast<std::uint16_t>(lists.tracking_us / 10);
+    if (lists.follows) engine.set_tracking_error(error, error);
+    MOTIONRACK_CHECK(mark::put_all(engine, 1, lists.main));
+    if (lists.arming.empty()) {
+        engine.set_control_mode(0);
+        MOTIONRACK_CHECK(engine.execute_list(1));
+    } else {
+        // Each part's edge starts list 1; starts reset the encoders only if a correction has asked for it before.
+        MOTIONRACK_CHECK(mark::put_all(engine, 2, lists.arming));
+        engine.set_extstartpos(0);
+        engine.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start);
+        MOTIONRACK_CHECK(engine.execute_list(2));
+    }
+    return json{{"commands", lists.main.size()}, {"notes", lists.notes}};
+}
+
+Result<void> check_card(PanelContext& desk, const std::string& card) {
+    MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
+    if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
+    return fail(ErrorKind::invalid_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
+}
+
+void mark(PanelContext& desk, const json& fields, Ready ready) {
+    const std::string card = fields.at("card").get<std::string>();
+    if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
+    if (const Result<void> may = not_stopped(desk); !may) return ready(tl::unexpected<Error>(may.error()));
+    const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(),
+                       drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
+        return lists_of(config, card, text, drawing, on_parts);
+    };
+    desk.run_async<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
+        ready(lists ? begin_marking(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
+    });
+}
+
+/// Starts are no longer taken, and what runs ends.
+Result<json> stop(PanelContext& desk, const json& fields) {
+    const auto& card = fields.at("card").get_ref<const std::string&>();
+    MOTIONRACK_CHECK(check_card(desk, card));
+    rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
+    engine.set_control_mode(0);
+    engine.stop_execution();
+    return json::object();
+}
+
+constexpr std::array mark_rows = {
+    OperationHandler{"mark", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         mark(desk, fields, std::move(ready));
+                     }},
+    OperationHandler{"mark_stop",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
+};
+
+}  // namespace
+
+std::span<const OperationHandler> mark_doers() {
+    return mark_rows;
+}
+
+}  // namespace motionrack::panel

@@ -1,0 +1,63 @@
+// Orders and queries of the scope.
+#include <array>
+#include <motionrack/panel/panel_context.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+Result<json> arm(PanelContext& desk, const json& fields) {
+    ScopeSettings settings;
+    settings.channels = fields.at("channels").get<std::vector<std::string>>();
+    settings.trigger = fields.value("trigger", "");
+    const std::string edge = fields.value("edge", "rise"), mode = fields.value("mode", "single");
+    settings.edge = edge == "rise" ? TriggerEdge::rise : edge == "fall" ? TriggerEdge::fall : TriggerEdge::either;
+    settings.level = number_of(fields, "level", settings.level);
+    settings.period = from_seconds(number_of(fields, "period_us", 100) * 1e-6);
+    settings.length = from_seconds(number_of(fields, "length", 0.1));
+    settings.pre = from_seconds(number_of(fields, "pre", 0));
+    settings.again = mode == "run";
+    return accepted(desk.scope.arm(settings));
+}
+
+/// The data are written as JSON beside the motion.
+void look(PanelContext& desk, const json& fields, Ready ready) {
+    const ScopeSettings& settings = desk.scope.settings();
+    json out = {{"state", name_of(desk.scope.state())},
+                {"channels", settings.channels},
+                {"trigger", settings.trigger},
+                {"mode", settings.again ? "run" : "single"}};
+    const std::shared_ptr<const Capture> capture = desk.scope.capture();
+    if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0)))
+        return ready(std::move(out));
+    desk.run_async(
+        [out = std::move(out), capture]() mutable -> Result<json> {
+            out["capture"] = to_json(*capture);
+            return out;
+        },
+        std::move(ready));
+}
+
+constexpr std::array scope_rows = {
+    OperationHandler{"scope_arm",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
+    OperationHandler{"scope_stop",
+                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
+                         desk.scope.stop();
+                         return json::object();
+                     }},
+    OperationHandler{"scope", nullptr,
+                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
+                         look(desk, fields, std::move(ready));
+                     }},
+};
+
+}  // namespace
+
+std::span<const OperationHandler> scope_doers() {
+    return scope_rows;
+}
+
+}  // namespace motionrack::panel

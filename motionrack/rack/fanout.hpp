@@ -1,0 +1,60 @@
+// Several who hear the same edges or wires: what makes them has room for one listener each.
+//
+//   part ──edges──► EdgeFanout ──┬──► waves (VCD)          kernel ──wires──► WireFanout ──┬──► waves
+//                              └──► recording                                         └──► recording
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/position_function.hpp>
+#include <utility>
+#include <vector>
+
+namespace motionrack::rack {
+
+class EdgeFanout final : public sim::EdgeListener {
+  public:
+    /// `attach`: makes somebody the one listener, or nobody (nullptr).
+    explicit EdgeFanout(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
+
+    /// Between runs. Nothing is done where an ear is to be removed that was not added.
+    void add(sim::EdgeListener& ear) {
+        ears_.push_back(&ear);
+        if (ears_.size() == 1) attach_(this);
+    }
+    void remove(sim::EdgeListener& ear) {
+        if (std::erase(ears_, &ear) > 0 && ears_.empty()) attach_(nullptr);
+    }
+    void edges(const sim::EdgeBatch& batch) override {
+        for (sim::EdgeListener* ear : ears_) ear->edges(batch);
+    }
+
+  private:
+    std::function<void(sim::EdgeListener*)> attach_;
+    std::vector<sim::EdgeListener*> ears_;
+};
+
+class WireFanout final : public sim::Kernel::WireObserver {
+  public:
+    explicit WireFanout(sim::Kernel& kernel) : kernel_(kernel) {}
+
+    /// Between runs.
+    void add(sim::Kernel::WireObserver& observer) {
+        observers_.push_back(&observer);
+        kernel_.observe_wires(this);
+    }
+    void remove(sim::Kernel::WireObserver& observer) {
+        observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
+        if (observers_.empty()) kernel_.observe_wires(nullptr);
+    }
+    void wire_changed(sim::WireId wire, int level, Instant now) override {
+        for (sim::Kernel::WireObserver* observer : observers_) observer->wire_changed(wire, level, now);
+    }
+
+  private:
+    sim::Kernel& kernel_;
+    std::vector<sim::Kernel::WireObserver*> observers_;
+};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,18 @@
+// Telling what a rack went through.
+#include <cinttypes>
+#include <cstdio>
+#include <cstdlib>
+#include <motionrack/rack/trace_hash_log.hpp>
+
+namespace motionrack::rack {
+
+void tell_history(const sim::Kernel& kernel) noexcept {
+    const char* const path = std::getenv(history_variable);
+    if (path == nullptr || *path == '\0') return;
+    std::FILE* const file = std::fopen(path, "a");
+    if (file == nullptr) return;
+    std::fprintf(file, "%016" PRIx64 " %" PRId64 "\n", kernel.trace_hash(), kernel.now().count());
+    std::fclose(file);
+}
+
+}  // namespace motionrack::rack

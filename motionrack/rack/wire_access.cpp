@@ -1,0 +1,244 @@
+// Names of wires, and driving them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/wire_access.hpp>
+#include <motionrack/sim/blocks/quadrature_counter.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+constexpr double max_volts = 15;  // of an analog input
+}
+
+std::map<std::string, double> volts_of_wires(const RackConfig& config) {
+    std::map<std::string, double> out;
+    for (const RackCard& card : config.cards)
+        for (const Pin& pin : pins_of(card))
+            if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
+    for (const RackAxis& axis : config.axes)
+        for (const AxisSignal& end : axis_ends())
+            if (end.volts > 0 && end.present(axis)) out[fmt::format("{}.{}", axis.letter, end.name)] = end.volts;
+    return out;
+}
+
+WireAccess::WireAccess(Rack& rack) : rack_(rack) {
+    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
+    if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
+    for (const char* contact : {"estop1", "estop2", "door"})
+        if (const sim::WireId wire = rack_.kernel().find_wire(contact); wire != sim::WireId::none)
+            wires_[contact] = {Kind::plain, wire, -1, 0, 1, 1, {}};
+    add_cards();
+    add_axes();
+    add_tracks();
+    add_encoders();
+    add_ideal_encoders();
+}
+
+void WireAccess::add_cards() {
+    for (const RackCard& card : rack_.config().cards)
+        for (const Pin& pin : pins_of(card)) {
+            const std::string name = card.name + "." + pin.name;
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
+            if (pin.volts > 0) wire.unit = pin.volts;
+            if (pin.direction == PinDirection::output)
+                wire.refused = fmt::format(
+                    "{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
+            wires_[name] = std::move(wire);
+        }
+    for (const auto& card : rack_.cards())
+        for (const std::string& name : card->shared_wires())
+            wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
+}
+
+void WireAccess::add_axes() {
+    const RackConfig& config = rack_.config();
+    for (std::size_t i = 0; i < config.axes.size(); ++i)
+        for (const AxisSignal& end : axis_ends()) {
+            if (!end.present(config.axes[i])) continue;
+            const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
+            if (end.name == "enc_a" || end.name == "enc_b") {
+                wire.kind = Kind::track;
+                wire.which = end.name == "enc_b";
+                wire.refused =
+                    fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
+            } else if (end.volts > 0) {
+                wire.unit = end.volts;
+            } else if (end.direction == PinDirection::input) {
+                wire.kind = Kind::pulses;
+                wire.refused = fmt::format(
+                    "{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
+                for (const RackWire& joined : config.wires)
+                    if (config.end_name(joined.to) == name)
+                        wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
+            }
+            wires_[name] = std::move(wire);
+        }
+}
+
+void WireAccess::add_tracks() {
+    for (const RunningConveyor& track : rack_.tracks())
+        for (const ConveyorSignal& end : track_ends())
+            if (end.present(track.config))
+                wires_[fmt::format("{}.{}", track.config.name, end.name)] = {
+                    Kind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
+}
+
+/// The inputs that a link comes in at are no wires of their own while nobody drives them.
+void WireAccess::add_encoders() {
+    const RackConfig& config = rack_.config();
+    for (const RackWire& joined : config.wires) {
+        if (!joined.link || joined.to.owner != EndOwner::card) continue;
+        const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
+        int channel = -1;
+        for (const Pin& pin : pins_of(card))
+            if (pin.name == joined.to.pin) channel = pin.channel;
+        for (const EncoderLink& link : config.encoder_links) {
+            if (link.card != joined.to.index || link.channel != channel) continue;
+            auto input = std::find_if(encoders_.begin(), encoders_.end(),
+                                      [&](const EncoderInput& known) { return known.link == link; });
+            if (input == encoders_.end()) input = encoders_.insert(input, EncoderInput{link, 0});
+            Wire& wire = wires_[config.end_name(joined.to)];
+            wire.kind = Kind::counted;
+            wire.index = static_cast<int>(input - encoders_.begin());
+            wire.which = (joined.from.pin == "enc_b") != link.swapped;
+        }
+    }
+}
+
+const WireAccess::Wire* WireAccess::find(std::string_view name) const {
+    const auto found = wires_.find(name);
+    return found != wires_.end() ? &found->second : nullptr;
+}
+
+tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
+    std::vector<std::string_view> names;
+    for (const auto& [known, wire] : wires_) names.push_back(known);
+    const std::string hint = did_you_mean(name, names);
+    return fail(
+        ErrorKind::invalid_input,
+        fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
+                    "file lists them. Nothing was done.",
+                    in_quotes(name), hint.empty() ? "." : hint));
+}
+
+std::vector<WireAccess::Named> WireAccess::names() const {
+    std::vector<Named> out;
+    for (const auto& [name, wire] : wires_) {
+        const bool recorded = wire.kind == Kind::plain ? wire.id != sim::WireId::none : wire.kind != Kind::counted;
+        out.push_back({name, wire.unit != 1, wire.refused.empty(), recorded, wire.bits});
+    }
+    return out;
+}
+
+void WireAccess::add_ideal_encoders() {
+    for (std::size_t i = 0; i < rack_.cards().size(); ++i) {
+        if (rack_.cards()[i]->motion() == nullptr) continue;
+        const MotionCard& card = *rack_.cards()[i]->motion();
+        const auto pins = card.ideal_encoder();
+        if (pins.empty()) continue;
+        encoders_.push_back({{no_axis, static_cast<int>(i), 0, false}, 0});
+        for (std::size_t which = 0; which < pins.size(); ++which) {
+            Wire& wire = wires_[fmt::format("{}.{}", card.name(), pins[which])];
+            wire.kind = Kind::counted;
+            wire.index = static_cast<int>(encoders_.size()) - 1;
+            wire.which = static_cast<int>(which);
+        }
+    }
+}
+
+/// The levels that the encoder shows at the channel (bit 0: A).
+unsigned WireAccess::lines_at(const EncoderInput& input) const {
+    if (input.link.axis == no_axis)
+        return sim::lines_of(
+            rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->pulses(0).count(rack_.kernel().now()));
+    RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.link.axis)];
+    const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
+    return sim::lines_of(input.link.swapped ? -count : count);
+}
+
+Result<double> WireAccess::get(std::string_view name) const {
+    const Wire* wire = find(name);
+    if (wire == nullptr) return unknown(name);
+    const sim::Kernel& kernel = rack_.kernel();
+    if (wire->kind == Kind::track) {
+        const parts::Lines lines =
+            rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
+        return wire->which == 0 ? lines.a : lines.b;
+    }
+    if (wire->kind == Kind::counted) {
+        const EncoderInput& input = encoders_[static_cast<std::size_t>(wire->index)];
+        if (input.driven == 0) return lines_at(input) >> wire->which & 1u;
+    }
+    return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id) * wire->unit;
+}
+
+Result<void> WireAccess::check(std::string_view name, double value) const {
+    const Wire* wire = find(name);
+    if (wire == nullptr) return unknown(name);
+    if (!wire->refused.empty()) return fail(ErrorKind::refused, wire->refused + ". Nothing was done.");
+    if (std::isnan(value)) return {};
+    if (wire->unit != 1) {
+        if (std::fabs(value) <= max_volts) return {};
+        return fail(ErrorKind::refused,
+                    fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
+                                max_volts, max_volts));
+    }
+    if (wire->bits > 1) {
+        const double greatest = std::ldexp(1.0, wire->bits - 1);
+        if (value >= -greatest && value < greatest && value == std::floor(value)) return {};
+        return fail(
+            ErrorKind::refused,
+            fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
+                        name, value, -greatest, greatest - 1));
+    }
+    if (value != 0 && value != 1)
+        return fail(ErrorKind::refused,
+                    fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
+                                "Nothing was done.",
+                                name, value));
+    return {};
+}
+
+Result<void> WireAccess::force(std::string_view name, double value) {
+    MOTIONRACK_CHECK(check(name, value));
+    const Wire& wire = *find(name);
+    const bool released = std::isnan(value);
+    const int level = released ? 0 : static_cast<int>(std::floor(value / wire.unit + 0.5));
+    rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
+                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(level != 0),
+                           static_cast<double>(level)});
+    if (released)
+        release(wire);
+    else
+        drive(wire, level);
+    rack_.kernel().settle();
+    return {};
+}
+
+void WireAccess::drive(const Wire& wire, int level) {
+    sim::Kernel& kernel = rack_.kernel();
+    if (wire.kind == Kind::counted) {
+        EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
+        if (input.driven == 0) {
+            // Its lines stay as it left them, so that cutting it off counts nothing.
+            rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, true);
+            kernel.settle();
+        }
+        input.driven |= 1u << wire.which;
+    }
+    kernel.force(wire.id, level);
+}
+
+void WireAccess::release(const Wire& wire) {
+    if (wire.kind != Kind::counted) return rack_.kernel().release(wire.id);
+    EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
+    if ((input.driven & 1u << wire.which) == 0) return;
+    input.driven &= ~(1u << wire.which);
+    if (input.driven != 0) return;
+    rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, false);
+}
+
+}  // namespace motionrack::rack

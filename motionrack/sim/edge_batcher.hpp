@@ -1,0 +1,38 @@
+// Edges that are found one by one, put together to batches: for motions that have no even pulses.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <motionrack/sim/position_function.hpp>
+
+namespace motionrack::sim {
+
+class EdgeBatcher {
+  public:
+    /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the
+    /// batch with it is handed over first.
+    void add(EdgeListener& listener, Instant at, std::int64_t count, int step) {
+        const bool fits =
+            batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
+        if (!fits) hand_over(listener);
+        if (batch_.size == 0) {
+            batch_.origin = at;
+            batch_.tick = Duration{1};
+            batch_.first_count = count;
+            batch_.step = step;
+        }
+        batch_.at[batch_.size++] = static_cast<std::uint32_t>((at - batch_.origin).count());
+    }
+    /// What has come together.
+    void hand_over(EdgeListener& listener) {
+        if (batch_.size > 0) listener.edges(batch_);
+        batch_.size = 0;
+    }
+
+  private:
+    /// Ticks from a batch's first edge to its last.
+    static constexpr std::int64_t longest = std::numeric_limits<decltype(EdgeBatch::at)::value_type>::max();
+    EdgeBatch batch_{};
+};
+
+}  // namespace motionrack::sim

@@ -1,0 +1,360 @@
+// The crossings, rates and faults of one axis; axis_machine_faces.cpp has what others hear of it.
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
+#include <motionrack/sim/parts/edge_generator.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr int index_pin = 0;
+/// Of what the motor follows at once: smaller changes of the rate are steps of a ramp.
+constexpr double ramp_step = 0.125;
+/// A rate that is almost the rotor's would take longer to show than there is time.
+constexpr double max_strain_s = 1e6;
+constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
+constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
+                                                                  "motor.lose_steps",
+                                                                  "motor.push",
+                                                                  "encoder.broken_a",
+                                                                  "encoder.broken_b",
+                                                                  "encoder.swapped",
+                                                                  "limit_minus.stuck_open",
+                                                                  "limit_minus.stuck_closed",
+                                                                  "limit_plus.stuck_open",
+                                                                  "limit_plus.stuck_closed",
+                                                                  "home.stuck_open",
+                                                                  "home.stuck_closed"};
+
+std::int64_t whole(double value) {
+    return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5));
+}
+
+}  // namespace
+
+AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings)
+    : kernel_(kernel),
+      settings_(settings),
+      motor_(settings.motor, state_.motor),
+      axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
+      encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
+      switches_{LimitSwitch(settings.limit_minus, axle_, state_.switches[0]),
+                LimitSwitch(settings.limit_plus, axle_, state_.switches[1]),
+                LimitSwitch(settings.home, axle_, state_.switches[2])},
+      faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
+      maker_(std::make_unique<EdgeMaker>(state_.last_edge)) {
+    id_ = kernel_.add(*this, sim::Phase::parts, name);
+    for (std::size_t i = 0; i < switches_.size(); ++i)
+        if (switches_[i].present())
+            switch_wire_[i] = kernel_.add_wire(name + '.' + std::string(switch_names[i]), switches_[i].level());
+    if (!encoder_.present()) return;
+    index_wire_ = kernel_.add_wire(name + ".enc_z", encoder_.index(0));
+    kernel_.drive_lazily(index_wire_, id_, index_pin);
+}
+
+AxisMechanics::~AxisMechanics() = default;
+
+void AxisMechanics::connect(sim::PositionFunction& pulses) {
+    MOTIONRACK_ASSERT(pulses_ == nullptr);
+    pulses_ = &pulses;
+    slot_ = pulses.add_listener(*this);
+    aim(kernel_.now());
+}
+
+std::span<const std::string_view> AxisMechanics::fault_names() {
+    return axis_machine_faults;
+}
+
+// ---- What the pulses tell
+
+void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now) {
+    // Along a ramp, whose steps the rotor follows as they come.
+    const auto follow = [this](double to) {
+        if (state_.strain.deadline == never) state_.strain.steady_hz += to - state_.motor.rate_hz;
+    };
+    follow(pulses_before);  // along a curve the rate has drifted since it was told last
+    motor_.note_rate(pulses_before);
+    feel(now);
+    if (std::fabs(rate - pulses_before) <= ramp_step * motor_.settings().start_stop_hz) follow(rate);
+    const double jump = std::fabs(rate - state_.strain.steady_hz);
+    if (motor_.in_step() && jump > motor_.settings().start_stop_hz) return strain(rate, now);
+    state_.strain.deadline = never;
+    if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
+        change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+        return;
+    }
+    const double before = state_.motor.rate_hz;
+    if (axle_.play() != 0 && (rate > 0) - (rate < 0) != (before > 0) - (before < 0)) axle_.turn(rotor_at(now));
+    motor_.note_rate(rate);
+    const double speed = std::fabs(rate);
+    if (speed > state_.top_hz) state_.top_hz = speed;
+    notify_rate(motor_.rotor_rate(before), now);
+}
+
+/// Time has passed at the present rate.
+void AxisMechanics::feel(Instant now) {
+    Strain& s = state_.strain;
+    const double part = std::min(1.0, to_seconds(now - s.steady_at) * 1e3);
+    s.steady_hz += (state_.motor.rate_hz - s.steady_hz) * part;
+    s.steady_at = now;
+}
+
+/// The motor is to follow `rate` and cannot; how long until it shows?
+void AxisMechanics::strain(double rate, Instant now) {
+    Strain& s = state_.strain;
+    const double told = state_.motor.rate_hz;
+    if (s.deadline == never) {
+        s.rate_hz = s.steady_hz;
+        s.since = now;
+        s.pulses = pulses_at(now);
+    }
+    const double full_step = static_cast<double>(motor_.settings().microsteps);
+    const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
+    const double room = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
+    if (room > 0 && apart == 0) {  // the pulses have the rotor's rate again, before it showed
+        s.deadline = never;
+        s.steady_hz = rate;
+        s.steady_at = now;
+    } else {
+        s.deadline = now + from_seconds(room > 0 ? std::min(room / apart, max_strain_s) : 0);
+    }
+    motor_.note_rate(rate);
+    put_off();
+    notify_rate(told, now);
+}
+
+/// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the
+/// pulses since then were not that fast on the whole.
+void AxisMechanics::give_way(Instant now) {
+    Strain& s = state_.strain;
+    s.deadline = never;
+    const double mean = static_cast<double>(pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
+    if (std::fabs(mean - s.rate_hz) <= motor_.settings().start_stop_hz) {
+        s.steady_hz = mean;
+        s.steady_at = now;
+        return;
+    }
+    pulses_->deliver_edges();  // those before the rotor is lost are still its own
+    const double rate = state_.motor.rate_hz;
+    motor_.note_rate(s.rate_hz);
+    change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+    s.steady_hz = rate;
+    s.steady_at = now;
+}
+
+void AxisMechanics::notify_rate(double before, Instant now) {
+    const double rate = motor_.rotor_rate(state_.motor.rate_hz);
+    listeners_[rotor_face].notify_rate(before, rate, now);
+    if (listeners_[encoder_face].size() == 0) return;
+    const auto counts = [this](double rotor) { return encoder_.present() ? encoder_.rate(rotor) : 0; };
+    listeners_[encoder_face].notify_rate(counts(before), counts(rate), now);
+}
+
+void AxisMechanics::crossed(Instant now) {
+    state_.aimed = {1, -1};  // a watch that was told of is no more
+    if (check_ends(now)) return;
+    check(now);
+}
+
+// ---- The motor
+
+template <class Change>
+void AxisMechanics::change_motor(Instant now, Change change) {
+    const std::int64_t pulses = pulses_at(now);
+    const StepperState before = state_.motor;
+    const std::int64_t rotor_before = motor_.rotor(pulses);
+    axle_.turn(rotor_before);
+    change();
+    const std::int64_t rotor = motor_.rotor(pulses);
+    axle_.turn(rotor);
+    const bool jumped = rotor != rotor_before;
+    report_change(before, rotor_before, rotor);
+    if (jumped && (edge_listeners_[rotor_face] || edge_listeners_[encoder_face])) {
+        maker_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
+        state_.edges_until = rotor;
+    }
+    check(now);
+    const double told = before.hold == RotorHold::in_step ? before.rate_hz : 0;
+    if (motor_.rotor_rate(state_.motor.rate_hz) != told) notify_rate(told, now);
+}
+
+void AxisMechanics::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
+    const StepperState& after = state_.motor;
+    auto say = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
+        kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+    };
+    const bool new_rate = before.rate_hz != after.rate_hz;
+    if (after.jammed && !before.jammed) say(AxisCondition::axle_held, rotor_before, 0);
+    if (before.hold == RotorHold::in_step && new_rate && (!motor_.in_step() || rotor != rotor_before))
+        say(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
+    if (motor_.in_step() && after.lost != before.lost)
+        say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
+}
+
+bool AxisMechanics::check_ends(Instant now) {
+    const std::int64_t rotor = rotor_at(now);
+    if (!axle_.travel().left(rotor)) return false;
+    const int direction = rotor >= axle_.travel().above ? 1 : -1;
+    const std::int64_t end = direction > 0 ? axle_.travel().above - 1 : axle_.travel().below + 1;
+    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::end_of_travel), direction, end);
+    change_motor(now, [&] { motor_.block(direction, end, pulses_at(now)); });
+    return true;
+}
+
+// ---- Crossings
+
+void AxisMechanics::check(Instant now) {
+    if (checking_) return;
+    checking_ = true;
+    const std::int64_t rotor = rotor_at(now);
+    check_switches(rotor, now);
+    if (state_.index_wanted && state_.index.left(rotor)) check_index(rotor);
+    check_faces(rotor, now);
+    checking_ = false;
+    aim(now);
+}
+
+void AxisMechanics::check_switches(std::int64_t rotor, Instant now) {
+    const std::int64_t table = axle_.table(rotor);
+    for (std::size_t i = 0; i < switches_.size(); ++i) {
+        if (!switches_[i].range().left(table)) continue;
+        switches_[i].move(table, now);
+        kernel_.set_wire(switch_wire_[i], switches_[i].level());
+    }
+}
+
+void AxisMechanics::check_index(std::int64_t rotor) {
+    // The index may be passed within one microstep: the wire shows it all the same.
+    const int level = encoder_.index(rotor);
+    if (state_.index_level == level) kernel_.set_wire(index_wire_, 1 - level);
+    kernel_.set_wire(index_wire_, level);
+    state_.index_level = level;
+    state_.index = encoder_.index_range(rotor);
+}
+
+void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
+    for (int face = 0; face < face_count; ++face) {
+        for (int i = 0; i < listeners_[face].size(); ++i) {
+            Watch& w = state_.watches[face][i];
+            if (!w.rotor.left(rotor)) continue;
+            const std::int64_t count = face == rotor_face ? rotor : encoder_.count(rotor);
+            if (w.counts.left(count)) {
+                w = {};
+                listeners_[face][i].crossed(now);
+            } else {
+                w.rotor = encoder_.rotor_range(w.counts, rotor);
+            }
+        }
+    }
+}
+
+// Watches the nearest place of all where something happens.
+void AxisMechanics::aim(Instant now) {
+    if (checking_) return;
+    const std::int64_t rotor = rotor_at(now);
+    Range all = axle_.travel();
+    bool left = all.left(rotor);
+    auto add = [&](const Range& range) {
+        if (range.left(rotor))
+            left = true;
+        else
+            all = all.within(range);
+    };
+    for (const LimitSwitch& s : switches_) add(axle_.rotor_range(s.range()));
+    if (state_.index_wanted) add(state_.index);
+    for (int face = 0; face < face_count; ++face)
+        for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
+    state_.pending = left ? now + Duration{1} : never;
+    put_off();
+    all = motor_.in_step() ? all.moved(state_.motor.lost) : Range{};
+    if (!pulses_ || all == state_.aimed) return;
+    state_.aimed = all;
+    pulses_->watch(slot_, all.below, all.above);
+}
+
+// Asks for the next instant at which something happens without a pulse.
+void AxisMechanics::put_off() {
+    Instant next = std::min(state_.pending, state_.strain.deadline);
+    for (const LimitSwitch& s : switches_) next = std::min(next, s.next());
+    kernel_.schedule(id_, next);
+}
+
+void AxisMechanics::on_scheduled(Instant now) {
+    for (std::size_t i = 0; i < switches_.size(); ++i) {
+        if (switches_[i].next() > now) continue;
+        switches_[i].act(now);
+        kernel_.set_wire(switch_wire_[i], switches_[i].level());
+    }
+    if (state_.strain.deadline <= now) give_way(now);
+    if (state_.pending <= now) {
+        state_.pending = never;
+        crossed(now);
+    }
+    put_off();
+}
+
+// ---- Faults
+
+bool AxisMechanics::fault(std::string_view name, double value, Instant now) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string_view::npos) return motor_fault(name, value, now) || encoder_fault(name, value, now);
+    const std::string_view part = name.substr(0, dot);
+    const std::string_view what = name.substr(dot + 1);
+    if (part == "motor") return motor_fault(what, value, now);
+    if (part == "encoder") return encoder_fault(what, value, now);
+    for (std::size_t i = 0; i < switch_names.size(); ++i)
+        if (part == switch_names[i]) return switch_fault(static_cast<int>(i), what, value);
+    return false;
+}
+
+bool AxisMechanics::motor_fault(std::string_view name, double value, Instant now) {
+    constexpr double most = 1e12;  // microsteps
+    if (!(std::fabs(value) <= most)) return false;
+    if (name == "stall") {
+        change_motor(now, [&] { motor_.jam(value != 0, pulses_at(now)); });
+    } else if (name == "lose_steps") {
+        const double back = state_.motor.rate_hz < 0 ? value : -value;
+        change_motor(now, [&] { motor_.push(whole(back), pulses_at(now)); });
+    } else if (name == "push") {
+        change_motor(now, [&] { motor_.push(whole(value), pulses_at(now)); });
+    } else {
+        return false;
+    }
+    check_ends(now);
+    return true;
+}
+
+bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant now) {
+    const LineFault fault = name == "broken_a"   ? LineFault::broken_a
+                            : name == "broken_b" ? LineFault::broken_b
+                            : name == "swapped"  ? LineFault::swapped
+                                                 : LineFault::none;
+    if (fault == LineFault::none || !encoder_.present()) return false;
+    if (value == 0 && encoder_.fault() != fault) return true;
+    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t before = encoder_.count(rotor);
+    encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
+    if (edge_listeners_[encoder_face])
+        maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
+    for (int i = 0; i < listeners_[encoder_face].size(); ++i) {
+        Watch& w = state_.watches[encoder_face][i];
+        w.rotor = encoder_.rotor_range(w.counts, rotor);
+    }
+    aim(now);
+    notify_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
+    return true;
+}
+
+bool AxisMechanics::switch_fault(int i, std::string_view name, double value) {
+    const auto at = static_cast<std::size_t>(i);
+    const SwitchFault fault = name == "stuck_open"     ? SwitchFault::stuck_open
+                              : name == "stuck_closed" ? SwitchFault::stuck_closed
+                                                       : SwitchFault::none;
+    if (fault == SwitchFault::none || !switches_[at].present()) return false;
+    if (value == 0 && state_.switches[at].fault != fault) return true;
+    switches_[at].set_fault(value != 0 ? fault : SwitchFault::none);
+    kernel_.set_wire(switch_wire_[at], switches_[at].level());
+    return true;
+}
+
+}  // namespace motionrack::parts

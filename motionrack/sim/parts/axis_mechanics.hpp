@@ -1,0 +1,207 @@
+// One axis of a machine: motor, axle, encoder and switches behind the pulses of a card.
+//
+//   card's pulses ──Motion──► Stepper ──rotor()──► Transmission ──► position(t) in mm or degrees
+//                               │                   └─► limit_plus, limit_minus, home   (wires)
+//                               └─► Encoder ──encoder() Motion──► card,  enc_z          (lazy wire)
+//
+// Nothing is done for a pulse. The machine takes one listener slot of the pulses and watches there the nearest place
+// where anything happens: a switch, the index if someone wants it, an end of travel, a watch on rotor() or encoder(). A
+// step of the pulse rate costs one comparison. Edges are made only while someone listens to them.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
+#include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/encoder.hpp>
+#include <motionrack/sim/parts/limit_switch.hpp>
+#include <motionrack/sim/parts/stepper.hpp>
+#include <motionrack/sim/parts/transmission.hpp>
+#include <motionrack/sim/position_function.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace motionrack::parts {
+
+/// Positions are mm (linear) or degrees (rotary), as axle.travel_per_rev has it.
+struct AxisMechanicsSettings {
+    StepperSettings motor;
+    TransmissionSettings axle;
+    EncoderSettings encoder;
+    LimitSwitchSettings limit_minus{.position = {}, .side = SwitchSide::at_and_below};
+    LimitSwitchSettings limit_plus{.position = {}, .side = SwitchSide::at_and_above};
+    LimitSwitchSettings home{.position = {}, .side = SwitchSide::at_and_below};
+};
+
+class AxisMechanics final : public sim::Device, private sim::PositionListener, private sim::EdgeListener {
+  public:
+    /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home
+    /// where there is such a switch, NAME.enc_z (lazily driven) where there is an encoder.
+    AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings);
+    ~AxisMechanics() override;
+    AxisMechanics(const AxisMechanics&) = delete;
+    AxisMechanics& operator=(const AxisMechanics&) = delete;
+
+    /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its
+    /// start position and is that of the pulses on the wire: writing a card's position register must not change it.
+    void connect(sim::PositionFunction& pulses);
+
+    /// The rotor in microsteps (pulses), 0 at the start. Up to Motion::max_listeners listeners, one edge listener.
+    sim::PositionFunction& rotor();
+    /// The encoder's counts as a decoder at the end of its lines sees them, 0 at the start. As rotor(); without encoder
+    /// it stays 0.
+    sim::PositionFunction& encoder();
+    bool has_encoder() const { return encoder_.present(); }
+    /// The lines A and B at `t`.
+    Lines encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
+    /// Hears the edges of the pulses themselves, of which there can be one listener only: this machine, if it makes
+    /// edges.
+    void listen_pulse_edges(sim::EdgeListener* listener);
+
+    /// The truth: where the table is at `t` (not before the last event, not after the present), mm or degrees.
+    double position(Instant t) const { return axle_.position(rotor_at(t)); }
+    /// How fast the rotor moves the table by the present law, mm/s or degrees/s, signed.
+    double speed() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
+    /// Pulses - rotor at `t`: 0 while nothing was lost; a multiple of 4 full steps while in step.
+    std::int64_t lost_steps(Instant t) const { return pulses_at(t) - rotor_at(t); }
+    std::int64_t lost_steps() const { return lost_steps(kernel_.now()); }
+    bool in_step() const { return motor_.in_step(); }
+    /// The greatest speed so far at which the motor was in step, mm/s or degrees/s.
+    double top_speed() const { return state_.top_hz * axle_.units_per_pulse(); }
+    double units_per_pulse() const { return axle_.units_per_pulse(); }
+
+    /// The machine's wires; WireId::none if the part is absent.
+    sim::WireId limit_minus_wire() const { return switch_wire_[0]; }
+    sim::WireId limit_plus_wire() const { return switch_wire_[1]; }
+    sim::WireId home_wire() const { return switch_wire_[2]; }
+    sim::WireId index_wire() const { return index_wire_; }
+    sim::DeviceId id() const { return id_; }
+    const AxisMechanicsSettings& settings() const { return settings_; }
+    const LimitSwitch& limit_minus() const { return switches_[0]; }
+    const LimitSwitch& limit_plus() const { return switches_[1]; }
+    const LimitSwitch& home() const { return switches_[2]; }
+
+    /// The faults that fault() knows:
+    ///   motor.stall            the axle is held fast while not 0
+    ///   motor.lose_steps n     the rotor falls back against its motion by about n pulses (see Stepper::push)
+    ///   motor.push n           the rotor is moved by about n microsteps
+    ///   encoder.broken_a, encoder.broken_b, encoder.swapped       while not 0, one at a time
+    ///   S.stuck_open, S.stuck_closed   while not 0; S: limit_minus, limit_plus, home
+    static std::span<const std::string_view> fault_names();
+
+    void on_scheduled(Instant now) override;
+    int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    static constexpr int switch_count = 3;
+    static constexpr int slots = sim::PositionFunction::max_listeners;
+    enum MechanicsAdapter : int { rotor_face, encoder_face, face_count };
+
+    class MechanicsPosition final : public sim::PositionFunction {
+      public:
+        MechanicsPosition(AxisMechanics& machine, MechanicsAdapter face) : machine_(machine), face_(face) {}
+        std::int64_t count(Instant t) const override { return machine_.face_count_at(face_, t); }
+        double rate(Instant t) const override { return machine_.face_rate(face_, t); }
+        void watch(int slot, std::int64_t below, std::int64_t above) override {
+            machine_.watch(face_, slot, {below, above});
+        }
+        int add_listener(sim::PositionListener& listener) override { return machine_.add_listener(face_, listener); }
+        void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
+        void deliver_edges() override { machine_.pulses_->deliver_edges(); }
+
+      private:
+        AxisMechanics& machine_;
+        MechanicsAdapter face_;
+    };
+    struct Watch {
+        Range counts;  // what the listener asked for
+        Range rotor;   // the same, in microsteps
+    };
+    /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have
+    /// gone one full step away from where the rate before would have them, not sooner: a pulse early or late does no
+    /// harm.
+    struct Strain {
+        double steady_hz =
+            0;  // the rate as the rotor's inertia feels it: the pulses' rate, its jumps smoothed over a millisecond
+        Instant steady_at{};
+        double rate_hz = 0;  // the steady rate when the strain began
+        Instant since{};
+        Instant deadline = never;  // never: no strain
+        std::int64_t pulses = 0;   // at `since`
+    };
+    struct State {
+        StepperState motor;
+        Strain strain;
+        TransmissionState axle;
+        EncoderState encoder;
+        std::array<LimitSwitchState, switch_count> switches;
+        std::array<std::array<Watch, slots>, face_count> watches;
+        Range index;  // rotor range in which the index line does not change, while it is wanted
+        Range aimed;  // what is watched at the pulses
+        double top_hz = 0;
+        Instant pending = never;       // when a watch that is left already is to be told
+        std::int64_t edges_until = 0;  // the rotor after the last edge handed over
+        Instant last_edge{};           // the instant of that edge
+        std::int32_t index_wanted = 0;
+        std::int32_t index_level = 0;
+    };
+
+    void crossed(Instant now) override;
+    void rate_changed(double before, double rate, Instant now) override;
+    void edges(const sim::EdgeBatch& batch) override;
+
+    std::int64_t pulses_at(Instant t) const { return pulses_ ? pulses_->count(t) : 0; }
+    std::int64_t rotor_at(Instant t) const { return motor_.rotor(pulses_at(t)); }
+    std::int64_t face_count_at(MechanicsAdapter face, Instant t) const;
+    double face_rate(MechanicsAdapter face, Instant t) const;
+    void watch(MechanicsAdapter face, int slot, Range counts);
+    int add_listener(MechanicsAdapter face, sim::PositionListener& listener);
+    void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
+
+    /// Runs `change` of the motor, which may move the rotor or take it out of step, and lets everything know.
+    template <class Change>
+    void change_motor(Instant now, Change change);
+    void report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor);
+    void check(Instant now);
+    void check_faces(std::int64_t rotor, Instant now);
+    void check_index(std::int64_t rotor);
+    void check_switches(std::int64_t rotor, Instant now);
+    bool check_ends(Instant now);
+    void aim(Instant now);
+    void put_off();
+    void feel(Instant now);
+    void strain(double rate, Instant now);
+    void give_way(Instant now);
+    void notify_rate(double before, Instant now);
+    bool motor_fault(std::string_view name, double value, Instant now);
+    bool encoder_fault(std::string_view name, double value, Instant now);
+    bool switch_fault(int i, std::string_view name, double value);
+
+    class EdgeMaker;
+
+    sim::Kernel& kernel_;
+    AxisMechanicsSettings settings_;
+    sim::DeviceId id_{};
+    State state_{};
+    Stepper motor_;
+    Transmission axle_;
+    Encoder encoder_;
+    std::array<LimitSwitch, switch_count> switches_;
+    std::array<sim::WireId, switch_count> switch_wire_{sim::WireId::none, sim::WireId::none, sim::WireId::none};
+    sim::WireId index_wire_ = sim::WireId::none;
+    sim::PositionFunction* pulses_ = nullptr;
+    int slot_ = 0;
+    std::array<MechanicsPosition, face_count> faces_;
+    std::array<sim::Listeners, face_count> listeners_;
+    std::array<sim::EdgeListener*, face_count> edge_listeners_{};
+    sim::EdgeListener* pulse_edges_ = nullptr;
+    std::unique_ptr<EdgeMaker> maker_;
+    bool checking_ = false;  // within check(): aim() waits for its end
+};
+
+}  // namespace motionrack::parts

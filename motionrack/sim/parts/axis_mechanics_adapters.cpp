@@ -1,0 +1,87 @@
+// What others see and hear of one axis: rotor and encoder as motions, the index wire, the edges.
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/axis_mechanics.hpp>
+#include <motionrack/sim/parts/edge_generator.hpp>
+
+namespace motionrack::parts {
+
+sim::PositionFunction& AxisMechanics::rotor() {
+    return faces_[rotor_face];
+}
+sim::PositionFunction& AxisMechanics::encoder() {
+    return faces_[encoder_face];
+}
+std::int64_t AxisMechanics::face_count_at(MechanicsAdapter face, Instant t) const {
+    if (face == rotor_face) return rotor_at(t);
+    return encoder_.present() ? encoder_.count(rotor_at(t)) : 0;
+}
+
+double AxisMechanics::face_rate(MechanicsAdapter face, Instant t) const {
+    const double rotor = pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0;
+    if (face == rotor_face) return rotor;
+    return encoder_.present() ? encoder_.rate(rotor) : 0;
+}
+
+int AxisMechanics::add_listener(MechanicsAdapter face, sim::PositionListener& listener) {
+    return listeners_[face].add(listener);
+}
+
+void AxisMechanics::watch(MechanicsAdapter face, int slot, Range counts) {
+    MOTIONRACK_ASSERT(slot >= 0 && slot < listeners_[face].size());
+    Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
+    const Instant now = kernel_.now();
+    w.counts = counts;
+    if (face == rotor_face)
+        w.rotor = counts;
+    else
+        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, rotor_at(now)) : Range{};
+    aim(now);
+}
+
+// ---- The index wire
+
+int AxisMechanics::level_at(int, Instant now) const {
+    return encoder_.index(rotor_at(now));
+}
+
+void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
+    const std::int64_t rotor = rotor_at(now);
+    state_.index_wanted = wanted;
+    state_.index_level = encoder_.index(rotor);
+    state_.index = wanted ? encoder_.index_range(rotor) : Range{};
+    aim(now);
+}
+
+// ---- Edges
+
+void AxisMechanics::set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener) {
+    MOTIONRACK_ASSERT(pulses_ != nullptr);
+    const bool before = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
+    edge_listeners_[face] = face == encoder_face && !encoder_.present() ? nullptr : listener;
+    const bool after = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
+    if (after && !before) state_.edges_until = rotor_at(kernel_.now());
+    pulses_->set_edge_listener(after || pulse_edges_ ? this : nullptr);
+}
+
+void AxisMechanics::listen_pulse_edges(sim::EdgeListener* listener) {
+    MOTIONRACK_ASSERT(pulses_ != nullptr);
+    pulse_edges_ = listener;
+    pulses_->set_edge_listener(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
+                                                                                                            : nullptr);
+}
+
+void AxisMechanics::edges(const sim::EdgeBatch& batch) {
+    if (pulse_edges_) pulse_edges_->edges(batch);
+    if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
+    std::int64_t size = batch.size;
+    // A rotor that has just met its end of travel still owes the edges up to there; one that stands owes none.
+    if (!motor_.in_step())
+        size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
+    if (size == 0) return;
+    const std::int64_t first =
+        motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
+    state_.edges_until = first + batch.step * (size - 1);
+    maker_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,44 @@
+// The speed of a track, changed.
+#include <array>
+#include <cmath>
+#include <motionrack/sim/parts/conveyor_drive.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "drive.profile"};
+}
+
+ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double greatest_speed)
+    : track_(track), max_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+
+std::span<const std::string_view> ConveyorDrive::fault_names() {
+    return track_drive_faults;
+}
+
+bool ConveyorDrive::fault(std::string_view name, double value, Instant now) {
+    const bool by_hand = name == track_drive_faults[0];
+    if (!by_hand && name != track_drive_faults[1]) return false;
+    if (!(std::fabs(value) <= max_speed_)) return false;
+    if (!by_hand) return go_on(now), true;
+    change(now, [value](Conveyor& track, double at_s) { track.drive(at_s, value); });
+    return true;
+}
+
+void ConveyorDrive::stop(Instant now) {
+    change(now, [](Conveyor& track, double at_s) { track.stop(at_s); });
+}
+
+void ConveyorDrive::go_on(Instant now) {
+    change(now, [](Conveyor& track, double at_s) { track.follow_profile(at_s); });
+}
+
+template <class Change>
+void ConveyorDrive::change(Instant now, Change&& how) {
+    for (ConveyorPosition* motion : motions_) motion->deliver_edges();
+    const double speed_before = track_.speed(to_seconds(now));
+    how(track_, to_seconds(now));
+    for (ConveyorPosition* motion : motions_) motion->changed(speed_before);
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,53 @@
+// What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile
+// says again.
+//
+//   ConveyorDrive ──► Conveyor ──┬─► ConveyorPosition: counts of an encoder
+//                                ├─► ConveyorPosition: position of the parts
+//                                └─► ScanHead, SerialWordSource
+//
+// The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile
+// (its own profile again).
+#pragma once
+
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/parts/conveyor.hpp>
+#include <motionrack/sim/parts/conveyor_position.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::parts {
+
+class ConveyorDrive final : public sim::Device {
+  public:
+    /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most max_track_speed.
+    ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
+                  double greatest_speed = max_track_speed);
+
+    const Conveyor& track() const { return track_; }
+    sim::DeviceId id() const { return id_; }
+    /// Before the start: hears that the speed has changed.
+    void add(ConveyorPosition& motion) { motions_.push_back(&motion); }
+    static std::span<const std::string_view> fault_names();
+
+    // ---- between runs
+    /// Brakes to a standstill, with its deceleration; `go_on`: as its profile says.
+    void stop(Instant now);
+    void go_on(Instant now);
+    bool stopped(Instant now) const { return track_.by_hand() && track_.speed(to_seconds(now)) == 0; }
+
+    void on_scheduled(Instant) override {}
+    std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    template <class Change>
+    void change(Instant now, Change&& how);
+
+    Conveyor track_;
+    double max_speed_;
+    std::vector<ConveyorPosition*> motions_;
+    sim::DeviceId id_{};
+};
+
+}  // namespace motionrack::parts

@@ -1,0 +1,56 @@
+// Position words, read and sent.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/sim/parts/serial_position_source.hpp>
+
+namespace motionrack::parts {
+
+Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, const SerialPositionSettings& s) {
+    const auto within = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
+    if (!within(std::abs(s.bits_per_mm), 1e-6, 1e9))
+        return fail(
+            ErrorKind::refused,
+            fmt::format("a position sender with {} bits/mm: 0.000001 to 1e9 are possible, or negative", s.bits_per_mm));
+    if (!within(s.period_us, 1, 1e6) || !within(s.delay_us, 0, 1e6))
+        return fail(
+            ErrorKind::refused,
+            fmt::format(
+                "a position sender with a period of {} us and a delay of {} us: 1 and 0 to 1000000 us are possible",
+                s.period_us, s.delay_us));
+    if (s.two_axes && track.settings().rotary)
+        return fail(
+            ErrorKind::refused,
+            "a position sender with two axes on a rotary table: a table has one angle; use a belt, or one axis");
+    SerialPositionSource out;
+    out.track_ = &track;
+    out.settings_ = s;
+    const SinCos t = sin_cos(track.settings().direction_deg * (pi / 180));
+    out.cosine_ = t.cos, out.sine_ = t.sin;
+    return out;
+}
+
+std::uint32_t SerialPositionSource::word_at(double t_s) const {
+    const double way = track_->travel(t_s) * settings_.bits_per_mm;
+    const auto whole = [](double v) {
+        return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v + 0.5)));
+    };
+    if (!settings_.two_axes) return whole(way);
+    return (whole(way * cosine_) & 0xFFFF) | whole(way * sine_) << 16;
+}
+
+void SerialPositionSource::words(std::int64_t first_tick, std::span<std::uint32_t> out) const {
+    double read_before = std::numeric_limits<double>::quiet_NaN();
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double us = static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * 10 - settings_.delay_us;
+        const double reading = std::floor(us / settings_.period_us);
+        if (reading != read_before) word = word_at(reading * settings_.period_us * 1e-6);
+        read_before = reading;
+        out[i] = word;
+    }
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,36 @@
+// A source of position words for a card's serial input: it reads a track now and then and sends what it read, late.
+//
+//   read at n * period ──► delay ──► word complete        one axis: 32 bits; two axes: X low, Y high 16 bits
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/conveyor.hpp>
+#include <span>
+
+namespace motionrack::parts {
+
+struct SerialPositionSettings {
+    double bits_per_mm = 1000;  ///< resolution, +-1e-6 .. 1e9; of a rotary table: bits a degree
+    double period_us = 10;      ///< between readings, 1 .. 1e6
+    double delay_us = 0;        ///< from a reading to its word, 0 .. 1e6
+    bool two_axes = false;      ///< X and Y of a belt's movement in one word
+};
+
+class SerialPositionSource {
+  public:
+    /// `track` must live as long. Refused: numbers that are none or out of range.
+    static Result<SerialPositionSource> make(const Conveyor& track, const SerialPositionSettings& settings);
+    /// The latest complete word at ticks of 10 us: first, first + 1, ..; it has been reading since long before 0 s.
+    void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
+    /// The word of a reading at t_s.
+    std::uint32_t word_at(double t_s) const;
+    const SerialPositionSettings& settings() const { return settings_; }
+
+  private:
+    const Conveyor* track_ = nullptr;
+    SerialPositionSettings settings_;
+    double cosine_ = 1, sine_ = 0;
+};
+
+}  // namespace motionrack::parts

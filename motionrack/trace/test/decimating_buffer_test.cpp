@@ -1,0 +1,33 @@
+// Of any number of samples so many are kept, and the worst deviation whichever sample it belongs to.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <motionrack/trace/decimating_buffer.hpp>
+
+namespace motionrack::trace {
+namespace {
+
+TEST(ASampleKeeper, KeepsAllWhileTheyAreFew) {
+    DecimatingBuffer<int> keeper(16);
+    for (int i = 0; i < 16; ++i) keeper.add(i, 0.5 * i);
+    ASSERT_EQ(keeper.samples().size(), 16u);
+    EXPECT_EQ(keeper.samples()[5], 5);
+    EXPECT_EQ(keeper.deviations()[5], 2.5);
+}
+
+TEST(ASampleKeeper, KeepsTheGreatestDeviationWhereverItIs) {
+    constexpr int all = 1000;
+    for (int worst = 0; worst < all; ++worst) {
+        DecimatingBuffer<int> keeper(16);
+        for (int i = 0; i < all; ++i) keeper.add(i, i == worst ? 7 : 1);
+        ASSERT_LE(keeper.samples().size(), 16u);
+        ASSERT_EQ(keeper.samples().size(), keeper.deviations().size());
+        const auto found = std::max_element(keeper.deviations().begin(), keeper.deviations().end());
+        ASSERT_EQ(*found, 7) << "of sample " << worst;
+        ASSERT_LE(keeper.samples()[static_cast<std::size_t>(found - keeper.deviations().begin())], worst)
+            << "it is told at the sample that it became one with";
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::trace

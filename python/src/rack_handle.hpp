@@ -1,0 +1,140 @@
+// A rack as Python has it: not started until something needs its time, then run in slices between which Python is
+// heard.
+//
+//   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
+//                      ├─► WireAccess, WireTap, WaveRecorder
+//                      └─► RunBreaker ──break_run──► service_run(): faults that are due, samples, recordings, Ctrl-C
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <motionrack/rack/fault_schedule.hpp>
+#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
+#include <optional>
+#include <python/src/host.hpp>
+#include <python/src/run_breaker.hpp>
+#include <python/src/sampler.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::python {
+
+/// A part program and what goes with it.
+struct ProgramInput {
+    std::string text, name;
+    std::string folder;  ///< where its subprograms lie; empty: it has none but its own
+    std::string tools,
+        tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; an empty name: there is none
+    bool block_delete = false;
+};
+
+class RackHandle final : public Host {
+  public:
+    explicit RackHandle(const rack::RackConfig& config);
+    ~RackHandle() override;
+    RackHandle(const RackHandle&) = delete;
+    RackHandle& operator=(const RackHandle&) = delete;
+
+    const rack::RackConfig& config() const { return config_; }
+    /// Throws a refusal once the world was closed.
+    rack::Rack& rack();
+    /// The same, started.
+    rack::Rack& running();
+    const rack::WireAccess& desk() { return running(), *desk_; }
+    bool started() const { return rack_ && rack_->started(); }
+    bool closed() const { return rack_ == nullptr; }
+    Instant now() override { return rack().kernel().now(); }
+    void close();
+
+    // ---- before it is started
+    /// "X.limit_plus=0@0.5s": see FaultSchedule. Errors: refused in a started rack, and those of the plan; none is
+    /// planned then.
+    Result<void> plan_faults(const std::vector<std::string>& texts);
+    std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
+    /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
+    Result<void> set_sample_period(Duration period);
+
+    /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
+    Result<void> set_profile(const std::string& profile);
+
+    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be
+    /// sound; whether it fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input;
+    /// nothing is changed.
+    Result<void> set_card(const std::string& card, const std::string& key, double value);
+
+    // ---- time
+    /// Errors: refused (beyond latest), stopped (Ctrl-C).
+    Result<void> advance(Duration time);
+    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: bad_input,
+    /// stopped.
+    Result<bool> wait_wire(const std::string& wire, int level, Duration timeout);
+    static constexpr Instant latest{never.count() / 2};
+
+    // ---- wires
+    Result<void> set_wire(const std::string& name, double value);
+
+    // ---- part programs, one after the other, from where the axes stand
+    /// How the program is read, which is good; else throws every problem, in the order of its lines, or why none can
+    /// begin now. Nothing moves.
+    control::gcode::Settings check(const ProgramInput& program) const;
+    /// A program that check() has found good, and how it is read. `superseded` is called before the samples of the next
+    /// one take the place of its own.
+    Result<rack::JobOutcome> run(const ProgramInput& program, control::gcode::Settings reading,
+                                 std::function<void()> superseded);
+    /// See home_axes; `settings.stop` is this world's own.
+    rack::HomingOutcome home(rack::HomingSettings settings);
+    const rack::Job* job() const { return job_.get(); }
+    const std::string& program() const { return program_.text; }
+    const std::string& program_name() const { return program_.name; }
+
+    // ---- samples and waves
+    Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most);
+    Result<Sampler> end_samples();
+    Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
+    Result<void> end_waves();
+
+    // ---- the whole world
+    /// A world of its own in the same state; recordings stay with this one.
+    std::shared_ptr<RackHandle> copy();
+    void copy_from(RackHandle& other);
+
+    // ---- who looks on
+    /// Between runs, at least every 50 ms of virtual time, and where the bell rings.
+    void on_look(std::function<void()> call) { look_ = std::move(call); }
+    /// Of a program, about every 50 ms of virtual time; empty: nobody.
+    void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
+    /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look.
+    /// While a driver or a job runs the rack, its host calls this.
+    void service_run();
+    /// After something else had the host's slices (a job, a homing).
+    void listen_again();
+
+  private:
+    bool is_built_like(RackHandle& other);
+    void build();
+    void start();
+    Result<void> run_to(Instant until, const std::function<bool()>& enough = {});
+    rack::JobSettings job_settings();
+    control::gcode::Settings reading_of(const ProgramInput& program) const;
+
+    rack::RackConfig config_;
+    ProgramInput program_;
+    std::vector<std::string> fault_texts_;
+    Duration sample_period_ = milliseconds(1);
+    std::function<void()> look_, superseded_;
+    std::function<void(const rack::JobProgress&)> progress_;
+
+    std::unique_ptr<rack::Rack> rack_;
+    std::unique_ptr<rack::WireAccess> desk_;
+    std::unique_ptr<rack::FaultSchedule> plan_;
+    std::unique_ptr<rack::Job> job_;
+    std::unique_ptr<RunBreaker> bell_;
+    std::unique_ptr<rack::WireTap> tap_;
+    std::unique_ptr<rack::WaveRecorder> recorder_;
+    Instant next_register_look_ = never;
+    std::optional<Sampler> sampler_;
+};
+
+}  // namespace motionrack::python

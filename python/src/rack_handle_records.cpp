@@ -1,0 +1,94 @@
+// Samples, waves and copies of a world.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <python/src/python_error.hpp>
+#include <python/src/rack_handle.hpp>
+
+namespace motionrack::python {
+
+Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
+    running();
+    if (sampler_)
+        return fail(ErrorKind::refused,
+                    "A recording runs already; stop it before the next one is started. It goes on.");
+    if (period < microseconds(1) || period > whole_seconds(3600))
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
+    if (most < 2 || most > 100'000'000)
+        return fail(ErrorKind::refused,
+                    fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
+    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
+    sampler_ = std::move(sampler);
+    bell_->break_every(period);
+    if (bell_->take_break() != never) sampler_->take(now());
+    return {};
+}
+
+Result<Sampler> RackHandle::end_samples() {
+    rack();
+    if (!sampler_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
+    sampler_->take(now());
+    bell_->ring_no_more();
+    Sampler out = std::move(*sampler_);
+    sampler_.reset();
+    return out;
+}
+
+Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
+    running();
+    if (recorder_)
+        return fail(ErrorKind::refused, "Waves are recorded already; end that before the next file. It goes on.");
+    rack::WaveSettings settings;
+    settings.path = path;
+    MOTIONRACK_TRY(settings.format, rack::wave_format(path));
+    settings.tap = tap_.get();
+    settings.signals = signals;
+    MOTIONRACK_TRY(recorder_, rack::WaveRecorder::create(*rack_, settings));
+    next_register_look_ = now();
+    return {};
+}
+
+Result<void> RackHandle::end_waves() {
+    rack();
+    if (!recorder_) return fail(ErrorKind::refused, "No waves are recorded; nothing was done.");
+    const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
+    next_register_look_ = never;
+    return ended->finish();
+}
+
+std::shared_ptr<RackHandle> RackHandle::copy() {
+    running();
+    auto out = std::make_shared<RackHandle>(config_);
+    out->fault_texts_ = fault_texts_;
+    out->sample_period_ = sample_period_;
+    out->copy_from(*this);
+    return out;
+}
+
+/// Whether the state of one can be that of the other: the same cards in the same places, as many parts and wires.
+bool RackHandle::is_built_like(RackHandle& other) {
+    const sim::Kernel &own = running().kernel(), &its = other.running().kernel();
+    const auto same = [](const rack::RackCard& a, const rack::RackCard& b) {
+        return a.name == b.name && a.type == b.type;
+    };
+    return own.device_count() == its.device_count() && own.wire_count() == its.wire_count() &&
+           std::equal(config_.cards.begin(), config_.cards.end(), other.config_.cards.begin(),
+                      other.config_.cards.end(), same);
+}
+
+void RackHandle::copy_from(RackHandle& other) {
+    running();
+    other.running();
+    if (!is_built_like(other)) refuse("The snapshot is of a rack of another kind; nothing was done.");
+    if (sampler_ || recorder_) refuse("A recording runs, and time would jump in it; nothing was done. Stop it first.");
+    rack_->copy_from(*other.rack_);
+    desk_->copy_from(*other.desk_);
+    plan_->copy_from(*other.plan_);
+    bell_->ring_no_more();
+    listen_again();
+    if (job_) job_->copy_from(*other.job_);
+}
+
+}  // namespace motionrack::python
