@@ -64,7 +64,7 @@ using AuthResult = tl::expected<T, AuthError>;
 
 class Authenticator {
   public:
-    /// Errors: io, bad_input: the users file cannot be read, is not one, or others may write it.
+    /// Errors: io, invalid_input: the users file cannot be read, is not one, or others may write it.
     static Result<std::unique_ptr<Authenticator>> open(AuthSettings settings);
 
     struct Paired {

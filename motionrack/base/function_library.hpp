@@ -69,7 +69,7 @@ struct CheckedCall {
     std::size_t function = 0;
     std::vector<std::int64_t> values;
 };
-/// Errors: bad_input, with the functions or arguments that there are, or the range; nothing was called.
+/// Errors: invalid_input, with the functions or arguments that there are, or the range; nothing was called.
 Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::string_view name,
                                const std::map<std::string, std::int64_t, std::less<>>& arguments);
 

@@ -23,7 +23,7 @@ constexpr ReadLimit toml{std::size_t{16} << 20, "a file of settings"};
 constexpr ReadLimit users{std::size_t{4} << 20, "a users file"};
 }  // namespace read_limits
 
-/// Errors: io (it cannot be read, is a folder, or a FIFO to which nothing was written), bad_input (it is too long).
+/// Errors: io (it cannot be read, is a folder, or a FIFO to which nothing was written), invalid_input (it is too long).
 Result<std::string> read_whole_file(const std::string& path, const ReadLimit& limit);
 /// The same of an open file, which stays open; `name` is for the sentences. Errors: as read_whole_file.
 Result<std::string> read_descriptor(int file, const std::string& name, const ReadLimit& limit);

@@ -67,9 +67,9 @@ class ProgramExecutor {
     /// Called with each move as the program has it (dwells, too), and where it starts, long before it is driven.
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
-    /// Drives a program that check_program found nothing wrong with. Errors: bad_input (with place) if the reader finds
-    /// a problem all the same: the axes then finish what was read before and stand; machine and stopped as AxisGroup
-    /// says. `run` is filled as far as it went.
+    /// Drives a program that check_program found nothing wrong with. Errors: invalid_input (with place) if the reader
+    /// finds a problem all the same: the axes then finish what was read before and stand; machine and stopped as
+    /// AxisGroup says. `run` is filled as far as it went.
     Result<void> run(std::string_view text, const std::string& file, ProgramResult& run);
 
   private:

@@ -16,7 +16,7 @@ struct PublisherSettings {
 
 class Publisher {
   public:
-    /// Errors: bad_input (name, domain, period or pace outside 1 us to 60 s), io.
+    /// Errors: invalid_input (name, domain, period or pace outside 1 us to 60 s), io.
     static Result<std::unique_ptr<Publisher>> open(const PublisherSettings& settings);
     virtual ~Publisher() = default;
 

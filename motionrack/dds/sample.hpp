@@ -52,9 +52,9 @@ inline constexpr Duration max_period = whole_seconds(60);  ///< of the bus and i
 
 std::uint32_t check_of(const Sample& sample);
 
-/// Bus names: letters, digits, '_' and '-', 1 to 64 of them. Errors: bad_input.
+/// Bus names: letters, digits, '_' and '-', 1 to 64 of them. Errors: invalid_input.
 Result<void> check_bus_name(std::string_view name);
-/// DDS domains are 0 to 232. Errors: bad_input.
+/// DDS domains are 0 to 232. Errors: invalid_input.
 Result<void> check_domain(int domain);
 
 }  // namespace motionrack::dds

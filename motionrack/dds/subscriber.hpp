@@ -21,7 +21,7 @@ struct SubscriberSettings {
 
 class Subscriber {
   public:
-    /// Errors: bad_input (name, domain), io (no network interface, a wrong configuration).
+    /// Errors: invalid_input (name, domain), io (no network interface, a wrong configuration).
     static Result<std::unique_ptr<Subscriber>> open(const SubscriberSettings& settings);
     virtual ~Subscriber() = default;
 

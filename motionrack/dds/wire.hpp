@@ -56,7 +56,7 @@ class Entity {
     dds_entity_t handle_;
 };
 
-/// A participant in a domain; what else is made belongs to it and goes with it. Errors: bad_input, io.
+/// A participant in a domain; what else is made belongs to it and goes with it. Errors: invalid_input, io.
 Result<Entity> join(const std::string& bus, int domain);
 /// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader does not hear this participant's
 /// writers.

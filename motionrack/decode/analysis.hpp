@@ -63,7 +63,7 @@ struct Analysis {
     bool stopped = false;
 };
 
-/// Reads the capture to its end. Errors: refused (window), bad_input with its place, io.
+/// Reads the capture to its end. Errors: refused (window), invalid_input with its place, io.
 Result<Analysis> analyse(Capture& capture, const std::vector<ChannelSelection>& choices,
                          const AnalysisSettings& settings);
 

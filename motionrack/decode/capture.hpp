@@ -66,7 +66,7 @@ class Capture {
     const std::vector<std::size_t>& chosen() const { return chosen_; }
     const LineFacts& facts(std::size_t line) const { return facts_[line]; }
 
-    /// False at the end; the block is valid until the next call. Errors: bad_input with its place, io.
+    /// False at the end; the block is valid until the next call. Errors: invalid_input with its place, io.
     virtual Result<bool> next(Block& block) = 0;
     /// After the end: where the file is cut off, if it is.
     const std::optional<Error>& cut() const { return cut_; }
@@ -96,11 +96,11 @@ class Capture {
     bool timed_ = false;
 };
 
-/// Reads the head of a capture. `name`: for messages and to guess the format. Errors: bad_input with its place, io.
+/// Reads the head of a capture. `name`: for messages and to guess the format. Errors: invalid_input with its place, io.
 Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name,
                                               const CaptureSettings& settings);
 
-/// A sample rate as people write it: "24000000", "24M", "24 MHz", "500k", "1e6". Errors: bad_input.
+/// A sample rate as people write it: "24000000", "24M", "24 MHz", "500k", "1e6". Errors: invalid_input.
 Result<double> read_rate(std::string_view text);
 
 // ---- one reader each

@@ -18,7 +18,7 @@ struct ChannelSelection {
 
 /// `texts`: "X=a,b" or "X=a,b,z", each line by its name, by the end of its name ("enc_a" for "top.X.enc_a"), or by its
 /// number in the list of signals (of raw files the bit). None: signals named X.enc_a, X.enc_b (X_enc_a ..), or else
-/// X.a, X.b, with their z. Errors: bad_input, with the names there are.
+/// X.a, X.b, with their z. Errors: invalid_input, with the names there are.
 Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::string>& signals,
                                                       const std::vector<std::string>& texts);
 

@@ -91,7 +91,7 @@ class Journal {
     /// Writes what waits and ends the run clean. Errors: io; also where something could not be written before.
     Result<void> close();
 
-    /// Any thread: the newest entries that fit, oldest first. Errors: io, bad_input (limit).
+    /// Any thread: the newest entries that fit, oldest first. Errors: io, invalid_input (limit).
     Result<std::vector<Entry>> read(const JournalQuery& question) const;
     /// Any thread: reads all entries and their chain. Errors: io.
     Result<ChainCheck> check() const;

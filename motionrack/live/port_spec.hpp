@@ -32,7 +32,7 @@ struct PortSpec {
 };
 
 /// Reads KIND:PATH[,KEY=VALUE]...; keys offset, stride, width, map, interrupt (a path or "none"), gap_ns; numbers
-/// decimal or 0x... Errors: bad_input, with what is wrong and the form.
+/// decimal or 0x... Errors: invalid_input, with what is wrong and the form.
 Result<PortSpec> read_port_spec(std::string_view text);
 
 /// The form of such a text, for messages and help.

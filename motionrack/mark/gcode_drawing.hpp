@@ -7,7 +7,7 @@
 
 namespace motionrack::mark {
 
-/// Errors: bad_input with line and column, of the program or of an arc in another plane.
+/// Errors: invalid_input with line and column, of the program or of an arc in another plane.
 Result<Drawing> read_gcode(std::string_view text, const std::string& file);
 
 }  // namespace motionrack::mark

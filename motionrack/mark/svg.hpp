@@ -15,7 +15,7 @@ namespace motionrack::mark {
 
 inline constexpr std::size_t max_svg_bytes = 50'000'000;
 
-/// Errors: bad_input, with line and column of the element or of the character in its data.
+/// Errors: invalid_input, with line and column of the element or of the character in its data.
 Result<Drawing> read_svg(std::string_view text, const std::string& file, double tolerance_mm = default_tolerance_mm);
 
 /// What is wrong in path data or a transform, and at which character of it.

@@ -38,7 +38,7 @@ Result<void> work(const WorkerSettings& settings, const std::atomic<bool>& stop,
 /// instead of trying it.
 inline constexpr std::uint64_t max_times = 5;
 
-/// A row, or a sentence about why there is none, as a message; and back. Errors: bad_input, it is no such message;
+/// A row, or a sentence about why there is none, as a message; and back. Errors: invalid_input, it is no such message;
 /// refused, it is a sentence.
 std::string text_of(const sweep::Row& row);
 std::string text_of(const Error& error);

@@ -50,10 +50,10 @@ class ClockPacer {
     /// True: the rack may run on from `now`. Waits 5 ms at most.
     bool pace(Instant now);
 
-    /// Errors: bad_input, a factor out of its range.
+    /// Errors: invalid_input, a factor out of its range.
     Result<void> set(ClockMode mode, double factor);
-    /// Lets so much time go by, as fast as it can. Errors: refused unless paused; bad_input below 100 ps or above 3600
-    /// s.
+    /// Lets so much time go by, as fast as it can. Errors: refused unless paused; invalid_input below 100 ps or above
+    /// 3600 s.
     Result<void> step(Duration duration);
 
     ClockMode mode() const { return mode_; }

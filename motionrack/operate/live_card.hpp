@@ -31,10 +31,10 @@ struct LivePlace {
     std::string place;  ///< "port:/dev/port,offset=0x300,width=8"
     live::PortSpec spec = {};
 };
-/// Reads CARD=PLACE. Errors: bad_input, with the form.
+/// Reads CARD=PLACE. Errors: invalid_input, with the form.
 Result<LivePlace> read_live_place(std::string_view text);
-/// Errors: bad_input, no such card, or one that is named twice; refused, axes of the machine are on it, or a real card
-/// of its type cannot be driven.
+/// Errors: invalid_input, no such card, or one that is named twice; refused, axes of the machine are on it, or a real
+/// card of its type cannot be driven.
 Result<void> check_live_places(const rack::RackConfig& config, std::span<const LivePlace> places);
 
 /// All registers of a card, as they were read last.

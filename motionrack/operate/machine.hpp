@@ -80,9 +80,9 @@ class Machine {
 
     // ---- orders, posted; refused ones (ErrorKind::refused) change nothing
     /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody.
-    /// Errors: bad_input.
+    /// Errors: invalid_input.
     Result<void> enable(bool on, std::string_view axes = {});
-    /// Checks a program whole, then begins it. Errors: bad_input, its first problem with line and column.
+    /// Checks a program whole, then begins it. Errors: invalid_input, its first problem with line and column.
     Result<void> begin_program(std::string text, std::string name);
     /// One line, behind those that are there. Refused: a program runs, no room.
     control::gcode::Outcome<void> line(std::string_view text, std::int32_t number);
@@ -105,8 +105,8 @@ class Machine {
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
     /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run;
-    /// cancel() ends them. Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that
-    /// the machine has not, or no speed.
+    /// cancel() ends them. Modes stay as they are. Errors: refused, also where no axis may go; invalid_input, an axis
+    /// that the machine has not, or no speed.
     Result<void> jog_to(const control::Point& target, double speed);
     /// Homes these axes; empty: all that have a home switch.
     Result<void> home(std::string axes);
@@ -241,7 +241,7 @@ inline Interrupt& host_of(rack::Rack& rack) {
 }
 /// Some axis of this rack.
 bool can_home(const rack::RackConfig& config);
-/// Errors: bad_input, beginning with `what` was not done.
+/// Errors: invalid_input, beginning with `what` was not done.
 Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter);
 
 }  // namespace motionrack::operate

@@ -25,7 +25,7 @@ namespace motionrack::operate {
 
 class Machine;
 
-/// The functions of a card's library. Errors: bad_input, with the cards that there are; refused, it has no library.
+/// The functions of a card's library. Errors: invalid_input, with the cards that there are; refused, it has no library.
 Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::string& card);
 
 /// Only the motion thread uses it: orders note, step() does.
@@ -51,7 +51,7 @@ class Service {
     /// Stops the axes and gives the card back. Refused: there is no service.
     Result<void> end(Told ready);
     /// One function; checked now, called by the loop, `ready` hears what it gave. Refused: no service of a card that
-    /// moves axes of the machine, another card's service, a call that still works. Errors: bad_input, refused.
+    /// moves axes of the machine, another card's service, a call that still works. Errors: invalid_input, refused.
     Result<void> call(Call call, const StopOrigin& by, const std::string& session, Answered ready);
     /// The session that began it is gone, or has lost control.
     void end_of(const std::string& session);

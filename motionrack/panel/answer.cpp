@@ -21,7 +21,7 @@ Answer error_answer(const Error& error) {
     Answer answer;
     switch (error.kind) {
         case ErrorKind::invalid_input:
-            answer = make(400, "bad_input");
+            answer = make(400, "invalid_input");
             break;
         case ErrorKind::refused:
         case ErrorKind::stopped:

@@ -17,8 +17,8 @@ struct Caller {
     std::string address = {};  ///< where it came from, for the journal
 };
 
-/// `status` as in HTTP: 200, 400 bad_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine, 503
-/// gone.
+/// `status` as in HTTP: 200, 400 invalid_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine,
+/// 503 gone.
 struct Answer {
     int status = 200;
     nlohmann::json body;  ///< {"done":true, ...} or {"error":{"trouble","message","line","column"}}
@@ -26,7 +26,7 @@ struct Answer {
 
 /// {"done":true} and the members of `fields`.
 Answer done(nlohmann::json fields = nlohmann::json::object());
-/// `trouble`: bad_input, refused, denied, machine, io, limit.
+/// `trouble`: invalid_input, refused, denied, machine, io, limit.
 Answer refused_answer(int status, std::string_view trouble, std::string message);
 Answer error_answer(const Error& error);
 

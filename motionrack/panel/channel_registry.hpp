@@ -47,7 +47,7 @@ class ChannelRegistry {
     const std::map<std::string, Channel, std::less<>>& all() const { return channels_; }
     /// nullptr if there is none.
     const Channel* find(std::string_view name) const;
-    /// Errors: bad_input with the name that there is not, more than Panel::max_channels.
+    /// Errors: invalid_input with the name that there is not, more than Panel::max_channels.
     Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
     /// Reads the sets that somebody holds, and forgets the others.
     void show(std::int64_t sequence, Instant at);

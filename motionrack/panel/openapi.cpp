@@ -120,7 +120,7 @@ json make_openapi() {
                {{"type", "object"},
                 {"properties",
                  {{"trouble",
-                   {{"type", "string"}, {"enum", {"bad_input", "refused", "denied", "machine", "io", "limit"}}}},
+                   {{"type", "string"}, {"enum", {"invalid_input", "refused", "denied", "machine", "io", "limit"}}}},
                   {"message", {{"type", "string"}}},
                   {"line", {{"type", "integer"}}},
                   {"column", {{"type", "integer"}}}}}}}}}}}}},

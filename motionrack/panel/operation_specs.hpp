@@ -50,10 +50,10 @@ std::span<const OperationSpec> queries();
 /// Of both tables; nullptr if there is none.
 const OperationSpec* find_row(std::string_view name);
 
-/// Errors: bad_input; no object, an unknown, missing or wrong field; a sentence that names it.
+/// Errors: invalid_input; no object, an unknown, missing or wrong field; a sentence that names it.
 Result<void> check_fields(const OperationSpec& row, const nlohmann::json& fields);
 
-/// Fields from a query's texts (HTTP): numbers and flags read as their fields say. Errors: bad_input.
+/// Fields from a query's texts (HTTP): numbers and flags read as their fields say. Errors: invalid_input.
 Result<nlohmann::json> fields_of_texts(const OperationSpec& row,
                                        const std::vector<std::pair<std::string, std::string>>& texts);
 

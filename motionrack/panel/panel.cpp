@@ -186,8 +186,8 @@ Panel::~Panel() = default;
 void Panel::ask(const Caller& caller, std::string_view name, const json& fields, std::function<void(Answer)> reply) {
     const OperationSpec* row = find_row(name);
     if (row == nullptr)
-        return reply(
-            refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
+        return reply(refused_answer(404, "invalid_input",
+                                    fmt::format("There is no order and no query {}.", text_of(json(name)))));
     if (caller.role < row->role)
         return reply(
             refused_answer(caller.role == auth::Role::none ? 401 : 403, "denied",

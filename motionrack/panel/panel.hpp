@@ -78,7 +78,7 @@ class Panel {
     /// The connection of this session has ended, and with it what goes on only while it is asked for.
     void left(std::string session);
     /// The set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors:
-    /// bad_input, unknown names or more than max_channels.
+    /// invalid_input, unknown names or more than max_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);
     /// The newest picture of the machine; never nullptr.
     std::shared_ptr<const StatusSnapshot> picture() const { return std::atomic_load(&picture_); }

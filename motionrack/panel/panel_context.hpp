@@ -135,7 +135,7 @@ Result<nlohmann::json> accepted(const Result<void>& result);
 /// A number of the fields that may be missing.
 double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
-/// The letter of a field that names an axis of the rack. Errors: bad_input.
+/// The letter of a field that names an axis of the rack. Errors: invalid_input.
 Result<char> axis_of(PanelContext& desk, const nlohmann::json& fields);
 
 }  // namespace motionrack::panel

@@ -9,8 +9,8 @@ namespace motionrack::panel {
 
 nlohmann::json rack_facts(operate::Machine& machine);
 
-/// What lies under a scan head, thinned to `most` points. Errors: bad_input, with the scan heads that there are. On the
-/// motion thread.
+/// What lies under a scan head, thinned to `most` points. Errors: invalid_input, with the scan heads that there are. On
+/// the motion thread.
 Result<nlohmann::json> workpiece_now(operate::Machine& machine, const std::string& scanner, std::size_t most);
 
 }  // namespace motionrack::panel

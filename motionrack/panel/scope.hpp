@@ -61,7 +61,8 @@ class Scope {
     Scope(operate::Machine& machine, ChannelRegistry& channels);
     ~Scope();
 
-    /// Errors: bad_input, a channel that there is not, a trigger that is no channel of it; refused, too many samples.
+    /// Errors: invalid_input, a channel that there is not, a trigger that is no channel of it; refused, too many
+    /// samples.
     Result<void> arm(const ScopeSettings& settings);
     void stop();
     /// Every slice of a running machine.

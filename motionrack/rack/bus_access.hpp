@@ -6,11 +6,11 @@
 
 namespace motionrack::rack {
 
-/// Errors: bad_input, with the cards that there are.
+/// Errors: invalid_input, with the cards that there are.
 Result<Card*> card_named(Rack& rack, std::string_view name);
 
-/// The card, if its bus has an access of `bits` at `address` (see Card::bus_base) in that direction. Errors: bad_input;
-/// refused.
+/// The card, if its bus has an access of `bits` at `address` (see Card::bus_base) in that direction. Errors:
+/// invalid_input; refused.
 Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::uint32_t address, bool writing);
 
 }  // namespace motionrack::rack

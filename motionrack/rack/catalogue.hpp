@@ -55,7 +55,8 @@ class Card {
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
     /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
-    /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: bad_input with the names that there are.
+    /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: invalid_input with the names that there
+    /// are.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
     /// The names of the values that inspect knows, registers left out where the map has them.
     virtual std::vector<std::string> value_names() const = 0;

@@ -21,8 +21,8 @@ namespace motionrack::rack {
 class CommandSchedule final : public sim::Device {
   public:
     /// Before the rack is started. Orders: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 .. 1).
-    /// Errors: bad_input for the first that is none of these; refused, a hold after which neither resume nor stop is
-    /// planned.
+    /// Errors: invalid_input for the first that is none of these; refused, a hold after which neither resume nor stop
+    /// is planned.
     static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& orders);
     /// Whether there is an order of that name; its value may be wrong.
     static bool knows(std::string_view action);

@@ -24,13 +24,14 @@ struct ScheduledFault {
     std::string refused;  ///< why it could not be done when its time had come: the part cannot have that value
 };
 
-/// Takes texts as users write them apart; what they name is looked at later. Errors: bad_input, one without its time.
+/// Takes texts as users write them apart; what they name is looked at later. Errors: invalid_input, one without its
+/// time.
 Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& texts);
 
 class FaultSchedule final : public sim::Device {
   public:
-    /// Before the rack is started; nothing is planned if it fails. Errors: bad_input and refused, for the first text
-    /// that cannot be obeyed.
+    /// Before the rack is started; nothing is planned if it fails. Errors: invalid_input and refused, for the first
+    /// text that cannot be obeyed.
     static Result<std::unique_ptr<FaultSchedule>> create(Rack& rack, const std::vector<std::string>& texts);
     static Result<std::unique_ptr<FaultSchedule>> create_timed(Rack& rack, const std::vector<ScheduledText>& faults);
 

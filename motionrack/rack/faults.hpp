@@ -13,8 +13,8 @@
 namespace motionrack::rack {
 
 /// The fault `fault` ("NAME" or "NAME=VALUE"; without a value: 1) of `target`, an axis, a stage, a belt, a table or a
-/// card of the rack. Between runs. Errors: bad_input (no such target or fault, with the ones that there are), refused
-/// (the part is missing, the value).
+/// card of the rack. Between runs. Errors: invalid_input (no such target or fault, with the ones that there are),
+/// refused (the part is missing, the value).
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target);
 
 /// What inject_fault would say of names and value; the rack need not be started.

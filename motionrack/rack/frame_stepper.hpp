@@ -11,8 +11,8 @@ namespace motionrack::rack {
 
 class FrameStepper final : public grating_bus::FrameListener {
   public:
-    /// Frames of the card of that name; "": of the first host. Before the rack is started. Errors: bad_input with the
-    /// cards that there are.
+    /// Frames of the card of that name; "": of the first host. Before the rack is started. Errors: invalid_input with
+    /// the cards that there are.
     static Result<std::unique_ptr<FrameStepper>> create(Rack& rack, std::string_view card);
 
     const grating_bus::Card& card() const { return card_; }

@@ -45,13 +45,13 @@ enum class PartKind : std::uint8_t { axis, stage, track, scanner };
 /// As they are declared, whether a rack has them or not: name and meaning, "{u}" for mm or deg. For pages of reference.
 std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(PartKind kind);
 
-/// Errors: bad_input if there is no such part or quantity, with the ones that there are.
+/// Errors: invalid_input if there is no such part or quantity, with the ones that there are.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
 
 /// Pushes an axis there by hand; of a belt or table speed_{u}_s can be set, for good or until the fault drive.profile.
 /// A motor in step goes to the nearest place of the same electrical phase (a multiple of four full steps away), as a
-/// real one under current does: read the quantity to see where it came to. Between runs. Errors: bad_input; refused if
-/// it cannot be set, if the value is no number or too far away (see max_push).
+/// real one under current does: read the quantity to see where it came to. Between runs. Errors: invalid_input; refused
+/// if it cannot be set, if the value is no number or too far away (see max_push).
 Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value);
 
 }  // namespace motionrack::rack

@@ -31,13 +31,13 @@ struct JobRequest {
     std::string version;  ///< of the program that runs it
 };
 
-/// Takes "ORDER@TIME" as users write it. Errors: bad_input.
+/// Takes "ORDER@TIME" as users write it. Errors: invalid_input.
 Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts);
 
 /// How its program is read.
 control::gcode::Settings reading_of(const JobRequest& request);
 
-/// The request that a recording was made by. Errors: bad_input, its rack cannot be read any more.
+/// The request that a recording was made by. Errors: invalid_input, its rack cannot be read any more.
 Result<JobRequest> request_of(const trace::RecordingReader& recording);
 
 struct JobObservers {

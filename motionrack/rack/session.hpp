@@ -36,9 +36,9 @@ struct ProgramOrder {
 
 /// What came of it.
 struct ProgramReport {
-    Result<void> ended;    ///< refused and bad_input: nothing moved; machine: also where something was lost or broken
-    Place place;           ///< of the first error
-    JobOutcome outcome;    ///< where it moved
+    Result<void> ended;  ///< refused and invalid_input: nothing moved; machine: also where something was lost or broken
+    Place place;         ///< of the first error
+    JobOutcome outcome;  ///< where it moved
     std::string sentence;  ///< all that was wrong, a line each; or that it ended well
     std::string summary;   ///< as the command line prints it; empty where nothing moved
 };
@@ -51,8 +51,8 @@ class Session {
   public:
     /// Whether part programs will be run: the axes are watched from the start then.
     enum class Programs : std::uint8_t { no, yes };
-    /// Reads a rack file (a path, or the text itself: see read_rack), builds the rack and starts it. Errors: bad_input
-    /// with everything that is wrong, a line each; io.
+    /// Reads a rack file (a path, or the text itself: see read_rack), builds the rack and starts it. Errors:
+    /// invalid_input with everything that is wrong, a line each; io.
     static Result<std::unique_ptr<Session>> open(std::string_view path_or_text, Programs programs = Programs::no);
     ~Session();
 
@@ -67,16 +67,17 @@ class Session {
     static constexpr Instant latest{never.count() / 2};
 
     // ---- the bus
-    /// One access of the host's bus: it takes the card's bus time. `bits`: 8, 16, 32. Errors: bad_input (there is no
-    /// such card), refused (the card has no accesses of that width, nothing at that address; see check_free).
+    /// One access of the host's bus: it takes the card's bus time. `bits`: 8, 16, 32. Errors: invalid_input (there is
+    /// no such card), refused (the card has no accesses of that width, nothing at that address; see check_free).
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
     Result<void> write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value);
 
     /// Lets the world run until the card's interrupt is active, for `ns` nanoseconds at most; whether it is active.
-    /// Errors: bad_input (there is no such card), those of advance.
+    /// Errors: invalid_input (there is no such card), those of advance.
     Result<bool> wait(std::string_view card, std::uint64_t ns);
 
-    /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors: bad_input.
+    /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors:
+    /// invalid_input.
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
     // ---- wires and parts
@@ -129,7 +130,7 @@ class Session {
     Result<void> set_trace_unit(double ns);
     /// Begins one; its name ends in .vcd, .csv or .h5. `signals`: patterns with * and ?, separated by blanks or commas;
     /// empty: all but the pins that cards drive on demand. `version`: of the program that records. One whose end failed
-    /// is given up for it. Errors: refused (one runs already, the name's ending), bad_input (no signal fits), io.
+    /// is given up for it. Errors: refused (one runs already, the name's ending), invalid_input (no signal fits), io.
     Result<void> start_trace(const std::string& path, std::string_view signals, std::string_view version = {});
     /// One runs, or could not be ended.
     bool is_recording() const { return recorder_ != nullptr; }

@@ -47,7 +47,7 @@ struct StopState {
 std::span<const StopState> stop_states();
 
 /// Lets a belt, a table or a stage go on that a stop has brought to rest; a stage with all others of its card. Errors:
-/// refused while the stop latch is set; bad_input, there is no such part.
+/// refused while the stop latch is set; invalid_input, there is no such part.
 Result<void> start_part(Rack& rack, std::string_view name);
 
 /// The page docs/explanations/safety.md.

@@ -18,7 +18,7 @@ struct TemplateVariant {
 std::span<const TemplateVariant> template_variants();
 
 /// A complete rack file: every key with its unit, range and default as a comment. It reads without errors or warnings.
-/// Errors: bad_input if there is no such variant.
+/// Errors: invalid_input if there is no such variant.
 Result<std::string> rack_template(std::string_view variant);
 
 }  // namespace motionrack::rack

@@ -52,8 +52,8 @@ struct WaveSettings {
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
     /// Before the rack is started it becomes a device that looks at the registers by itself after begin(); in a running
-    /// rack its owner calls look(). Errors: io; refused (the unit); bad_input if no signal fits the patterns. The rack
-    /// is as it was then.
+    /// rack its owner calls look(). Errors: io; refused (the unit); invalid_input if no signal fits the patterns. The
+    /// rack is as it was then.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
 

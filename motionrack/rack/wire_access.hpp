@@ -19,11 +19,12 @@ class WireAccess {
     /// Any time; the rack must outlive it. One desk a rack.
     explicit WireAccess(Rack& rack);
 
-    /// The level of CARD.PIN, NAME.END or estop: 0 or 1, of analog pins V. Errors: bad_input if there is no such wire.
+    /// The level of CARD.PIN, NAME.END or estop: 0 or 1, of analog pins V. Errors: invalid_input if there is no such
+    /// wire.
     Result<double> get(std::string_view name) const;
     /// Drives a wire from now on: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together: the
     /// other one holds the level that it had, and the encoder is connected again when both are released. In a started
-    /// rack, between runs. Errors: bad_input (no such wire), refused (an output, another value).
+    /// rack, between runs. Errors: invalid_input (no such wire), refused (an output, another value).
     Result<void> force(std::string_view name, double value);
     /// What set would say.
     Result<void> check(std::string_view name, double value) const;

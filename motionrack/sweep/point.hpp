@@ -27,7 +27,7 @@ struct PointText {
 
 /// Of this version of the program, which stands in it: another one may compute another row.
 std::string text_of(const PointText& point);
-/// Errors: bad_input, it is no such text; refused, another version made it.
+/// Errors: invalid_input, it is no such text; refused, another version made it.
 Result<PointText> read_point(std::string_view text);
 
 /// Tells points apart: 32 hexadecimal digits of the text's hash.
@@ -50,7 +50,7 @@ std::span<const ResultColumn> result_columns();
 std::string_view cell_of(const Row& row, std::string_view column);
 
 /// Runs the point from its start to its end, and nothing else: the same text gives the same row on every machine. What
-/// goes wrong in the run is in the row. `stop` may be nullptr. Errors: as read_point; bad_input, its rack cannot be
+/// goes wrong in the run is in the row. `stop` may be nullptr. Errors: as read_point; invalid_input, its rack cannot be
 /// read; stopped.
 Result<Row> run_point(std::string_view text, const std::atomic<bool>* stop);
 

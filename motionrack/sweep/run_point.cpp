@@ -43,7 +43,7 @@ std::string ended_text(const rack::JobOutcome& outcome) {
     if (outcome.ended) return outcome.good() ? "ok" : outcome.position_trusted ? "limits_broken" : "lost_steps";
     switch (outcome.ended.error().kind) {
         case ErrorKind::invalid_input:
-            return "bad_input";
+            return "invalid_input";
         case ErrorKind::refused:
             return "refused";
         case ErrorKind::machine:

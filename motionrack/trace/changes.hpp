@@ -36,7 +36,7 @@ struct Change {
 class ChangeSource {
   public:
     virtual ~ChangeSource() = default;
-    /// False at the end. Errors: io, bad_input with its line (no change, a time before the last one).
+    /// False at the end. Errors: io, invalid_input with its line (no change, a time before the last one).
     virtual Result<bool> next(Change& change) = 0;
     /// Signals that are declared, whether they change or not.
     const std::vector<std::size_t>& declared() const { return declared_; }
@@ -48,7 +48,7 @@ class ChangeSource {
     std::vector<std::size_t> declared_;
 };
 
-/// Reads the head. Errors: io, bad_input.
+/// Reads the head. Errors: io, invalid_input.
 Result<std::unique_ptr<ChangeSource>> open_vcd_changes(const std::string& path, SignalNames& names);
 Result<std::unique_ptr<ChangeSource>> open_csv_changes(const std::string& path, SignalNames& names);
 

@@ -12,11 +12,11 @@ namespace motionrack::trace {
 
 class CsvRows {
   public:
-    /// Reads the head. Errors: io, bad_input (there is none).
+    /// Reads the head. Errors: io, invalid_input (there is none).
     static Result<CsvRows> open(const std::string& path);
 
     const std::vector<std::string>& head() const { return head_; }
-    /// The next row into `fields`, as many as the head has; false at the end. Errors: io, bad_input with its line:
+    /// The next row into `fields`, as many as the head has; false at the end. Errors: io, invalid_input with its line:
     /// another number of fields, a field of more than 1 MB.
     Result<bool> next(std::vector<std::string>& fields);
     /// The line on which the last row began, from 1.

@@ -43,7 +43,7 @@ struct DiffSettings {
     std::function<bool()> stop = {};  ///< true ends it early
 };
 
-/// Errors: io, bad_input (a file of no such kind, two kinds, damage).
+/// Errors: io, invalid_input (a file of no such kind, two kinds, damage).
 Result<Diff> diff_files(const std::string& a, const std::string& b, const DiffSettings& settings = {});
 Result<Diff> diff_recordings(const RecordingReader& a, const RecordingReader& b, const DiffSettings& settings = {});
 
@@ -54,7 +54,7 @@ std::string diff_json(const Diff& diff, const std::string& a, const std::string&
 
 /// What a file is by what it begins with.
 enum class FileKind : std::uint8_t { hdf5, vcd, csv };
-/// Errors: io, bad_input (none of these).
+/// Errors: io, invalid_input (none of these).
 Result<FileKind> kind_of_file(const std::string& path);
 
 }  // namespace motionrack::trace

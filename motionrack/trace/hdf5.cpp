@@ -269,7 +269,7 @@ namespace {
 
 constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
 
-/// Whether the file begins as ours do. Errors: io, bad_input.
+/// Whether the file begins as ours do. Errors: io, invalid_input.
 Result<void> check_signature(const std::string& path) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr) {

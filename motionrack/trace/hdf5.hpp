@@ -109,7 +109,7 @@ class Reader {
     Result<void> read(std::uint64_t from, std::size_t count, T* out) const {
         return read(type_of<T>, from, count, out);
     }
-    /// Element `at`, a text without the zeros at its end. Errors: io, bad_input (it is none).
+    /// Element `at`, a text without the zeros at its end. Errors: io, invalid_input (it is none).
     Result<std::string> text(std::uint64_t at) const;
 
   private:
@@ -126,7 +126,7 @@ class File {
   public:
     /// It takes its name when it is closed: what was there stays until then. Errors: io.
     static Result<File> create(const std::string& path);
-    /// For reading. Errors: io (it is not there, it cannot be read), bad_input (it is no such file, it is damaged).
+    /// For reading. Errors: io (it is not there, it cannot be read), invalid_input (it is no such file, it is damaged).
     static Result<File> open(const std::string& path);
 
     /// Of a file that was opened for reading: its writer has not closed it, it was cut off or goes on.
@@ -160,7 +160,7 @@ class File {
 
     // ---- reading
     bool has(const std::string& path) const;
-    /// Errors: bad_input, there is no such column or its size cannot be true.
+    /// Errors: invalid_input, there is no such column or its size cannot be true.
     Result<Reader> column(const std::string& path) const;
     /// Errors: as column, io.
     Result<std::string> text(const std::string& path) const;

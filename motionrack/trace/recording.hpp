@@ -144,7 +144,7 @@ struct RecordedSeries {
 
 class RecordingReader {
   public:
-    /// Errors: io, bad_input (no recording, a newer format, damaged before anything could be read).
+    /// Errors: io, invalid_input (no recording, a newer format, damaged before anything could be read).
     static Result<RecordingReader> open(const std::string& path);
 
     const RecordingHead& head() const { return head_; }
@@ -171,11 +171,11 @@ class RecordingReader {
         /// Only what is before this instant is used. Errors: io.
         Result<void> end_before(Instant until);
     };
-    /// Errors: bad_input, io.
+    /// Errors: invalid_input, io.
     Result<Columns> columns(const RecordedSeries& series) const;
 
     /// The data of the page, the same as the run itself had; of a recording that was cut off what is there. Errors:
-    /// bad_input, io.
+    /// invalid_input, io.
     Result<ReportData> report() const;
 
   private:

@@ -27,7 +27,7 @@ const char* value_column(SignalKind kind);
 
 /// All of a head but the texts of program and rack, as JSON.
 std::string head_json(const RecordingHead& head);
-/// Errors: bad_input.
+/// Errors: invalid_input.
 Result<RecordingHead> head_from_json(std::string_view text);
 
 }  // namespace motionrack::trace

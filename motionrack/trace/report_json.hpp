@@ -12,7 +12,7 @@ namespace motionrack::trace {
 /// every bit.
 std::string report_json(const ReportData& data);
 
-/// Errors: bad_input.
+/// Errors: invalid_input.
 Result<ReportData> report_from_json(std::string_view text);
 
 }  // namespace motionrack::trace

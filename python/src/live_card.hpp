@@ -19,7 +19,7 @@ namespace motionrack::python {
 
 class LiveCard final : public Host {
   public:
-    /// Opens the port; no register is touched. Throws bad_input (the place, the type), io, refused.
+    /// Opens the port; no register is touched. Throws invalid_input (the place, the type), io, refused.
     LiveCard(const std::string& place, const std::string& type);
     /// As close(), without a word.
     ~LiveCard() override;
@@ -50,7 +50,7 @@ class LiveCard final : public Host {
     RegisterPort& registers() { return guarded_; }
     Interrupt& interrupt() { return stops_; }
 
-    /// Accesses by hand, at the offset of a register that can be read or written. Throw bad_input.
+    /// Accesses by hand, at the offset of a register that can be read or written. Throw invalid_input.
     std::uint16_t read(std::uint32_t offset);
     void write(std::uint32_t offset, std::int64_t value);
     /// All registers, in words; writes WR0, with NOP and read commands, also while a stop holds.

@@ -60,14 +60,14 @@ class RackHandle final : public Host {
     Result<void> set_profile(const std::string& profile);
 
     /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be
-    /// sound; whether it fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input;
+    /// sound; whether it fits the other cards, as a rack file must, is not looked at. Errors: refused, invalid_input;
     /// nothing is changed.
     Result<void> set_card(const std::string& card, const std::string& key, double value);
 
     // ---- time
     /// Errors: refused (beyond latest), stopped (Ctrl-C).
     Result<void> advance(Duration time);
-    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: bad_input,
+    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: invalid_input,
     /// stopped.
     Result<bool> wait_wire(const std::string& wire, int level, Duration timeout);
     static constexpr Instant latest{never.count() / 2};

@@ -25,7 +25,7 @@ struct Channel {
 
 class Sampler {
   public:
-    /// Errors: bad_input, with what there is, for a name that is neither a wire, nor of a card, nor of a part.
+    /// Errors: invalid_input, with what there is, for a name that is neither a wire, nor of a card, nor of a part.
     static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
                                   std::size_t most);
 

@@ -67,7 +67,7 @@ struct Group {
     std::vector<Fault> faults;
 };
 
-/// Errors: bad_input with line and column, of the first thing that is wrong; io.
+/// Errors: invalid_input with line and column, of the first thing that is wrong; io.
 Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file);
 
 /// The page of reference.

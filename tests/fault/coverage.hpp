@@ -24,7 +24,7 @@ struct CoverageSection {
     std::vector<CoveredFault> faults;
 };
 
-/// Errors: bad_input with line and column, of the first thing that is wrong; io.
+/// Errors: invalid_input with line and column, of the first thing that is wrong; io.
 Result<std::vector<CoverageSection>> read_coverage(const std::filesystem::path& file);
 
 /// The page of reference, with the operating points of the rows of `catalogue`.

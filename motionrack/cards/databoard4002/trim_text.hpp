@@ -8,7 +8,7 @@
 namespace motionrack::databoard4002 {
 
 /// Rows of V (up to 10, six digits behind the point) and rate (1 .. 16,383), both rising, 1 to 64 of them with commas
-/// between; an empty text is the table in the maker's description. Errors: bad_input, with the row.
+/// between; an empty text is the table in the maker's description. Errors: invalid_input, with the row.
 Result<Trim> trim_from_text(std::string_view text);
 
 }  // namespace motionrack::databoard4002

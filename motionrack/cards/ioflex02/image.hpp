@@ -40,7 +40,7 @@ struct ImageContent {
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content);
 /// The image compressed, as files have it.
 std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw);
-/// The reverse. Errors: bad_input, if it is no whole zlib stream, is damaged, or unpacks to more than the greatest
+/// The reverse. Errors: invalid_input, if it is no whole zlib stream, is damaged, or unpacks to more than the greatest
 /// image.
 Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file);
 
@@ -53,15 +53,15 @@ struct ImageInfo {
     std::array<std::uint16_t, axis_count> modes{};  ///< words MODE of the axes, where the project is "position"
     bool position() const { return project == position_project; }
 };
-/// Of an image that is not compressed. Errors: bad_input, with what the card would refuse it for.
+/// Of an image that is not compressed. Errors: invalid_input, with what the card would refuse it for.
 Result<ImageInfo> inspect(std::span<const std::uint8_t> raw);
 
-/// Whether it is one that Flex2Pos works with. Errors: bad_input (another project or version: Flex_ErrProject).
+/// Whether it is one that Flex2Pos works with. Errors: invalid_input (another project or version: Flex_ErrProject).
 Result<void> check_project(const ImageInfo& info);
 
 /// Bytes as a rack file has them: two hexadecimal digits each.
 std::string hex_text(std::span<const std::uint8_t> bytes);
-/// The reverse. Errors: bad_input.
+/// The reverse. Errors: invalid_input.
 Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text);
 inline constexpr std::size_t max_image_file = 132'000;  ///< bytes of a compressed image, with room to spare
 

@@ -80,7 +80,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
             entry["errors"].push_back(one);
         }
         json->push_back(entry);
-        return check.problems.empty() ? exit_done : exit_bad_input;
+        return check.problems.empty() ? exit_done : exit_invalid_input;
     }
     if (const int bad = print_problems(check, path); bad != exit_done) return bad;
     fmt::print("{}: good. {}, {}, {}", path, count_noun(check.lines, "line"), count_noun(check.moves, "move"),

@@ -108,7 +108,7 @@ int run_mark(const MarkOptions& options) {
     if (!text) return report(text.error());
     const mark::JobRead read = mark::read_job(*text, options.job);
     for (const Error& error : read.errors) print_error(error.text());
-    if (!read.job) return exit_bad_input;
+    if (!read.job) return exit_invalid_input;
     const std::size_t slash = options.job.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : options.job.substr(0, slash + 1);
     std::vector<std::string> inputs = {options.job};

@@ -7,19 +7,19 @@ namespace motionrack::cli {
 
 enum ExitCode : int {
     exit_done = 0,
-    exit_usage = 1,      ///< the command line is wrong
-    exit_bad_input = 2,  ///< a program or rack file is wrong; nothing moved
-    exit_refused = 3,    ///< asked for something outside a limit; nothing moved
-    exit_machine = 4,    ///< the machine stopped the job: limit switch, alarm, lost steps
-    exit_io = 5,         ///< a file could not be read or written
-    exit_differ = 6,     ///< of diff and replay: the two are not the same
-    exit_stopped = 130   ///< Ctrl-C; what was recorded is kept
+    exit_usage = 1,          ///< the command line is wrong
+    exit_invalid_input = 2,  ///< a program or rack file is wrong; nothing moved
+    exit_refused = 3,        ///< asked for something outside a limit; nothing moved
+    exit_machine = 4,        ///< the machine stopped the job: limit switch, alarm, lost steps
+    exit_io = 5,             ///< a file could not be read or written
+    exit_differ = 6,         ///< of diff and replay: the two are not the same
+    exit_stopped = 130       ///< Ctrl-C; what was recorded is kept
 };
 
 constexpr int exit_code(ErrorKind trouble) {
     switch (trouble) {
         case ErrorKind::invalid_input:
-            return exit_bad_input;
+            return exit_invalid_input;
         case ErrorKind::refused:
             return exit_refused;
         case ErrorKind::machine:

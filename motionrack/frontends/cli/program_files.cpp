@@ -95,7 +95,7 @@ int print_problems(const control::gcode::ProgramCheck& check, const std::string&
     if (check.problems.empty()) return exit_done;
     for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
     print_error(rack::problems_verdict(check, name));
-    return rack::has_unreadable(check) ? exit_io : exit_bad_input;
+    return rack::has_unreadable(check) ? exit_io : exit_invalid_input;
 }
 
 }  // namespace motionrack::cli

@@ -21,13 +21,13 @@ class VirtualCard {
     virtual const std::string& name() const = 0;
     virtual RegisterPort& registers() = 0;
     virtual Interrupt& interrupt() = 0;
-    /// A register or value by its name ("RR0", "x.LP"), without effects. Errors: bad_input.
+    /// A register or value by its name ("RR0", "x.LP"), without effects. Errors: invalid_input.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
 };
 
 class World {
   public:
-    /// `path_or_text`: of a rack file, or the text of one. Errors: bad_input, with what is wrong; io.
+    /// `path_or_text`: of a rack file, or the text of one. Errors: invalid_input, with what is wrong; io.
     static Result<std::shared_ptr<World>> open(std::string_view path_or_text);
     virtual ~World() = default;
 
@@ -36,7 +36,7 @@ class World {
     /// Lets `ns` nanoseconds pass, 0 .. max_ns. Errors: refused.
     virtual Result<void> advance(std::uint64_t ns) = 0;
     static constexpr std::uint64_t max_ns = 1'000'000'000'000'000;
-    /// Drives a wire with 0 or 1 until it is released (NaN). Errors: bad_input, refused.
+    /// Drives a wire with 0 or 1 until it is released (NaN). Errors: invalid_input, refused.
     virtual Result<void> set_wire(std::string_view name, double value) = 0;
 };
 

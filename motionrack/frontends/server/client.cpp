@@ -69,7 +69,7 @@ void Client::opened() {
 void Client::message(std::string_view text, bool is_text) {
     if (leaving_) return;
     if (!is_text)
-        return refuse(nullptr, 400, "bad_input", "Messages are texts, this one was binary. Nothing was done.");
+        return refuse(nullptr, 400, "invalid_input", "Messages are texts, this one was binary. Nothing was done.");
     const bool counted = messages_.take("", service_.now().steady);
     // A short message that may be STOP is read in any case.
     if (!counted && (text.size() > 200 || text.find("\"stop\"") == std::string_view::npos))
@@ -82,7 +82,7 @@ void Client::message(std::string_view text, bool is_text) {
     if (object->contains("id")) request.id = std::move((*object)["id"]);
     if (!(request.id.is_null() || request.id.is_number_integer() ||
           (request.id.is_string() && request.id.get_ref<const std::string&>().size() <= 64)))
-        return refuse(nullptr, 400, "bad_input",
+        return refuse(nullptr, 400, "invalid_input",
                       "The id of a message is a whole number or a text of at most 64 bytes. Nothing was done.");
     const auto says = [&](const char* what) { return object->contains(what) && (*object)[what].is_string(); };
     if (says("order")) {
@@ -105,7 +105,7 @@ void Client::message(std::string_view text, bool is_text) {
     request.fields = std::move(*object);
     if (request.fields.contains("token")) return token(request);
     if (request.fields.contains("subscribe")) return subscribe(request);
-    refuse(request.id, 400, "bad_input", "A message has one of token, subscribe, order, query. Nothing was done.");
+    refuse(request.id, 400, "invalid_input", "A message has one of token, subscribe, order, query. Nothing was done.");
 }
 
 void Client::token(const Request& request) {
@@ -122,7 +122,7 @@ void Client::token(const Request& request) {
 void Client::subscribe(const Request& request) {
     const json& wanted = request.fields["subscribe"];
     const auto wrong = [&](std::string sentence) {
-        refuse(request.id, 400, "bad_input", std::move(sentence) + " Nothing was changed.");
+        refuse(request.id, 400, "invalid_input", std::move(sentence) + " Nothing was changed.");
     };
     if (role() == Role::none)
         return refuse(request.id, 401, "denied",
@@ -174,7 +174,7 @@ void Client::ask(const Request& request, const std::string& name, bool query) {
     const panel::OperationSpec* row = panel::find_row(name);
     if (row == nullptr || query != is_query(*row))
         return refuse(
-            request.id, 404, "bad_input",
+            request.id, 404, "invalid_input",
             fmt::format("There is no such {}; /api/openapi.json says what there is.", query ? "query" : "order"));
     if (asks_ >= service_.settings().limits.asks_waiting)
         return refuse(

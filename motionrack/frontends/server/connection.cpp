@@ -79,7 +79,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
                           false);
         if (is_http(error))
             return answer(
-                http_error(400, "bad_input",
+                http_error(400, "invalid_input",
                            fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
@@ -123,7 +123,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
             if (error == http::error::body_limit) return self->too_large();
             if (is_http(error))
                 return self->answer(
-                    http_error(400, "bad_input",
+                    http_error(400, "invalid_input",
                                fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())),
                     false);
             if (!error) self->handle();

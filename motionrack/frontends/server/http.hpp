@@ -39,10 +39,10 @@ HttpAnswer http_answer(const panel::Answer& answer);
 /// {"error":{"trouble":..,"message":..}}
 HttpAnswer http_error(int status, std::string_view trouble, std::string sentence);
 
-/// An object from a text. Errors: bad_input with line and column: no JSON, no object, nested deeper than 16.
+/// An object from a text. Errors: invalid_input with line and column: no JSON, no object, nested deeper than 16.
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what);
 
-/// "/api/card", and the texts behind "?" with their %XX decoded. Errors: bad_input.
+/// "/api/card", and the texts behind "?" with their %XX decoded. Errors: invalid_input.
 struct Target {
     std::string path;
     std::vector<std::pair<std::string, std::string>> texts;

@@ -20,7 +20,7 @@ class Page {
   public:
     /// A page that says how the real one is made.
     Page();
-    /// Regular files of a folder and its subfolders, links left out; index.html is "/". Errors: io, bad_input (no
+    /// Regular files of a folder and its subfolders, links left out; index.html is "/". Errors: io, invalid_input (no
     /// index.html, more than 64 MiB or 2000 files).
     static Result<Page> read(const std::filesystem::path& folder);
 

@@ -17,7 +17,7 @@ class Server {
   public:
     /// Takes the port and begins to serve. Before Machine::run; panel, door and lease must outlive it.
     /// Errors: io (the port is taken, a TLS file cannot be used), refused (another address than loopback without TLS),
-    /// bad_input (no address).
+    /// invalid_input (no address).
     static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
                                                 auth::ControlLease& lease, Page page);
     ~Server();

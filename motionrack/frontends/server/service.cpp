@@ -32,7 +32,7 @@ bool is_websocket_key(std::string_view key) {
 std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     if (head.websocket_version != "13") {
         HttpAnswer answer =
-            http_error(426, "bad_input",
+            http_error(426, "invalid_input",
                        fmt::format("The handshake asks for version \"{}\" of the WebSocket protocol; version 13 is "
                                    "spoken here. No WebSocket was opened.",
                                    shown(head.websocket_version)));
@@ -40,11 +40,11 @@ std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     }
     if (!is_websocket_key(head.websocket_key))
         return http_error(
-            400, "bad_input",
+            400, "invalid_input",
             fmt::format("The Sec-WebSocket-Key \"{}\" is not 16 bytes in base64. No WebSocket was opened.",
                         shown(head.websocket_key)));
     if (head.has_more)
-        return http_error(400, "bad_input",
+        return http_error(400, "invalid_input",
                           "There are bytes behind the handshake, which was not answered so far. No WebSocket was "
                           "opened; wait for the answer.");
     return std::nullopt;
@@ -103,7 +103,7 @@ Admission Service::admit(const RequestHead& head) {
     if (!target) return answer(http_answer(panel::error_answer(target.error())));
     if (target->path == "/api/stop") {
         if (head.method != "POST")
-            return answer(with(http_error(405, "bad_input", "STOP is asked for with POST."), "Allow", "POST"));
+            return answer(with(http_error(405, "invalid_input", "STOP is asked for with POST."), "Allow", "POST"));
         panel::Caller caller;
         if (const std::string token = token_of(head); !token.empty())
             if (const auto known = door_.authenticate(token, now().wall)) caller.user = known->user;
@@ -117,9 +117,9 @@ Admission Service::admit(const RequestHead& head) {
 
 HttpAnswer Service::page_answer(const RequestHead& head, const std::string& path) const {
     if (head.method != "GET" && head.method != "HEAD")
-        return with(http_error(405, "bad_input", "The page is read with GET."), "Allow", "GET, HEAD");
+        return with(http_error(405, "invalid_input", "The page is read with GET."), "Allow", "GET, HEAD");
     const PageFile* file = page_.find(path);
-    if (file == nullptr) return http_error(404, "bad_input", "There is no such file of the page.");
+    if (file == nullptr) return http_error(404, "invalid_input", "There is no such file of the page.");
     HttpAnswer answer;
     answer.type = file->type;
     answer.cache = file->cache;
@@ -137,16 +137,17 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     const bool get = head.method == "GET", post = head.method == "POST";
     if (name == "pair") {
         if (!post)
-            return answer(with(http_error(405, "bad_input", "Pairing is asked for with POST."), "Allow", "POST"));
+            return answer(with(http_error(405, "invalid_input", "Pairing is asked for with POST."), "Allow", "POST"));
         out.body_limit = settings_.limits.strange_body;
         return out;
     }
     if (name == "forget") {
         if (post) return answer(forget(head));
-        return answer(with(http_error(405, "bad_input", "Forgetting is asked for with POST."), "Allow", "POST"));
+        return answer(with(http_error(405, "invalid_input", "Forgetting is asked for with POST."), "Allow", "POST"));
     }
     if (name == "stream")
-        return answer(with(http_error(426, "bad_input", "This address is for WebSockets."), "Upgrade", "websocket"));
+        return answer(
+            with(http_error(426, "invalid_input", "This address is for WebSockets."), "Upgrade", "websocket"));
     out.caller.role = role_without_token(head.peer);
     out.caller.session = std::string("h");
     if (!head.authorization.empty()) {
@@ -165,11 +166,11 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     out.row = panel::find_row(name);
     if (out.row == nullptr)
         return answer(
-            http_error(404, "bad_input", "There is no such order or query; /api/openapi.json says what there is."));
+            http_error(404, "invalid_input", "There is no such order or query; /api/openapi.json says what there is."));
     const bool query = is_query(*out.row);
     if (query ? !get : !post)
         return answer(
-            with(http_error(405, "bad_input",
+            with(http_error(405, "invalid_input",
                             fmt::format("{} is {} with {}.", name, query ? "a query, asked" : "an order, given",
                                         query ? "GET" : "POST")),
                  "Allow", query ? "GET" : "POST"));
@@ -187,7 +188,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
 std::optional<HttpAnswer> Service::refuse_stream(const RequestHead& head) {
     if (const std::string problem = guard_.problem(head); !problem.empty()) return http_error(403, "denied", problem);
     if (auto refused = refuse(head)) return refused;
-    if (head.target != "/api/stream") return http_error(404, "bad_input", "The WebSocket is at /api/stream.");
+    if (head.target != "/api/stream") return http_error(404, "invalid_input", "The WebSocket is at /api/stream.");
     return refuse_handshake(head);
 }
 
@@ -215,7 +216,7 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
     };
     const std::string code = text("code"), name = text("name");
     if (code.empty() || name.empty() || fields->size() != 2)
-        return http_error(400, "bad_input",
+        return http_error(400, "invalid_input",
                           "Pairing takes {\"code\":\"ABCD-EFGH\",\"name\":\"anna\"}. Nobody was paired.");
     const auto paired = door_.pair(code, name, head.peer.address, now());
     panel::Answer answer;

@@ -53,7 +53,7 @@ struct DecoderSettings {
     Duration output = nanoseconds(20);  ///< from the address to valid data, 0.1 ns .. 6 us
 };
 
-/// The addresses of a list as a rack file has it: "5, 2, 9". Errors: bad_input with what is wrong: no list of whole
+/// The addresses of a list as a rack file has it: "5, 2, 9". Errors: invalid_input with what is wrong: no list of whole
 /// numbers with commas between them, an address beyond 127, more than 128 of them, one that is there twice.
 Result<std::vector<int>> addresses_from_text(std::string_view text);
 

@@ -7,8 +7,8 @@
 
 namespace motionrack::mcx314 {
 
-/// "x.LP", "MODE", or a readable register of `map` as the bus shows it; without effects. Errors: bad_input, with the
-/// names that there are; the sentence calls the card `card` and the name `quoted`.
+/// "x.LP", "MODE", or a readable register of `map` as the bus shows it; without effects. Errors: invalid_input, with
+/// the names that there are; the sentence calls the card `card` and the name `quoted`.
 Result<std::int64_t> value_by_name(const Chip& chip, const CardMap& map, std::string_view card, std::string_view name,
                                    std::string_view quoted);
 
