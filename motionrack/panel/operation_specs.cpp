@@ -37,7 +37,7 @@ constexpr FieldSpec numbers(std::string_view name, double most, std::string_view
     return {name, FieldType::numbers, required, 0, most, {}, {}, about};
 }
 
-constexpr FieldSpec axis = text("axis", 1, "letter of an axis");
+constexpr FieldSpec one_axis = text("axis", 1, "letter of an axis");
 constexpr FieldSpec card_name = text("card", 32, "name of a card of the rack");
 constexpr FieldSpec sequence = integer(
     "sequence", 1, 9e15, "grows with each jog and jog_stop of a connection or token; an older one is refused", false);
@@ -49,14 +49,14 @@ constexpr std::array enable_fields = {flag("on", "false: what moves is stopped f
                                       text("axes", 6, "letters; without it all", false)};
 constexpr std::array home_fields = {text("axes", 6, "letters; without it all that have a home switch", false)};
 constexpr std::array jog_fields = {
-    axis, number("speed", -far, far, "mm/s or degrees/s", "the sign is the direction; 0 lets go"), sequence,
+    one_axis, number("speed", -far, far, "mm/s or degrees/s", "the sign is the direction; 0 lets go"), sequence,
     flag("renews", "only prolongs a jog: it is refused where that has ended, whatever ended it", false)};
 constexpr std::array jog_stop_fields = {sequence};
-constexpr std::array jog_by_fields = {axis, number("distance", -far, far, "mm or degrees", "signed"), speed};
+constexpr std::array jog_by_fields = {one_axis, number("distance", -far, far, "mm or degrees", "signed"), speed};
 constexpr std::array declare_fields = {
-    axis, number("position", -far, far, "mm or degrees", "where the axis stands, machine coordinates")};
+    one_axis, number("position", -far, far, "mm or degrees", "where the axis stands, machine coordinates")};
 constexpr std::array work_zero_fields = {
-    axis,
+    one_axis,
     number("value", -far, far, "mm or degrees", "what the present place is called in work coordinates (G10 L20)")};
 constexpr std::array begin_fields = {text("name", 200, "of the program, for people"),
                                      text("text", max_text_bytes, "the program, G-code")};
