@@ -105,12 +105,12 @@ TEST_F(MarkCommand, PrintsTheSameAsJson) {
 }
 
 TEST_F(MarkCommand, WarnsBeforeTheFieldOverflowsAndTellsEachOverflowByName) {
-    write("job.toml", square + "[belt]\nspeed_mm_s = 720\n[fly]\nmode = 'encoder'\n");
+    write("job.toml", square + "[belt]\nvelocity_mm_s = 720\n[fly]\nmode = 'encoder'\n");
     const Ran near = motionrack("mark job.toml");
     EXPECT_EQ(near.code, 0);
     EXPECT_THAT(near.out, HasSubstr("warning: only "));
     EXPECT_THAT(near.out, HasSubstr("mm are left at the right edge of the field"));
-    write("job.toml", square + "[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+    write("job.toml", square + "[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     const Ran over = motionrack("mark job.toml --report r.html");
     EXPECT_EQ(over.code, 4);
     EXPECT_THAT(over.out, HasSubstr("FLY_X_OVERFLOW at 0.0"));
@@ -132,10 +132,10 @@ TEST_F(MarkCommand, ReadsAJobFromStandardInput) {
 TEST_F(MarkCommand, RefusesWrongJobsWithTheirPlaces) {
     refused("[drawing]\ntext = \n", 2, "job.toml:2:");
     refused("[drawing]\n", 2, "job.toml:1:");
-    refused("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = nan\n", 2, "job.toml:4:");
+    refused("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = nan\n", 2, "job.toml:4:");
     refused("[drawing]\ntext = 'A'\n[bolt]\n", 2, "belt");
-    refused("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 'fast'\n", 2, "job.toml:4:");
-    refused("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n", 3, "bits/ms");
+    refused("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 'fast'\n", 2, "job.toml:4:");
+    refused("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = 200000\n", 3, "bits/ms");
     const Ran missing = motionrack("mark none.toml");
     EXPECT_EQ(missing.code, 5);
     EXPECT_THAT(missing.out, HasSubstr("none.toml cannot be read"));
@@ -219,17 +219,17 @@ TEST_F(MarkCommand, RefusesADrawingThatDoesNotReachTheField) {
 
 TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
     write("job.toml",
-          "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nspeed_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = "
+          "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nvelocity_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = "
           "'encoder'\n");
     const Ran ran = motionrack("mark job.toml -q --picture ''");
     EXPECT_THAT(ran.out, testing::Not(HasSubstr("speed profile"))) << ran.out;
 }
 
 TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
-    write(
-        "long.toml",
-        "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 0.4\n[belt]\nspeed_mm_s = 0.02\n[fly]\nmode "
-        "= 'encoder'\n[galvo]\nideal = false\n");
+    write("long.toml",
+          "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_speed_mm_s = 0.4\n[belt]\nvelocity_mm_s = "
+          "0.02\n[fly]\nmode "
+          "= 'encoder'\n[galvo]\nideal_mirrors = false\n");
     // A terminal of its own, where progress is shown, and Ctrl-C once it was.
     const Ran ran = shell(
         "{ for i in $(seq 3000); do grep -qs ' %  marking' seen && break; sleep 0.02; done; printf '\\003'; } | "

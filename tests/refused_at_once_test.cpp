@@ -37,7 +37,8 @@ class AServedMachine : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
-        write("one.toml", "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n");
+        write("one.toml",
+              "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n");
     }
 };
 

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr const char* rack_text =
-    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_mm = "
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_limit_mm = "
     "300\n[axis.X.switches]\nlimit_plus_mm = 302\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -119,7 +119,7 @@ TEST_F(SweepCommand, TellsWhatRunTells) {
                           "speed_mm_s,x_top_accel_mm_s2,x_lost_pulses,x_rest_error_mm,y_top_speed"));
     EXPECT_THAT(lines[0], Not(HasSubstr("z_top")));
     write("same.ngc", "G21 G90 G64 P0.05\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
-    shell("sed -i 's/max_mm = 300/max_mm = 300\\nmax_accel_mm_s2 = 500/' rack.toml");
+    shell("sed -i 's/max_limit_mm = 300/max_limit_mm = 300\\nmax_accel_mm_s2 = 500/' rack.toml");
     const Ran ran = motionrack("run same.ngc --rack rack.toml --no-report --json -q --fault X.limit_plus=0@500ms");
     const std::size_t at = ran.out.find("\"trace_hash\": \"") + 15;
     EXPECT_THAT(lines[4], testing::EndsWith("," + ran.out.substr(at, 16) + "\r"));
@@ -158,24 +158,25 @@ TEST_F(SweepCommand, RefusesBadFilesWithTheirPlaceBeforeAnythingRuns) {
              Case{"axis.X = [500]", "bad.toml:5:6", "table of the rack file"},
              Case{"axis.X.card.name = [500]", "bad.toml:5:", "cannot be varied"},
              Case{"axs.X.max_mm = [500]", "bad.toml:5:", "did you mean 'axis'?"},
-             Case{"axis.X.max_mm = [500, 200]\naxis.X.start_mm = [0, 250]", "bad.toml:6:", "250"},
-             Case{"axis.X.max_mm = { from = 1, to = 2, stops = 3 }", "bad.toml:5:37", "did you mean 'steps'?"},
-             Case{"axis.X.max_mm = { from = 100, to = 200 }", "bad.toml:5:17", "has no steps"},
-             Case{"axis.X.max_mm = { from = 100, to = 100, steps = 2 }", "bad.toml:5:36", "are both 100"},
-             Case{"axis.X.max_mm = { from = 100, to = nan, steps = 2 }", "bad.toml:5:36", "nan"},
+             Case{"axis.X.max_limit_mm = [500, 200]\naxis.X.initial_position_mm = [0, 250]", "bad.toml:6:", "250"},
+             Case{"axis.X.max_limit_mm = { from = 1, to = 2, stops = 3 }", "bad.toml:5:37", "did you mean 'steps'?"},
+             Case{"axis.X.max_limit_mm = { from = 100, to = 200 }", "bad.toml:5:17", "has no steps"},
+             Case{"axis.X.max_limit_mm = { from = 100, to = 100, steps = 2 }", "bad.toml:5:36", "are both 100"},
+             Case{"axis.X.max_limit_mm = { from = 100, to = nan, steps = 2 }", "bad.toml:5:36", "nan"},
              Case{"axis.X.microsteps = { from = 4, to = 6, steps = 9, whole = true }", "bad.toml:5:49",
                   "only 3 whole numbers"},
-             Case{"axis.X.max_mm = { from = 100, to = 200, steps = 400 }\naxis.Y.max_mm = { from = 100, to = 200, "
+             Case{"axis.X.max_limit_mm = { from = 100, to = 200, steps = 400 }\naxis.Y.max_limit_mm = { from = 100, to "
+                  "= 200, "
                   "steps = 400 }",
                   "bad.toml:4:", "160000 points"},
-             Case{"axis.X.max_mm = []", "bad.toml:5:17", "has no values"},
-             Case{"axis.X.max_mm = [[1]]", "bad.toml:5:18", "an array in its list"},
+             Case{"axis.X.max_limit_mm = []", "bad.toml:5:17", "has no values"},
+             Case{"axis.X.max_limit_mm = [[1]]", "bad.toml:5:18", "an array in its list"},
              Case{"fault = [\"X.limit_plus=0\"]", "bad.toml:5:10", "needs its time"},
              Case{"fault = [\"\", \"X.limitplus=0@1s\"]", "bad.toml:5:14", "did you mean 'X.limit_plus'?"},
              Case{"fault = [1]", "bad.toml:5:10", "faults are texts"},
              Case{"text.WORD = [1]", "bad.toml:5:6", "has no {WORD}"},
              Case{"text.\"A B\" = [1]", "bad.toml:5:6", "names no text"},
-             Case{"\"axis.X.max_mm\" = [100]\naxis.X.max_mm = [200]", "bad.toml:6:", "varied twice"},
+             Case{"\"axis.X.max_limit_mm\" = [100]\naxis.X.max_limit_mm = [200]", "bad.toml:6:", "varied twice"},
              Case{"", "bad.toml:4:2", "Nothing is varied"},
          }) {
         write("good.ngc", "G21 G90\nG1 X10 F600\n");
@@ -200,8 +201,8 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
     const std::string vary = "[vary]\ntext.TOLERANCE = [0.1, 0.2]\n";
     refused("[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\nthreads = 3\n" + vary, 2, "bad.toml:4:1");
     refused("[sweep]\nprogram = \"part.ngc\"\npoints = 3\n" + vary, 2, "bad.toml:3:10");
-    refused("[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\n" + vary, 2, "needs points");
-    refused("[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 1000000\n" + vary, 2,
+    refused("[sweep]\nprogram = \"part.ngc\"\nsampling = \"random\"\n" + vary, 2, "needs points");
+    refused("[sweep]\nprogram = \"part.ngc\"\nsampling = \"random\"\npoints = 1000000\n" + vary, 2,
             "outside its range 1 .. 100000");
     refused("[sweep]\nrack = \"rack.toml\"\n" + vary, 2, "has no program");
     refused("[swep]\n" + vary, 2, "did you mean 'sweep'?");
@@ -228,7 +229,8 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
 TEST_F(SweepCommand, RowsTellWhatWentWrongInAPoint) {
     // The travel of one point is too short for the program: that is a result.
     write("travel.toml",
-          "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_mm = [100, 300]\ntext.TOLERANCE = "
+          "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_limit_mm = [100, "
+          "300]\ntext.TOLERANCE = "
           "0.1\nfault = [\"\", \"X.motor.lose_steps=64@500ms\"]\n");
     const std::string csv = table("travel.toml -o out.csv --picture out.svg");
     const std::vector<std::string> lines = lines_of(csv);

@@ -2,7 +2,7 @@
 
 import motionrack
 
-with motionrack.Rack.from_text('[card.p1]\ntype = "ioflex02"\nloaded = false\n') as rack:
+with motionrack.Rack.from_text('[card.p1]\ntype = "ioflex02"\npreloaded = false\n') as rack:
     flex = rack.cards["p1"].driver
 
     def set_wire(wire: str, level: int) -> None:

@@ -19,13 +19,13 @@ class Trial:
     name: str
     offset_us: tuple[float, ...] = ()  # not empty: all three cards are hosts, without checks, their clocks so far apart
     drift_ppm: float = 0  # of the clock of card "step"
-    compute_us: float = 20
+    control_delay_us: float = 20
     fault_value: float | None = None  # of card "step", at 0.25 s: how many ns late it reads
     record: list[tuple[float, float]] = field(default_factory=list)  # s, nm
 
     def rack(self) -> motionrack.Rack:
-        text = MACHINE.replace("servo = {}", f"servo = {{ compute_us = {self.compute_us} }}")
-        text = text.replace("servo = { profile", f"servo = {{ compute_us = {self.compute_us}, profile")
+        text = MACHINE.replace("servo = {}", f"servo = {{ control_delay_us = {self.control_delay_us} }}")
+        text = text.replace("servo = { profile", f"servo = {{ control_delay_us = {self.control_delay_us}, profile")
         for card, offset in zip(("host", "scan", "step"), self.offset_us):
             keys = f'role = "host"\nchecks = false\noffset_ns = {1e3 * offset!r}\n'
             text = text.replace(f"[card.{card}]\n", f"[card.{card}]\n{keys}")
@@ -75,7 +75,7 @@ def run(trial: Trial) -> None:
 
 TRIALS = [
     Trial("host and two slaves"),
-    Trial("host and two slaves, processors that need 180 us", compute_us=180),
+    Trial("host and two slaves, processors that need 180 us", control_delay_us=180),
     Trial("host and two slaves, card step 5 us late from 0.25 s on", fault_value=5000),
     Trial("three hosts, clocks 3 and 7 us apart", offset_us=(0, 3, 7)),
     Trial("three hosts, one clock 5 ppm fast", offset_us=(0, 3, 7), drift_ppm=-5),

@@ -5,9 +5,9 @@
 
 static const char* const machine =
     "[card.c1]\ntype = \"mcx314\"\n"
-    "[axis.X]\ncard = \"c1\"\nchannel = \"x\"\nmax_mm = 300\nstart_mm = 5\n"
+    "[axis.X]\ncard = \"c1\"\nchannel = \"x\"\nmax_limit_mm = 300\ninitial_position_mm = 5\n"
     "[axis.X.switches]\nhome_mm = 1\nlimit_minus_mm = -1\nlimit_plus_mm = 301\n"
-    "[axis.Y]\ncard = \"c1\"\nchannel = \"y\"\nmax_mm = 200\n";
+    "[axis.Y]\ncard = \"c1\"\nchannel = \"y\"\nmax_limit_mm = 200\n";
 
 static const char* const part =
     "G21 G90\n"

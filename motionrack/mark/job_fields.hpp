@@ -41,8 +41,8 @@ inline constexpr std::array<Field, 3> optics_fields = {
     field<&Optics::correction>("correction", 0, 1, "", "false: no table in the card"),
 };
 inline constexpr std::array<Field, 7> pace_fields = {
-    field<&ProcessSpeeds::mark_mm_s>("mark_mm_s", 1e-6, 1e6, "mm/s", "speed of marks"),
-    field<&ProcessSpeeds::jump_mm_s>("jump_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps"),
+    formerly("mark_mm_s", field<&ProcessSpeeds::mark_mm_s>("mark_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of marks")),
+    formerly("jump_mm_s", field<&ProcessSpeeds::jump_mm_s>("jump_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps")),
     field<&ProcessSpeeds::jump_delay_us>("jump_delay_us", 0, 1e7, "us", "wait after a jump"),
     field<&ProcessSpeeds::mark_delay_us>("mark_delay_us", 0, 1e7, "us", "wait after a stroke"),
     field<&ProcessSpeeds::polygon_delay_us>("polygon_delay_us", 0, 1e7, "us", "wait at a corner"),
@@ -50,7 +50,7 @@ inline constexpr std::array<Field, 7> pace_fields = {
     field<&ProcessSpeeds::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
 };
 inline constexpr std::array<Field, 5> belt_fields = {
-    field<&BeltSettings::speed>("speed_mm_s", -1e5, 1e5, "mm/s", "speed"),
+    formerly("speed_mm_s", field<&BeltSettings::speed>("velocity_mm_s", -1e5, 1e5, "mm/s", "speed"),
     field<&BeltSettings::direction_deg>("direction_deg", -3600, 3600, "deg",
                                         "where it goes, from +X counter-clockwise"),
     field<&BeltSettings::counts_per_unit>("counts_per_mm", -1e6, 1e6, "", "of its encoder, four a line"),
@@ -58,7 +58,7 @@ inline constexpr std::array<Field, 5> belt_fields = {
     field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 6> table_fields = {
-    field<&BeltSettings::speed>("speed_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
+    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
     field<&BeltSettings::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "of its encoder, four a line"),
@@ -77,8 +77,9 @@ inline constexpr std::array<Field, 7> fly_fields = {
     field<&FlySettings::offset_us>("offset_us", -1e6, 1e6, "us",
                                    "everything is marked as far ahead as the belt goes in this time at its first "
                                    "speed: for a source that is late"),
-    with_choices(field<&FlySettings::waits>("waits", 0, 0, "",
-                                            "auto: each stroke waits until it is in the field, long ones in pieces"),
+    with_choices(formerly("waits", field<&FlySettings::waits>(
+                                       "wait_mode", 0, 0, "",
+                                       "auto: each stroke waits until it is in the field, long ones in pieces")),
                  waits),
     field<&FlySettings::margin_mm>("margin_mm", 0, 1000, "mm", "with waits: how far marks keep from the field's edge"),
 };

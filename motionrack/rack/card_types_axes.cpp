@@ -67,8 +67,9 @@ constexpr std::array<Field, 8> mcx314_settings = {
                                                  "the chip: the original, or the one with filters, automatic home "
                                                  "search, synchronous actions and wide ranges"),
                  mcx314_variants),
-    with_choices(field<&Mcx314Settings::slow_drives>("slow_drives", 0, 0, "",
-                                                     "the speed of a drive with V <= SV; the sources do not agree"),
+    with_choices(formerly("slow_drives", field<&Mcx314Settings::slow_drives>(
+                                             "low_speed_drive", 0, 0, "",
+                                             "the speed of a drive with V <= SV; the sources do not agree")),
                  slow_drives),
     with_choices(field<&Mcx314Settings::software_limits>(
                      "software_limits", 0, 0, "",
@@ -162,11 +163,11 @@ constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature
                                                                      "up/down"};
 
 constexpr std::array<Field, 11> databoard4002_settings = {
-    field<&Databoard4002Settings::select>("select", 0, 31, "",
-                                          "its number on the bus, written to port 1 before it answers"),
-    with_choices(
-        field<&Databoard4002Settings::counting>("counting", 0, 0, "", "how the straps let O1 and O2 be counted"),
-        databoard4002_countings),
+    formerly("select", field<&Databoard4002Settings::select>(
+                           "card_number", 0, 31, "", "its number on the bus, written to port 1 before it answers")),
+    with_choices(formerly("counting", field<&Databoard4002Settings::counting>(
+                                          "count_mode", 0, 0, "", "how the straps let O1 and O2 be counted")),
+                 databoard4002_countings),
     field<&Databoard4002Settings::first_pair>(
         "first_pair", 0, 3, "", "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
     field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "",
@@ -180,8 +181,8 @@ constexpr std::array<Field, 11> databoard4002_settings = {
                                         "between, as in \"0.01 13799, 0.025 14051\"; empty: the printed one"),
     field<&Databoard4002Settings::version>("version", 0, 255, "",
                                            "version of the card's program, as the command V tells it"),
-    field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "",
-                                              "ticks of 2.5 us in a pass of the card's program"),
+    formerly("pass_ticks", field<&Databoard4002Settings::pass_ticks>(
+                               "firmware_pass_ticks", 1, 4'000, "", "ticks of 2.5 us in a pass of the card's program")),
     field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",
                                                 "time that the card's program takes for an access"),
     field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",

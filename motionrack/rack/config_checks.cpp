@@ -93,17 +93,18 @@ class AxisCheck {
 
     void travel() {
         const std::string_view u = axis_.unit();
-        if (!source_.sound({"min_{u}", "max_{u}"})) return;
+        if (!source_.sound({"min_limit_{u}", "max_limit_{u}"})) return;
         if (axis_.min_position >= axis_.max_position) {
-            error("min_{u}", {},
-                  fmt::format("min_{0} of axis {1} is {2}, not below max_{0}, which is {3}.", u, axis_.letter,
-                              number_text(axis_.min_position), number_text(axis_.max_position)));
+            error("min_limit_{u}", {},
+                  fmt::format("min_limit_{0} of axis {1} is {2}, not below max_limit_{0}, which is {3}.", u,
+                              axis_.letter, number_text(axis_.min_position), number_text(axis_.max_position)));
             return;
         }
-        if (source_.sound({"start_{u}"}) && !inside(axis_.start_position, axis_.min_position, axis_.max_position)) {
-            error("start_{u}", {},
-                  fmt::format("start_{0} of axis {1} is {2}, outside its travel {3} .. {4} {0}.", u, axis_.letter,
-                              number_text(axis_.start_position), number_text(axis_.min_position),
+        if (source_.sound({"initial_position_{u}"}) &&
+            !inside(axis_.start_position, axis_.min_position, axis_.max_position)) {
+            error("initial_position_{u}", {},
+                  fmt::format("initial_position_{0} of axis {1} is {2}, outside its travel {3} .. {4} {0}.", u,
+                              axis_.letter, number_text(axis_.start_position), number_text(axis_.min_position),
                               number_text(axis_.max_position)));
         }
     }
@@ -111,7 +112,7 @@ class AxisCheck {
     void switches() {
         const std::string_view u = axis_.unit();
         const RackSwitches& s = axis_.switches;
-        if (!source_.sound({"min_{u}", "max_{u}", "limit_minus_{u}", "limit_plus_{u}", "home_{u}"})) return;
+        if (!source_.sound({"min_limit_{u}", "max_limit_{u}", "limit_minus_{u}", "limit_plus_{u}", "home_{u}"})) return;
         if (axis_.min_position >= axis_.max_position) return;  // told already
         const double low = s.limit_minus.value_or(axis_.min_position);
         const double high = s.limit_plus.value_or(axis_.max_position);
@@ -129,9 +130,9 @@ class AxisCheck {
         }
         cam();
         if (s.limit_minus && low >= axis_.min_position)
-            limit_in_travel("limit_minus_{u}", low, "min", axis_.min_position);
+            limit_in_travel("limit_minus_{u}", low, "min_limit", axis_.min_position);
         if (s.limit_plus && high <= axis_.max_position)
-            limit_in_travel("limit_plus_{u}", high, "max", axis_.max_position);
+            limit_in_travel("limit_plus_{u}", high, "max_limit", axis_.max_position);
     }
 
     void cam() {
@@ -169,15 +170,15 @@ class AxisCheck {
                              with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
                              with_unit(limit, axis_.unit()), number_text(most)));
         };
-        above("speed_{u}_s", h.speed, axis_.max_velocity, "max_speed_{u}_s");
-        above("slow_speed_{u}_s", h.slow_speed, axis_.max_velocity_step, "start_speed_{u}_s");
-        if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"home_type", "encoder_counts_per_rev"}))
-            warn("home_type", "homing",
+        above("search_velocity_{u}_s", h.speed, axis_.max_velocity, "max_velocity_{u}_s");
+        above("latch_velocity_{u}_s", h.slow_speed, axis_.max_velocity_step, "max_velocity_step_{u}_s");
+        if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"method", "encoder_counts_per_rev"}))
+            warn("method", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
                              axis_.letter, h.type));
-        if (h.type >= 3 && !h.position && !h.index_after && source_.sound({"home_type"}))
-            warn("home_type", "homing",
-                 fmt::format("Axis {0} needs position_{1} or index_after_{1} to home to its index.", axis_.letter,
+        if (h.type >= 3 && !h.position && !h.index_after && source_.sound({"method"}))
+            warn("method", "homing",
+                 fmt::format("Axis {0} needs home_offset_{1} or index_after_{1} to home to its index.", axis_.letter,
                              axis_.unit()));
         const RackCard* card = config_.card(axis_.card);
         if (const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
@@ -189,10 +190,11 @@ class AxisCheck {
 
     void motor() {
         const std::string_view u = axis_.unit();
-        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.max_velocity_step > axis_.max_velocity)
-            error("start_speed_{u}_s", {},
-                  fmt::format("start_speed_{0}_s of axis {1} is {2}, above its max_speed_{0}_s, which is {3}.", u,
-                              axis_.letter, number_text(axis_.max_velocity_step), number_text(axis_.max_velocity)));
+        if (source_.sound({"max_velocity_step_{u}_s", "max_velocity_{u}_s"}) &&
+            axis_.max_velocity_step > axis_.max_velocity)
+            error("max_velocity_step_{u}_s", {},
+                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, above its max_velocity_{0}_s, which is {3}.",
+                              u, axis_.letter, number_text(axis_.max_velocity_step), number_text(axis_.max_velocity)));
         if (source_.sound({"max_jerk_{u}_s3"}) && axis_.max_jerk > 0 && axis_.max_jerk < 0.001) {
             error("max_jerk_{u}_s3", {},
                   fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,
@@ -208,8 +210,8 @@ class AxisCheck {
                       "start_stop_hz must not be above it.",
                       axis_.letter, number_text(m.start_stop_hz), number_text(m.pull_out_hz)));
         } else if (pulses_known()) {
-            too_fast_for_motor("max_speed_{u}_s", axis_.max_velocity, "pull_out_hz", m.pull_out_hz);
-            too_fast_for_motor("start_speed_{u}_s", axis_.max_velocity_step, "start_stop_hz", m.start_stop_hz);
+            too_fast_for_motor("max_velocity_{u}_s", axis_.max_velocity, "pull_out_hz", m.pull_out_hz);
+            too_fast_for_motor("max_velocity_step_{u}_s", axis_.max_velocity_step, "start_stop_hz", m.start_stop_hz);
         }
     }
 
@@ -250,27 +252,29 @@ class AxisCheck {
             error("encoder_counts_per_rev", {},
                   fmt::format("Axis {} has a servo but no encoder; encoder_counts_per_rev must be above 0.",
                               axis_.letter));
-        if (!source_.sound(
-                {"speed_per_volt_{u}_s", "top_speed_{u}_s", "top_accel_{u}_s2", "friction_{u}_s2", "max_speed_{u}_s"}))
+        if (!source_.sound({"velocity_per_volt_{u}_s", "saturation_velocity_{u}_s", "current_limit_accel_{u}_s2",
+                            "coulomb_friction_{u}_s2", "max_velocity_{u}_s"}))
             return;
         if (servo.friction >= servo.top_accel)
-            error("friction_{u}_s2", "servo",
-                  fmt::format("friction_{0}_s2 of axis {1} is {2}, not below top_accel_{0}_s2, which is {3}: its motor "
+            error("coulomb_friction_{u}_s2", "servo",
+                  fmt::format("coulomb_friction_{0}_s2 of axis {1} is {2}, not below current_limit_accel_{0}_s2, which "
+                              "is {3}: its motor "
                               "could never start.",
                               u, axis_.letter, number_text(servo.friction), number_text(servo.top_accel)));
         if (const double counts = servo.fastest() * axis_.pulses_per_unit(); counts > 1e6)
-            error("speed_per_volt_{u}_s", "servo",
+            error("velocity_per_volt_{u}_s", "servo",
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
-                              "top_speed_{}_s or "
+                              "saturation_velocity_{}_s or "
                               "encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.fastest()), u, short_text(counts), u));
         const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
         if (axis_.max_velocity_step <= slowest)
-            warn("start_speed_{u}_s", {},
-                 fmt::format("start_speed_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every "
-                             "speed: it would stop "
-                             "short of its target.",
-                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
+            warn("max_velocity_step_{u}_s", {},
+                 fmt::format(
+                     "max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every "
+                     "speed: it would stop "
+                     "short of its target.",
+                     u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
         if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
@@ -279,9 +283,10 @@ class AxisCheck {
                              u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
         const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
         if (axis_.max_velocity > reach * rounding)
-            warn("max_speed_{u}_s", {},
-                 fmt::format("max_speed_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.",
-                             u, axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
+            warn("max_velocity_{u}_s", {},
+                 fmt::format(
+                     "max_velocity_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.", u,
+                     axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
     }
 
     void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
@@ -297,17 +302,17 @@ class AxisCheck {
     void chip(const RackCard& card, const CardType& type) {
         if (!pulses_known()) return;
         const double fastest = type.max_pulse_hz(card);
-        too_fast_for_chip("max_speed_{u}_s", axis_.max_velocity, "pulses/s", fastest, card);
+        too_fast_for_chip("max_velocity_{u}_s", axis_.max_velocity, "pulses/s", fastest, card);
         too_fast_for_chip("max_accel_{u}_s2", axis_.max_accel, "pulses/s2", type.max_accel_hz_s(card), card);
         const std::string_view u = axis_.unit();
-        if (source_.sound({"max_speed_{u}_s"}) && axis_.max_pulse_hz() < 1) {
-            error("max_speed_{u}_s", {},
+        if (source_.sound({"max_velocity_{u}_s"}) && axis_.max_pulse_hz() < 1) {
+            error("max_velocity_{u}_s", {},
                   fmt::format(
-                      "max_speed_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.", u,
-                      axis_.letter, number_text(axis_.max_velocity), short_text(axis_.max_pulse_hz()), card.name));
+                      "max_velocity_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.",
+                      u, axis_.letter, number_text(axis_.max_velocity), short_text(axis_.max_pulse_hz()), card.name));
         }
         counter_range(type);
-        if (!source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) return;
+        if (!source_.sound({"encoder_counts_per_rev", "max_velocity_{u}_s"})) return;
         if (type.position_loop && axis_.encoder_counts_per_rev == 0)
             error("encoder_counts_per_rev", {},
                   fmt::format(
@@ -330,11 +335,11 @@ class AxisCheck {
 
     /// Positions must fit the card's counters.
     void counter_range(const CardType& type) {
-        if (!source_.sound({"min_{u}", "max_{u}"})) return;
+        if (!source_.sound({"min_limit_{u}", "max_limit_{u}"})) return;
         const auto most = static_cast<double>(type.max_position);
         const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
         for (const auto& [key, position] :
-             {std::pair{"min_{u}", axis_.min_position}, std::pair{"max_{u}", axis_.max_position}}) {
+             {std::pair{"min_limit_{u}", axis_.min_position}, std::pair{"max_limit_{u}", axis_.max_position}}) {
             if (std::fabs(position) * per_unit <= most) continue;
             error(key, {},
                   fmt::format("{} of axis {} is {}, that is {} pulses or counts; the position counters hold {:.0f} at "

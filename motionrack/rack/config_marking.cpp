@@ -19,8 +19,8 @@ constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
     field<&RackConveyor::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
-    field<&RackConveyor::speed>("speed_{u}_s", -parts::max_track_speed, parts::max_track_speed, "{u}/s",
-                                "how fast it goes"),
+    formerly("speed_{u}_s", field<&RackConveyor::speed>("velocity_{u}_s", -parts::max_track_speed,
+                                                        parts::max_track_speed, "{u}/s", "how fast it goes")),
     field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
                                        "how it brakes when a stop ends its motion"),
     only_in(field<&RackConveyor::direction_deg>("direction_deg", -3'600, 3'600, "deg",
@@ -47,21 +47,24 @@ constexpr std::array<Field, 4> sender_table = {
 };
 
 constexpr std::array<Field, 3> passing_table = {
-    field<&RackParts::every>("every_{u}", 0.001, 1e6, "{u}", "from part to part"),
-    field<&RackParts::first>("first_{u}", -1e6, 1e6, "{u}", "travel at which the first part comes to the sensor"),
+    formerly("every_{u}", field<&RackParts::every>("part_pitch_{u}", 0.001, 1e6, "{u}", "from part to part")),
+    formerly("first_{u}", field<&RackParts::first>("first_part_{u}", -1e6, 1e6, "{u}",
+                                                   "travel at which the first part comes to the sensor")),
     field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}",
                               "of a part, less than the distance: so long the sensor is low"),
 };
 
 constexpr std::array<Field, 5> scanner_table = {
     required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
-    absent_means(field<&RackScanner::track>("part_on", 1, 32, "", "name of the belt or table that carries the part"),
+    absent_means(formerly("part_on", field<&RackScanner::track>("conveyor", 1, 32, "",
+                                                                "name of the belt or table that carries the part")),
                  "the part lies still"),
     field<&RackScanner::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of the field, without a lens"),
     field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um",
                                       "how far a piece may be off what was marked, where pieces are joined"),
-    field<&RackScanner::greatest_points>("greatest_points", 16, 4'000'000, "",
-                                         "points of marks that are kept; more are counted only"),
+    formerly("greatest_points",
+             field<&RackScanner::greatest_points>("max_points", 16, 4'000'000, "",
+                                                  "points of marks that are kept; more are counted only")),
 };
 
 bool has_encoder(const RackConveyor& track) {
@@ -177,7 +180,7 @@ class MarkingReader {
                 return bad(pair.value_place, "a point of its profile must be a pair [seconds, speed].");
             track.profile.push_back({number(pair.children[0]), number(pair.children[1])});
         }
-        if (node_->find(with_unit("speed_{u}_s", track.unit())) != nullptr)
+        if (node_->find(with_unit("velocity_{u}_s", track.unit())) != nullptr)
             return bad(profile.key_place, "a speed and a profile are both given; leave one out.");
         return true;
     }
@@ -204,7 +207,7 @@ class MarkingReader {
         if (!track.profile.empty()) fastest = 0;
         for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
         if (fastest > track.greatest_speed())
-            refuse(*node_, with_unit("speed_{u}_s", unit_),
+            refuse(*node_, with_unit("velocity_{u}_s", unit_),
                    fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
                                "{3:.0f} counts a second, or "
                                "more than {4:.0f} parts a second would come.",
@@ -245,7 +248,7 @@ class MarkingReader {
 
     void check(const RackScanner& scanner) {
         if (scanner.track && config_.track(*scanner.track) == nullptr)
-            refuse(*node_, "part_on", fmt::format("there is no belt or table {}.", in_quotes(*scanner.track)));
+            refuse(*node_, "conveyor", fmt::format("there is no belt or table {}.", in_quotes(*scanner.track)));
         check_card(scanner.card);
         for (const RackScanner& other : config_.scanners)
             if (other.card == scanner.card)

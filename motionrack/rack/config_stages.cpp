@@ -21,49 +21,61 @@ constexpr std::array<Field, 12> stage_table = {
     required(field<&RackStage::input>("input", 0, 127, "", "number of its scale at the decoder"), "required"),
     field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2",
                                            "acceleration for a volt, without the load"),
-    field<&RackStage::top_accel_m_s2>("top_accel_m_s2", 0.001, 1'000, "m/s2",
-                                      "acceleration at the current limit, without the load"),
-    field<&RackStage::top_speed_m_s>("top_speed_m_s", 0.001, 10, "m/s", "there the amplifier's voltage is used up"),
-    field<&RackStage::viscous_per_s>("viscous_per_s", 0, 100, "1/s", "brake that grows with the speed, m/s2 for a m/s"),
-    field<&RackStage::coulomb_m_s2>("coulomb_m_s2", 0, 1'000, "m/s2", "brake of rubbing parts"),
-    field<&RackStage::load>("load", 0, 1'000, "", "mass on the stage in units of its own"),
+    formerly("top_accel_m_s2",
+             field<&RackStage::top_accel_m_s2>("current_limit_accel_m_s2", 0.001, 1'000, "m/s2",
+                                               "acceleration at the current limit, without the load")),
+    formerly("top_speed_m_s", field<&RackStage::top_speed_m_s>("saturation_velocity_m_s", 0.001, 10, "m/s",
+                                                               "there the amplifier's voltage is used up")),
+    formerly("viscous_per_s", field<&RackStage::viscous_per_s>("viscous_friction_per_s", 0, 100, "1/s",
+                                                               "brake that grows with the speed, m/s2 for a m/s")),
+    formerly("coulomb_m_s2",
+             field<&RackStage::coulomb_m_s2>("coulomb_friction_m_s2", 0, 1'000, "m/s2", "brake of rubbing parts")),
+    formerly("load", field<&RackStage::load>("load_mass_ratio", 0, 1'000, "", "mass on the stage in units of its own")),
     absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "where it stands at the start"),
                  "where its servo's profile begins"),
-    field<&RackStage::end_minus_mm>("end_minus_mm", -1e4, 1e4, "mm", "end of travel"),
-    field<&RackStage::end_plus_mm>("end_plus_mm", -1e4, 1e4, "mm", "end of travel"),
+    formerly("end_minus_mm", field<&RackStage::end_minus_mm>("hard_stop_minus_mm", -1e4, 1e4, "mm", "end of travel")),
+    formerly("end_plus_mm", field<&RackStage::end_plus_mm>("hard_stop_plus_mm", -1e4, 1e4, "mm", "end of travel")),
 };
 
 constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::pitch_um>("pitch_um", 0.001, 1'000, "um", "period of the grating, whole picometres"),
     field<&RackScale::interpolation>("interpolation", 4, 65'536, "", "counts of a pitch, a multiple of 4"),
     field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down where the stage goes up"),
-    field<&RackScale::zero_mm>("zero_mm", -1e4, 1e4, "mm", "where its count is 0"),
-    field<&RackScale::max_count_rate_mhz>("fastest_mhz", 0.001, 1'000, "MHz",
-                                          "million counts a second; what is quicker is lost"),
+    formerly("zero_mm", field<&RackScale::zero_mm>("zero_offset_mm", -1e4, 1e4, "mm", "where its count is 0")),
+    formerly("fastest_mhz", field<&RackScale::max_count_rate_mhz>("max_count_rate_mhz", 0.001, 1'000, "MHz",
+                                                                  "million counts a second; what is quicker is lost")),
     absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "where the reference mark is"),
                  "no such mark"),
-    field<&RackScale::dirt_at_mm>("dirt_at_mm", -1e4, 1e4, "mm", "where the dirt of the fault scale.dirt begins"),
+    formerly("dirt_at_mm", field<&RackScale::dirt_at_mm>("dirt_position_mm", -1e4, 1e4, "mm",
+                                                         "where the dirt of the fault scale.dirt begins")),
 };
 
 constexpr std::array<Field, 16> stage_servo_table = {
     field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz", "there the open loop crosses 1"),
-    absent_means(field<&RackStageServo::p_v_um>("p_v_um", 0, 1e6, "V/um", "proportional gain"), "by the bandwidth"),
-    absent_means(field<&RackStageServo::i_v_um_s>("i_v_um_s", 0, 1e9, "V/(um s)", "integral gain"), "by the bandwidth"),
-    absent_means(field<&RackStageServo::d_v_s_um>("d_v_s_um", 0, 1e6, "V s/um", "differential gain"),
+    absent_means(formerly("p_v_um", field<&RackStageServo::p_v_um>("kp_v_um", 0, 1e6, "V/um", "proportional gain")),
                  "by the bandwidth"),
-    field<&RackStageServo::limit_um>("limit_um", 0, 1e6, "um",
-                                     "a greater following error opens the loop; 0: none does"),
-    field<&RackStageServo::compute_us>("compute_us", 0, 100'000, "us",
-                                       "from the frame to the voltage, less than a period"),
+    absent_means(
+        formerly("i_v_um_s", field<&RackStageServo::i_v_um_s>("ki_v_um_s", 0, 1e9, "V/(um s)", "integral gain")),
+        "by the bandwidth"),
+    absent_means(
+        formerly("d_v_s_um", field<&RackStageServo::d_v_s_um>("kd_v_s_um", 0, 1e6, "V s/um", "differential gain")),
+        "by the bandwidth"),
+    formerly("limit_um", field<&RackStageServo::limit_um>("max_following_error_um", 0, 1e6, "um",
+                                                          "a greater following error opens the loop; 0: none does")),
+    formerly("compute_us", field<&RackStageServo::compute_us>("control_delay_us", 0, 100'000, "us",
+                                                              "from the frame to the voltage, less than a period")),
     with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), stage_profiles),
     field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: at constant speed from here"),
     field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "to here, and back"),
     field<&RackStageServo::step_mm>("step_mm", -1e4, 1e4, "mm", "steps: how far each goes"),
     field<&RackStageServo::steps>("steps", 1, 1'000'000, "", "steps: so many up, then as many down"),
-    field<&RackStageServo::every_ms>("every_ms", 0.1, 1e6, "ms", "steps: time from one to the next"),
-    field<&RackStageServo::speed_mm_s>("speed_mm_s", 0.001, 10'000, "mm/s", "greatest speed"),
-    field<&RackStageServo::accel_mm_s2>("accel_mm_s2", 0.001, 1e6, "mm/s2", "greatest acceleration"),
-    field<&RackStageServo::jerk_mm_s3>("jerk_mm_s3", 0.001, 1e12, "mm/s3", "greatest jerk"),
+    formerly("every_ms",
+             field<&RackStageServo::every_ms>("step_period_ms", 0.1, 1e6, "ms", "steps: time from one to the next")),
+    formerly("speed_mm_s",
+             field<&RackStageServo::speed_mm_s>("max_velocity_mm_s", 0.001, 10'000, "mm/s", "greatest speed")),
+    formerly("accel_mm_s2",
+             field<&RackStageServo::accel_mm_s2>("max_accel_mm_s2", 0.001, 1e6, "mm/s2", "greatest acceleration")),
+    formerly("jerk_mm_s3", field<&RackStageServo::jerk_mm_s3>("max_jerk_mm_s3", 0.001, 1e12, "mm/s3", "greatest jerk")),
     field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "the profile begins then"),
 };
 
@@ -164,7 +176,7 @@ class StageReader {
         if (!stage.servo) return true;
         const TomlNode& table = *node.find("servo");
         if (stage.servo->compute_us >= config_.card(stage.card)->grating_bus.period_us)
-            refuse(table, "compute_us",
+            refuse(table, "control_delay_us",
                    fmt::format("computing takes {} us, but there is a frame every {} us.",
                                number_text(stage.servo->compute_us),
                                number_text(config_.card(stage.card)->grating_bus.period_us)));
@@ -174,7 +186,7 @@ class StageReader {
     }
     void check_place(const RackStage& stage, const TomlNode& node) {
         if (!(stage.end_minus_mm < stage.end_plus_mm))
-            return refuse(node, "end_plus_mm",
+            return refuse(node, "hard_stop_plus_mm",
                           fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.",
                                       number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
         const double start = motor_settings(stage).start_nm * 1e-6;

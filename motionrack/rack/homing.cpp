@@ -302,7 +302,7 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
     if (h.type >= 3 && !h.position && !h.index_after)
         return refuse(
-            fmt::format("type {0} ends at the encoder's index, and nothing says where that is; give it position_{1} "
+            fmt::format("type {0} ends at the encoder's index, and nothing says where that is; give it home_offset_{1} "
                         "(what the index is called) or index_after_{1} (how far behind the switch it is)",
                         h.type, axis.unit()));
     const double to_home = h.type < 3 ? 0 : h.index_after.value_or(0);

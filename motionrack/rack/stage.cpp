@@ -36,7 +36,7 @@ std::string profile_flaw(const RackStage& stage) {
     const double way = std::fabs(s.step_mm) * nm_per_mm;
     const double move = gb::StepProfile(0, way, 1, 1e9, limits_of(s)).move_s();
     if (move > s.every_ms * 1e-3)
-        return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but every_ms is {}.",
+        return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but step_period_ms is {}.",
                            number_text(s.step_mm), move * 1e3, number_text(s.every_ms));
     return {};
 }
@@ -203,7 +203,8 @@ std::string describe_loop(const sim::Condition& condition, const RackStage& stag
             "trusted",
             stage.name, at, stage.card);
     return fmt::format(
-        "stage {}: at {:.6f} s it was {} nm from where it was to be, more than limit_um = {}; card {} opened its loop: "
+        "stage {}: at {:.6f} s it was {} nm from where it was to be, more than max_following_error_um = {}; card {} "
+        "opened its loop: "
         "0 V",
         stage.name, at, condition.b, number_text(stage.servo->limit_um), stage.card);
 }

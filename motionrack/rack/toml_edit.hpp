@@ -2,8 +2,8 @@
 // is about.
 //
 //   [axis.X]              axis.X.card = "motion"
-//   card = "motion"  ──►  axis.X.max_mm = 300
-//   max_mm = 300
+//   card = "motion"  ──►  axis.X.max_limit_mm = 300
+//   max_limit_mm = 300
 #pragma once
 
 #include <motionrack/rack/toml_reader.hpp>
@@ -14,8 +14,8 @@
 
 namespace motionrack::rack {
 
-/// The keys of a dotted name; those with dots stand in double quotes: axis.X.max_mm, wires."motion.xin1". Empty: it is
-/// no such name.
+/// The keys of a dotted name; those with dots stand in double quotes: axis.X.max_limit_mm, wires."motion.xin1". Empty:
+/// it is no such name.
 std::vector<std::string> toml_path(std::string_view text);
 /// The dotted name of these keys, with quotes where TOML needs them.
 std::string toml_name(std::span<const std::string> path);

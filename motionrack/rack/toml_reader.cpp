@@ -284,6 +284,8 @@ class FieldReader {
 std::string unknown_key(const std::string& key, std::span<const Field> fields, const Section& section,
                         std::span<const std::string_view> known) {
     for (const Field& field : fields) {
+        if (!field.old_key.empty() && key == with_unit(field.old_key, section.unit))
+            return fmt::format("{} is now {}.", in_quotes(key), in_quotes(with_unit(field.key, section.unit)));
         if (!field.only.empty() && field.only != section.unit && key == field.key) {
             return fmt::format("{} does not belong to {}, which is {}; the key means: {}.", field.key, section.name,
                                section.kind, field.doc);

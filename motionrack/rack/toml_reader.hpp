@@ -78,7 +78,7 @@ std::string printable(std::string_view text, std::size_t longest);
 /// The user's own text in a message: printable and in quotes, cut after 60 bytes.
 std::string in_quotes(std::string_view text);
 
-/// "; did you mean 'max_mm'?" if a candidate is near enough to `text` (edit distance), else an empty string.
+/// "; did you mean 'max_limit_mm'?" if a candidate is near enough to `text` (edit distance), else an empty string.
 std::string did_you_mean(std::string_view text, std::span<const std::string_view> candidates);
 
 /// A number as the user would write it: the shortest text that reads back to the same double.
@@ -106,6 +106,7 @@ struct Field {
     bool required = false;              ///< the key must be there
     bool optional = false;              ///< may be absent, and that means something; `default_doc` says what
     std::string_view default_doc = {};  ///< in place of the default, where there is none to show
+    std::string_view old_key = {};      ///< name of the key in earlier versions; empty: the same
     FieldValue (*get)(const void* object, const Field& field) = nullptr;
     void (*set)(void* object, const FieldValue& value, const Field& field) = nullptr;
 };
@@ -197,6 +198,9 @@ constexpr Field field(std::string_view key, double min, double max, std::string_
     return out;
 }
 
+constexpr Field formerly(std::string_view old_key, Field f) {
+    return f.old_key = old_key, f;
+}
 constexpr Field with_choices(Field f, std::span<const std::string_view> choices) {
     f.type = FieldType::choice;
     f.choices = choices;

@@ -78,7 +78,7 @@ class Preparation {
             if (parameter.kind == ParameterKind::rack && !rack::put_value(scratch, parameter.path, value))
                 problems_.error(parameter.place,
                                 fmt::format("{} cannot be varied: it is a table of the rack file, or below something "
-                                            "that is none. Write the whole name of a key, such as axis.X.max_mm.",
+                                            "that is none. Write the whole name of a key, such as axis.X.max_limit_mm.",
                                             parameter.name));
             if (parameter.kind == ParameterKind::text &&
                 files_.program.find("{" + parameter.path[1] + "}") == std::string::npos)

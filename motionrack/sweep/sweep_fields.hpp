@@ -17,9 +17,10 @@ inline constexpr std::array<rack::Field, 7> sweep_fields = {
     rack::absent_means(rack::field<&SweepSettings::tools>("tools", 1, 4096, "", "tool table (LinuxCNC's .tbl)"),
                        "none"),
     rack::field<&SweepSettings::block_delete>("block_delete", 0, 0, "", "leave out lines that begin with '/'"),
-    rack::with_choices(rack::field<&SweepSettings::order>("order", 0, 0, "",
-                                                          "all combinations of the values, or points drawn by chance"),
-                       order_names),
+    rack::with_choices(
+        rack::formerly("order", rack::field<&SweepSettings::order>(
+                                    "sampling", 0, 0, "", "all combinations of the values, or points drawn by chance")),
+        order_names),
     rack::absent_means(rack::field<&SweepSettings::points>("points", 1, static_cast<double>(max_points), "",
                                                            "how many points are drawn"),
                        "required with random, else none"),
@@ -40,7 +41,7 @@ inline constexpr std::array<rack::Field, 4> range_fields = {
     rack::absent_means(rack::field<&RangeSettings::steps>("steps", 2, static_cast<double>(max_steps), "",
                                                           "how many numbers, at equal distances, both ends among them"),
                        "required with grid; with random any number between"),
-    rack::field<&RangeSettings::whole>("whole", 0, 0, "", "rounded to whole numbers"),
+    rack::formerly("whole", rack::field<&RangeSettings::whole>("integer", 0, 0, "", "rounded to whole numbers")),
 };
 
 }  // namespace motionrack::sweep

@@ -72,13 +72,13 @@ class Reader {
         if (!random_ && settings.points)
             problems_.error(node.place_of("points"),
                             "points says how many are drawn by chance, but this sweep takes all combinations; write "
-                            "order = \"random\", or leave points out.");
+                            "sampling = \"random\", or leave points out.");
     }
 
     void read_vary(const TomlNode& vary) {
         for (const TomlNode& node : vary.children) {
             const std::vector<std::string> path = rack::toml_path(node.key);
-            // "axis.X.max_mm" in quotes and axis.X.max_mm without are the same.
+            // "axis.X.max_limit_mm" in quotes and axis.X.max_limit_mm without are the same.
             if (!path.empty() && rack::toml_name(path) == node.key)
                 descend(node, path);
             else
@@ -95,7 +95,7 @@ class Reader {
         if (const std::int64_t points = file_.points(); points > max_points)
             problems_.error(vary.key_place,
                             fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or "
-                                        "order = \"random\" with points.",
+                                        "sampling = \"random\" with points.",
                                         points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18"
                                                                                            : std::to_string(points),
                                         max_points));

@@ -47,7 +47,7 @@ struct NumberRange {
 /// Something that is varied.
 struct Parameter {
     ParameterKind kind = ParameterKind::rack;
-    std::string name;                    ///< as tables call it: axis.X.max_mm, fault, text.TOLERANCE
+    std::string name;                    ///< as tables call it: axis.X.max_limit_mm, fault, text.TOLERANCE
     std::vector<std::string> path;       ///< of the rack file
     std::vector<rack::TomlNode> values;  ///< with their places in the sweep file; empty: `range` is
     std::optional<NumberRange> range;    ///< any number of it; of random sweeps only

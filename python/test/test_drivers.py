@@ -184,7 +184,7 @@ class Ioflex(unittest.TestCase):
         info = motionrack.Ioflex02.image_info(image)
         self.assertEqual((info["project"], info["ident"], info["payload"]), ("position", 0x25, 12))
         self.assertEqual((info["modes"], info["fits"]), ([1, 0, 0, 0], True))
-        rack = Rack.from_text('[card.p1]\ntype = "ioflex02"\nloaded = false\n')
+        rack = Rack.from_text('[card.p1]\ntype = "ioflex02"\npreloaded = false\n')
         flex: motionrack.Ioflex02 = rack.cards["p1"].driver
         self.assertEqual(flex.Configure(image, 0x2300), 0, flex.why)
         rack.advance(us=2)

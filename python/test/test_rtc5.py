@@ -40,7 +40,7 @@ def declared() -> dict[str, list[tuple[str, str]]]:
 def rack_of(belt: str = "") -> tuple[Rack, motionrack.Rtc5]:
     rack = Rack.from_text(
         f'[card.scan]\ntype = "rtc5"\nlist_memory = 2000\n{belt}'
-        f'[scanner.head]\ncard = "scan"\nbits_per_mm = {K}\n' + ('part_on = "line"\n' if belt else "")
+        f'[scanner.head]\ncard = "scan"\nbits_per_mm = {K}\n' + ('conveyor = "line"\n' if belt else "")
     )
     return rack, rack.cards["scan"].driver
 
@@ -283,7 +283,7 @@ class Words(unittest.TestCase):
 
     def test_the_scale_is_found_as_the_manual_prints_it_and_the_mark_is_in_its_place(self) -> None:
         belt = (
-            '[belt.line]\ncard = "scan"\nspeed_mm_s = 0\ndirection_deg = 30\n'
+            '[belt.line]\ncard = "scan"\nvelocity_mm_s = 0\ndirection_deg = 30\n'
             "[belt.line.sender]\nbits_per_mm = 200\ntwo_axes = true\n"
         )
         rack, rtc = rack_of(belt)

@@ -27,7 +27,7 @@ type = "rtc5"
 list_memory = 2000
 [belt.line]
 card = "s"
-speed_mm_s = 1
+velocity_mm_s = 1
 counts_per_mm = 100
 [scanner.head]
 card = "s"

@@ -24,23 +24,23 @@ type = "mcx314"
 [axis.X]
 card = "c1"
 channel = "x"
-start_mm = 5
+initial_position_mm = 5
 switches.home_mm = 1
 switches.limit_plus_mm = 301
 [axis.Y]
 card = "c1"
 channel = "y"
-start_mm = 5
+initial_position_mm = 5
 switches.home_mm = 1
 [axis.Z]
 card = "c1"
 channel = "z"
-start_mm = 5
+initial_position_mm = 5
 switches.home_mm = 1
 [axis.A]
 card = "c1"
 channel = "u"
-start_deg = 5
+initial_position_deg = 5
 switches.home_deg = 1
 [card.c2]
 type = "mcx314"

@@ -30,11 +30,11 @@ type = "rtc5"
 list_memory = 2000
 [belt.line]
 card = "a"
-speed_mm_s = 1
+velocity_mm_s = 1
 counts_per_mm = 100
 [scanner.head]
 card = "a"
-part_on = "line"
+conveyor = "line"
 )";
 
 constexpr std::int32_t field = 524'288;

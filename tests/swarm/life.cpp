@@ -51,7 +51,7 @@ rack::RackConfig draw_rack(Draws& draws, std::string& what) {
     rack::RackConfig out;
     if (kind == 0) {
         out = *rack::read_rack_text(
-                   "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+                   "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
                    "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n")
                    .config;
     } else {

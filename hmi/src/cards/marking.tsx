@@ -11,8 +11,8 @@ text = "Motionrack"
 height_mm = 5
 
 [pace]
-mark_mm_s = 500
-jump_mm_s = 3000
+mark_speed_mm_s = 500
+jump_speed_mm_s = 3000
 
 [fly]
 mode = "encoder"

@@ -118,7 +118,7 @@ begin
   if TheRack = nil then
   begin
     RackFile := GetEnv('MOTIONRACK_RACK');
-    if RackFile = '' then RackFile := '[card.p1]'#10'type = "ioflex02"'#10'loaded = false'#10;
+    if RackFile = '' then RackFile := '[card.p1]'#10'type = "ioflex02"'#10'preloaded = false'#10;
     if mr_rack_open(PAnsiChar(RackFile), TheRack) <> 0 then NotOpened := mr_last_error;
   end;
   if NotOpened <> '' then Exit;

@@ -17,7 +17,7 @@ rack::RackConfig with_probe(const std::string& block) {
 }
 
 TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
-    Bench b(with_probe("x_from_mm = 20.123\n"));
+    Bench b(with_probe("x_min_mm = 20.123\n"));
     // 640 pulses a mm: 20.123 mm is pulse 12879.
     EXPECT_EQ(b.ask("G38.2 X50 F600\n", 4), "[PRB:20.123,0.000,0.000:1]\r\nok\r\n");
     EXPECT_THAT(b.report(), HasSubstr("|Pn:P"));
@@ -31,16 +31,16 @@ TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
 }
 
 TEST(GrblProbe, LinesBehindItWait) {
-    Bench b(with_probe("x_from_mm = 20\n"));
+    Bench b(with_probe("x_min_mm = 20\n"));
     const std::string out = b.ask("G38.2 X50 F600\nG91 G1 X-10\nG90\n", 6);
     EXPECT_EQ(out, "[PRB:20.000,0.000,0.000:1]\r\nok\r\nok\r\nok\r\n");
     EXPECT_NEAR(b.axis(0), 10.2, 0.2);
 }
 
 TEST(GrblProbe, AlarmsAreFourAndFive) {
-    Bench b(with_probe("x_from_mm = 20\n"));
+    Bench b(with_probe("x_min_mm = 20\n"));
     EXPECT_THAT(b.ask("G38.2 X10 F600\n", 4), HasSubstr("[PRB:10.000,0.000,0.000:0]\r\nALARM:5\r\n"));
-    Bench c(with_probe("x_to_mm = 20\n"));
+    Bench c(with_probe("x_max_mm = 20\n"));
     EXPECT_THAT(c.ask("G38.2 X10 F600\n", 4), HasSubstr("ALARM:4\r\n"));
     EXPECT_EQ(c.axis(0), 0);
 }

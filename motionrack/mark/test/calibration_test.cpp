@@ -72,10 +72,11 @@ TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
     // The cross' upright, marked on the simulated belt; where it is on the part says how late the mirrors are.
     const auto shift = [](double speed, int tracking_error_us) {
         JobRead read = read_job(
-            "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal = false\ndead_us = 50\nnatural_hz = "
-            "3183.1\ndamping = 1\ngreatest_speed = 1e7\n"
+            "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal_mirrors = false\ndead_time_us = "
+            "50\nnatural_frequency_hz = "
+            "3183.1\ndamping_ratio = 1\nmax_velocity_bits_ms = 1e7\n"
             "[pace]\njump_delay_us = 2000\nmark_delay_us = 1000\nlaser_on_us = 500\n[belt]\ncounts_per_mm = "
-            "20000\nspeed_mm_s = " +
+            "20000\nvelocity_mm_s = " +
                 std::to_string(speed) +
                 "\n[fly]\nmode = 'encoder'\ntracking_error_us = " + std::to_string(tracking_error_us) + "\n",
             "j");

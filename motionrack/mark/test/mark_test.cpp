@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 /// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
 const std::string mark_belt_job =
-    "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
+    "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 500\n[belt]\nvelocity_mm_s = 100\n";
 
 /// Whether a point was marked within `near_mm`, as the end of a piece.
 bool has_corner(const Marked& marked, Spot corner, double near_mm) {
@@ -63,10 +63,10 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
                 << mode << ' ' << way;
         }
     for (const char* mode : {"encoder", "simulated", "mcbsp"}) {
-        const MarkingOutcome out =
-            run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg "
-                                   "= 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") +
-                       mode + "'\n"));
+        const MarkingOutcome out = run(
+            job_of(std::string("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg "
+                               "= 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") +
+                   mode + "'\n"));
         EXPECT_LE(out.on.deviation.worst_mm, 0.003) << mode;
         EXPECT_GT(out.off->deviation.worst_mm, 0.1);
     }
@@ -125,7 +125,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     };
     EXPECT_THAT(first("[drawing]\n"), HasSubstr("j.toml:1:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\nsvg = 'b'\n"), HasSubstr("there are 2"));
-    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = nan\n"), HasSubstr("j.toml:4:"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = nan\n"), HasSubstr("j.toml:4:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\njump_delay_us = 55\n"), HasSubstr("steps of 10 us"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[bolt]\n"), HasSubstr("belt"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[belt]\nprofile = [[0, 1], [0, 2]]\n"), HasSubstr("j.toml:4:"));
@@ -133,7 +133,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
     const Result<Prepared> strange = prepare(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
     EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
-    const MarkingJob fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
+    const MarkingJob fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = 200000\n");
     EXPECT_THAT(run_job(fast, *prepare(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
     EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(),
                 HasSubstr("100000 mm"));
@@ -163,7 +163,7 @@ TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsTold) {
 }
 
 TEST(MarkJob, StopsWhenAsked) {
-    const MarkingJob job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
+    const MarkingJob job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_speed_mm_s = 10\n");
     const Result<MarkingOutcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
     ASSERT_FALSE(out);
     EXPECT_EQ(out.error().kind, ErrorKind::stopped);

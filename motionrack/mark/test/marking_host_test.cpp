@@ -13,7 +13,8 @@ using testing::HasSubstr;
 
 /// Squares of 10 mm that take 80 ms and a little, on parts at 200 mm/s.
 std::string squares(const std::string& parts, const std::string& fly = "mode = 'encoder'") {
-    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 200\ncounts_per_mm "
+    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 500\n[belt]\nvelocity_mm_s = "
+           "200\ncounts_per_mm "
            "= 1000\n[fly]\n" +
            fly + "\n[parts]\n" + parts;
 }
@@ -40,7 +41,7 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
         for (const char* way : {"0", "90", "180", "30"})
             for (const char* counts : {"1000", "-1000"})
                 for (const char* speed : {"200", "-200"}) {
-                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nspeed_mm_s = ") + speed +
+                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nvelocity_mm_s = ") + speed +
                                             "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
                                             "\n[fly]\nmode = '" + mode +
                                             "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
@@ -53,7 +54,7 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
 TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
     for (const char* start : {"track_delay_deg = 15", "start = 'equidistant'"}) {
         const MarkingOutcome out =
-            run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_y_mm = "
+            run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 60\ncentre_y_mm = "
                                    "-40\ncounts_per_deg = 2000\n[fly]\nmode = 'encoder'\n"
                                    "[parts]\ncount = 8\nspacing_deg = 45\n") +
                        start + "\n"));
@@ -110,8 +111,9 @@ TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
 
 TEST(MarkLine, EachPartGetsItsNumber) {
     const MarkingJob job = job_of(
-        "[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"
-        "[parts]\nat_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = 7\n");
+        "[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nvelocity_mm_s = 150\n[fly]\nmode = 'encoder'\n"
+        "[parts]\npart_positions_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = "
+        "7\n");
     const MarkingOutcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -130,9 +132,9 @@ TEST(MarkLine, EachPartGetsItsNumber) {
 
 TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
     const MarkingOutcome out =
-        run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_mm_s = 200\n[belt]\nspeed_mm_s = "
+        run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_speed_mm_s = 200\n[belt]\nvelocity_mm_s = "
                    "200\n[fly]\nmode = 'encoder'\n"
-                   "[parts]\nat_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
+                   "[parts]\npart_positions_mm = [0, 5, 60, 65, 120]\ntrack_delay_mm = 5\n"));
     const std::vector<PartOutcome> fates = {PartOutcome::marked, PartOutcome::lost_busy, PartOutcome::marked,
                                             PartOutcome::lost_busy, PartOutcome::marked};
     std::int64_t number = 0;
@@ -175,7 +177,7 @@ TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
 
 TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
     const std::string all = errors_of(
-        "[drawing]\ntext = 'N{m}'\n[belt]\nspeed_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
+        "[drawing]\ntext = 'N{m}'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
         "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");
     EXPECT_THAT(all, HasSubstr("j.toml:2:8: Character 2 of the text: in braces"));
     EXPECT_THAT(all, HasSubstr("j.toml:7:21: The card makes up for tracking errors of encoders only"));
@@ -184,13 +186,14 @@ TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
     EXPECT_THAT(all, HasSubstr("j.toml:10:9: Equidistant parts need no sensor"));
     EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[parts]\ncount = 2\nspacing_mm = 5\n"),
                 HasSubstr("a belt or table that moves"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nat_mm = [0, 7, 5]\n"),
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\npart_positions_mm = [0, 7, 5]\n"),
                 HasSubstr("j.toml:6:16: 'at_mm' must be"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 2\nat_mm = [0, 7]\n"),
-                HasSubstr("leave 'count' out"));
-    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 1\n[parts]\nspacing_deg = 2\n"),
+    EXPECT_THAT(
+        errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\ncount = 2\npart_positions_mm = [0, 7]\n"),
+        HasSubstr("leave 'count' out"));
+    EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\nspacing_deg = 2\n"),
                 HasSubstr("j.toml:6:1: "));
-    EXPECT_THAT(errors_of("[drawing]\ntext = '{n:02}'\n[belt]\nspeed_mm_s = 1\n[parts]\ncount = 5\nspacing_mm = "
+    EXPECT_THAT(errors_of("[drawing]\ntext = '{n:02}'\n[belt]\nvelocity_mm_s = 1\n[parts]\ncount = 5\nspacing_mm = "
                           "5\nfirst_number = 96\n"),
                 HasSubstr("The number 100 has more than the 2 digits"));
     EXPECT_THAT(errors_of("drawing = [1]\n"), HasSubstr("j.toml:1:"));

@@ -18,7 +18,7 @@ using testing::Not;
 constexpr const char* shown_square =
     R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10">)"
     R"(<path d="M0 10 H10 V0 H0 Z"/></svg>)";
-const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 100\n";
+const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 100\n";
 
 struct Shown {
     MarkingJob job;
@@ -112,13 +112,13 @@ TEST(Plot, ThinsWhatNobodySeesAndCutsWhatIsOutside) {
 TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
     EXPECT_TRUE(warnings_of(shown(belt_job + "[fly]\nmode = 'encoder'\n").out).empty());
     const Shown near =
-        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 720\n[fly]\nmode = 'encoder'\n");
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 720\n[fly]\nmode = 'encoder'\n");
     EXPECT_TRUE(near.out.on.overflows.empty());
     ASSERT_EQ(warnings_of(near.out).size(), 1u);
     EXPECT_THAT(warnings_of(near.out)[0], HasSubstr("mm are left at the right edge of the field"));
     EXPECT_THAT(outcome_text(near.job, near.out), HasSubstr("mm are left in the field, at its right edge"));
     const Shown over =
-        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     ASSERT_FALSE(over.out.on.overflows.empty());
     EXPECT_LT(room_of(over.out, over.out.on).mm, 0);
     EXPECT_TRUE(warnings_of(over.out).empty()) << "it is no warning any more";
@@ -137,7 +137,7 @@ TEST(MarkReport, HasPicturesTablesChartsAndTheJobInOneFile) {
 
 TEST(MarkReport, TellsEveryOverflow) {
     const Shown s =
-        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+        shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     const trace::ReportData data = report_of(s.job, s.prepared, s.out, s.text);
     EXPECT_FALSE(data.verdict.ok);
     EXPECT_THAT(data.verdict.text, HasSubstr("FLY_X_OVERFLOW"));

@@ -16,9 +16,10 @@ using testing::HasSubstr;
 constexpr const char* long_svg = R"(<svg><rect x='-380' y='-10' width='300' height='20'/>)"
                                  R"(<circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
 std::string long_job(const std::string& belt, const std::string& fly) {
-    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_mm_s = 3000\njump_mm_s = 6000\n[belt]\ncounts_per_mm "
+    return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 3000\njump_speed_mm_s = "
+           "6000\n[belt]\ncounts_per_mm "
            "= 1000\n" +
-           belt + "\n[fly]\nwaits = 'auto'\n" + fly + "\n";
+           belt + "\n[fly]\nwait_mode = 'auto'\n" + fly + "\n";
 }
 
 TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
@@ -66,7 +67,7 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
         }
     // Without waits nearly all of it is outside the field.
     const MarkingOutcome none =
-        run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nspeed_mm_s = 150\n[fly]\nmode = 'encoder'\n"),
+        run(job_of("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 150\n[fly]\nmode = 'encoder'\n"),
             long_svg);
     EXPECT_FALSE(none.on.overflows.empty());
     EXPECT_GT(none.on.deviation.missing_mm, 300);
@@ -108,8 +109,9 @@ TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
     EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never backwards"));
     EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
                 HasSubstr("two values of 16 bits"));
-    EXPECT_THAT(errors_of("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 10\n[fly]\nmode = 'encoder'\nwaits = 'auto'\n"),
-                HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
+    EXPECT_THAT(
+        errors_of("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 10\n[fly]\nmode = 'encoder'\nwait_mode = 'auto'\n"),
+        HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
 }
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {
@@ -145,7 +147,7 @@ TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantSpeed) {
         return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt +
                "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
     };
-    const std::string belt = "[belt]\nspeed_mm_s = 200", table = "[table]\nspeed_deg_s = 60\ncentre_y_mm = -50";
+    const std::string belt = "[belt]\nvelocity_mm_s = 200", table = "[table]\nvelocity_deg_s = 60\ncentre_y_mm = -50";
     EXPECT_NEAR(run(job_of(job(belt, ""))).on.deviation.worst_mm, 0.3, 0.005) << "1.5 ms at 200 mm/s";
     EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.worst_mm, 0.005);
     EXPECT_GT(run(job_of(job(table, ""))).on.deviation.worst_mm, 0.05);

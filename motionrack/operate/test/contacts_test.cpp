@@ -54,10 +54,11 @@ TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
 
 TEST_P(SwappedLimits, StopASearchForHomeToo) {
     if (!GetParam()) GTEST_SKIP();
-    Operated o(two_axes(
-        "[axis.X.switches]\nlimit_minus_mm = 2\nlimit_plus_mm = 40\nhome_mm = 3\n[axis.X.homing]\nspeed_mm_s = 10\n"
-        "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n\"m.xin0\" = \"open\"\n"
-        "\"m.xin1\" = \"X.home\"\n"));
+    Operated o(
+        two_axes("[axis.X.switches]\nlimit_minus_mm = 2\nlimit_plus_mm = 40\nhome_mm = "
+                 "3\n[axis.X.homing]\nsearch_velocity_mm_s = 10\n"
+                 "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n\"m.xin0\" = \"open\"\n"
+                 "\"m.xin1\" = \"X.home\"\n"));
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.home", 1)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(4, [](Machine& m) {

@@ -34,10 +34,11 @@ std::ostream& operator<<(std::ostream& out, const JogCase& one) {
 rack::RackConfig rack_of(const JogCase& one) {
     // At great accelerations the pulse rate rises by much from one pulse to the next.
     const int start_stop_hz = one.accel > 1000 ? 60'000 : 2000;
-    const rack::RackReading reading = rack::read_rack_text(fmt::format(
-        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = {}\nmin_mm = {}\nmax_mm = {}"
-        "\nmax_speed_mm_s = 100\nmax_accel_mm_s2 = {}\n[axis.X.motor]\nstart_stop_hz = {}\n{}",
-        one.start, one.min, one.max, one.accel, start_stop_hz, one.more));
+    const rack::RackReading reading = rack::read_rack_text(
+        fmt::format("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
+                    "{}\nmin_limit_mm = {}\nmax_limit_mm = {}"
+                    "\nmax_velocity_mm_s = 100\nmax_accel_mm_s2 = {}\n[axis.X.motor]\nstart_stop_hz = {}\n{}",
+                    one.start, one.min, one.max, one.accel, start_stop_hz, one.more));
     EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
     return *reading.config;
 }

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 rack::RackConfig table() {
     return *rack::read_rack_text(
-                "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+                "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
+                "10\n[axis.Y]\ncard = "
                 "\"m\"\nchannel = \"y\"\n")
                 .config;
 }

@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(ByHand, ACardThatOnlyMeasuresIsAccessedWhileAxesMoveAndNoOther) {
-    Operated o(two_axes("[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\nloaded = true\n"));
+    Operated o(two_axes("[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n"));
     int answered = 0;
     std::string refused;
     const auto read = [&](Machine& m, const char* card, std::uint32_t address) {

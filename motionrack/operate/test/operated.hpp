@@ -19,7 +19,7 @@ namespace motionrack::operate {
 /// Two axes that stand where the file says; `more` for the file.
 inline rack::RackConfig two_axes(const std::string& more = "") {
     const rack::RackReading reading = rack::read_rack_text(
-        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
         "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n" +
         more);
     EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());

@@ -29,7 +29,7 @@ variant = "mcx314as"
 type = "databoard4002"
 [card.glass]
 type = "ioflex02"
-loaded = true
+preloaded = true
 [card.decoder]
 type = "grating_decoder"
 scales = 1
@@ -43,34 +43,34 @@ list_memory = 256
 [axis.X]
 card = "m"
 channel = "x"
-start_mm = 100
+initial_position_mm = 100
 switches = { limit_minus_mm = -5, limit_plus_mm = 305, home_mm = 0 }
 [axis.Y]
 card = "m"
 channel = "y"
 switches = { limit_minus_mm = -5, limit_plus_mm = 305 }
 [probe]
-x_from_mm = 280
+x_min_mm = 280
 [stage.mask]
 card = "host"
 input = 0
-viscous_per_s = 2
+viscous_friction_per_s = 2
 scale = { pitch_um = 20 }
 [stage.mask.servo]
 profile = "scan"
 from_mm = 0
 to_mm = 200
-speed_mm_s = 50
-accel_mm_s2 = 1000
+max_velocity_mm_s = 50
+max_accel_mm_s2 = 1000
 bandwidth_hz = 20
-limit_um = 0
+max_following_error_um = 0
 [belt.line]
 card = "scan"
-speed_mm_s = 50
+velocity_mm_s = 50
 counts_per_mm = 100
 [scanner.head]
 card = "scan"
-part_on = "line"
+conveyor = "line"
 bits_per_mm = 5184
 )";
 

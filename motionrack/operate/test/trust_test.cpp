@@ -222,8 +222,8 @@ TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
 
 /// X has its index at 0 mm, 2 mm behind its switch.
 const char* const with_index =
-    "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nhome_type = 4\n"
-    "position_mm = 0\n";
+    "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nmethod = 4\n"
+    "home_offset_mm = 0\n";
 
 TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
     Operated o(two_axes(with_index));

@@ -39,7 +39,8 @@ inline rack::RackConfig demonstration() {
 /// Two axes without switches that stand where the file says.
 inline rack::RackConfig two_axes() {
     return config_of(
-        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
+        "10\n[axis.Y]\ncard = "
         "\"m\"\nchannel = \"y\"\n");
 }
 

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 rack::RackConfig two_cards() {
     return config_of(
         "[card.m]\ntype = \"mcx314\"\n[card.free]\ntype = \"mcx314\"\n[card.glass]\ntype = \"ioflex02\"\n"
-        "[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n");
+        "[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n");
 }
 
 std::function<void(const Answer&)> is_refused(int status, const std::string& why) {

@@ -18,7 +18,7 @@ const char* const place = "port:/dev/zero";
 rack::RackConfig with_bench() {
     return config_of(
         "[card.m]\ntype = \"mcx314\"\n[card.bench]\ntype = \"mcx314\"\n"
-        "[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n");
+        "[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n");
 }
 
 operate::MachineSettings with_live() {

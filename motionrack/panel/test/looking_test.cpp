@@ -234,7 +234,7 @@ TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
 
 TEST(ALaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
     Asked a(demonstration());
-    const char* const job = "[drawing]\ntext = \"AB\"\nheight_mm = 4\n[pace]\nmark_mm_s = 200\n";
+    const char* const job = "[drawing]\ntext = \"AB\"\nheight_mm = 4\n[pace]\nmark_speed_mm_s = 200\n";
     a.good(0.1, "take_control");
     a.at(0.2, anna, "mark", {{"card", "motion"}, {"job", job}},
          [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });

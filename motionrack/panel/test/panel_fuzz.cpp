@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* rack_text =
-    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = "
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n[axis.Y]\ncard = "
     "\"m\"\nchannel = \"y\"\n"
     "[card.p]\ntype = \"databoard4002\"\n[card.l]\ntype = \"rtc5\"\nlist_memory = 2000\n[scanner.head]\ncard = \"l\"\n";
 constexpr int max_lines = 16;

@@ -9,7 +9,7 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-const char* const slow_job = "[drawing]\ntext = \"ABC\"\nheight_mm = 8\n[pace]\nmark_mm_s = 20\n";
+const char* const slow_job = "[drawing]\ntext = \"ABC\"\nheight_mm = 8\n[pace]\nmark_speed_mm_s = 20\n";
 
 class AStopOnThePage : public testing::TestWithParam<bool> {
   protected:

@@ -48,7 +48,7 @@ TEST(Mcx314CardSettings, TheVariantDecidesWhichCommandsThereAre) {
 }
 
 TEST(Mcx314CardSettings, TheOtherReadingsOfTheSourcesCanBeChosen) {
-    OneCard usual(""), other("slow_drives = \"at SV\"\nsoftware_limits = \"at\"\nao_after_reset = 300\n");
+    OneCard usual(""), other("low_speed_drive = \"at SV\"\nsoftware_limits = \"at\"\nao_after_reset = 300\n");
     EXPECT_EQ(usual.look("x.AO"), 8);
     EXPECT_EQ(other.look("x.AO"), 300);
     for (OneCard* card : {&usual, &other}) {

@@ -73,10 +73,12 @@ const std::vector<BadFile>& bad_files() {
         {"[crd.m]\n" + rack_with(""), {1, 2}, {"'crd'", "did you mean 'card'?"}},
         {"rack = 1\n" + rack_with(""), {1, 8}, {"[rack]", "whole number"}},
         {rack_with("[controller]\narc_tolerence_mm = 1\n"), {7, 1}, {"did you mean 'arc_tolerance_mm'?"}},
-        {rack_with("max_sped_mm_s = 1\n"), {6, 1}, {"axis X", "'max_sped_mm_s'", "did you mean 'max_speed_mm_s'?"}},
+        {rack_with("max_velocty_mm_s = 1\n"),
+         {6, 1},
+         {"axis X", "'max_velocty_mm_s'", "did you mean 'max_velocity_mm_s'?"}},
         {rack_with("colour = \"blue\"\n"), {6, 1}, {"axis X has no key 'colour'."}},
-        {rack_with("max_speed_deg_s = 1\n"), {6, 1}, {"counts in deg", "a linear axis", "max_speed_mm_s"}},
-        {rack_with("max_speed_mm_s = 1\n", 'A'), {6, 1}, {"counts in mm", "a rotary axis", "max_speed_deg_s"}},
+        {rack_with("max_velocity_deg_s = 1\n"), {6, 1}, {"counts in deg", "a linear axis", "max_velocity_mm_s"}},
+        {rack_with("max_velocity_mm_s = 1\n", 'A'), {6, 1}, {"counts in mm", "a rotary axis", "max_velocity_deg_s"}},
         {rack_with("gear_ratio = 2\n"), {6, 1}, {"gear_ratio", "does not belong", "linear"}},
         {rack_with("lead_mm = 2\n", 'A'), {6, 1}, {"lead_mm", "does not belong", "rotary"}},
         {rack_with("kind = \"rotary\"\n"), {6, 8}, {"Axis X cannot be rotary"}},
@@ -101,18 +103,22 @@ const std::vector<BadFile>& bad_files() {
          {"Axis Y", "'moton'", "did you mean 'motion'?"}},
         {rack_with("[axis.Y]\ncard = \"m\"\nchannel = \"w\"\n"), {8, 11}, {"'w'", "x y z u"}},
         {rack_with("[axis.Y]\ncard = \"m\"\nchannel = \"x\"\n"), {8, 11}, {"X and Y", "channel x of card m"}},
-        {rack_with("min_mm = 10\nmax_mm = 10\nstart_mm = 10\n"), {6, 10}, {"min_mm", "10", "max_mm"}},
-        {rack_with("min_mm = 10\n"), {3, 7}, {"start_mm", "is 0", "10 .. 300 mm"}},
-        {rack_with("start_mm = 301\n"), {6, 12}, {"start_mm", "301", "0 .. 300 mm"}},
-        {rack_with("start_deg = -1\n", 'A'), {6, 13}, {"start_deg", "-1", "0 .. 360 deg"}},
-        {rack_with("start_speed_mm_s = 101\n"), {6, 20}, {"start_speed_mm_s", "101", "100"}},
+        {rack_with("min_limit_mm = 10\nmax_limit_mm = 10\ninitial_position_mm = 10\n"),
+         {6, 10},
+         {"min_limit_mm", "10", "max_limit_mm"}},
+        {rack_with("min_limit_mm = 10\n"), {3, 7}, {"initial_position_mm", "is 0", "10 .. 300 mm"}},
+        {rack_with("initial_position_mm = 301\n"), {6, 12}, {"initial_position_mm", "301", "0 .. 300 mm"}},
+        {rack_with("initial_position_deg = -1\n", 'A'), {6, 13}, {"initial_position_deg", "-1", "0 .. 360 deg"}},
+        {rack_with("max_velocity_step_mm_s = 101\n"), {6, 20}, {"max_velocity_step_mm_s", "101", "100"}},
         {rack_with("max_jerk_mm_s3 = 0.0001\n"), {6, 18}, {"0.0001", "0 (trapezoids)", "0.001"}},
-        {rack_with("max_speed_mm_s = 10000\n"),
+        {rack_with("max_velocity_mm_s = 10000\n"),
          {6, 18},
          {"10000", "6400000 pulses/s", "640 pulses/mm", "4000000", "6250"}},
         {rack_with("max_accel_mm_s2 = 1e6\n"), {6, 19}, {"1000000", "640000000 pulses/s2", "500000000"}},
-        {rack_with("max_speed_mm_s = 0.001\nstart_speed_mm_s = 0.001\n"), {6, 18}, {"0.64 pulses/s", "slowest"}},
-        {rack_with("max_mm = 4e6\n"), {6, 10}, {"max_mm", "32", "2147483647"}},
+        {rack_with("max_velocity_mm_s = 0.001\nmax_velocity_step_mm_s = 0.001\n"),
+         {6, 18},
+         {"0.64 pulses/s", "slowest"}},
+        {rack_with("max_limit_mm = 4e6\n"), {6, 10}, {"max_limit_mm", "32", "2147483647"}},
         {rack_with("encoder_counts_per_rev = 1001\n"), {6, 26}, {"1001", "multiple of 4"}},
         {rack_with("encoder_counts_per_rev = 1000000\n"), {6, 26}, {"20000000 counts/s", "8000000"}},
         {rack_with("[axis.X.motor]\nstart_stop_hz = 300000\n"), {7, 17}, {"300000", "200000", "pull_out_hz"}},
@@ -173,18 +179,18 @@ TEST(RackFile, TellsWhatIsWrongAndWhere) {
 }
 
 TEST(RackFile, ListsAllMistakesAtOnceInTheOrderOfTheFile) {
-    const RackReading reading =
-        read_rack_text(rack_with("start_mm = 500\nlead_mm = 0\n[axis.X.switches]\nbounce_ms = -1\n[rack]\nnaem = "
-                                 "\"n\"\n[wires]\n\"m.q\" = \"estop\"\n"
-                                 "[contoller]\n"));
+    const RackReading reading = read_rack_text(
+        rack_with("initial_position_mm = 500\nlead_mm = 0\n[axis.X.switches]\nbounce_ms = -1\n[rack]\nnaem = "
+                  "\"n\"\n[wires]\n\"m.q\" = \"estop\"\n"
+                  "[contoller]\n"));
     std::vector<int> lines;
     for (const Error& error : reading.errors) lines.push_back(error.place.line);
     EXPECT_THAT(lines, ElementsAre(6, 7, 9, 11, 13, 14)) << all_texts(reading.errors);
 }
 
 TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
-    // Judged by its default (300), start_mm would be outside; but what max_mm should be is not known.
-    const RackReading reading = read_rack_text(rack_with("max_mm = \"500\"\nstart_mm = 400\n"));
+    // Judged by its default (300), initial_position_mm would be outside; but what max_limit_mm should be is not known.
+    const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
     EXPECT_EQ(reading.errors[0].place, (Place{6, 10}));
 }
@@ -212,19 +218,20 @@ TEST(RackFile, WarnsOfWhatAMachineCanDoButNobodyWants) {
         return all_texts(reading.warnings);
     };
     EXPECT_EQ(warnings(""), "");
-    EXPECT_THAT(warnings("max_speed_mm_s = 400\n"),
-                HasSubstr("6:18: max_speed_mm_s of axis X is 400, that is 256000 pulses/s"));
-    EXPECT_THAT(warnings("start_speed_mm_s = 10\n"), HasSubstr("above the motor's start_stop_hz 2000"));
+    EXPECT_THAT(warnings("max_velocity_mm_s = 400\n"),
+                HasSubstr("6:18: max_velocity_mm_s of axis X is 400, that is 256000 pulses/s"));
+    EXPECT_THAT(warnings("max_velocity_step_mm_s = 10\n"), HasSubstr("above the motor's start_stop_hz 2000"));
     EXPECT_THAT(warnings("[axis.X.switches]\nlimit_plus_mm = 250\n"),
                 HasSubstr("7:17: limit_plus_mm of axis X acts at 250 mm"));
-    EXPECT_THAT(warnings("[axis.X.switches]\nlimit_minus_mm = 0\n"), HasSubstr("within the travel (min_mm is 0)"));
+    EXPECT_THAT(warnings("[axis.X.switches]\nlimit_minus_mm = 0\n"),
+                HasSubstr("within the travel (min_limit_mm is 0)"));
 }
 
 // ---- What a rack is
 
 TEST(RackFile, GivesThePlannerItsLimits) {
-    const RackConfig config = good(
-        rack_with("max_mm = 250\nmax_speed_mm_s = 80\n[axis.A]\ncard = \"m\"\nchannel = \"u\"\ngear_ratio = 72\n"));
+    const RackConfig config = good(rack_with(
+        "max_limit_mm = 250\nmax_velocity_mm_s = 80\n[axis.A]\ncard = \"m\"\nchannel = \"u\"\ngear_ratio = 72\n"));
     const control::MachineLimits limits = config.limits();
     EXPECT_TRUE(limits[0].present && limits[3].present);
     EXPECT_FALSE(limits[1].present || limits[2].present || limits[4].present || limits[5].present);

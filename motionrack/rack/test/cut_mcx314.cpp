@@ -158,7 +158,7 @@ type = "mcx314"
 {}[axis.X]
 card = "c1"
 channel = "x"
-start_mm = 3
+initial_position_mm = 3
 [axis.X.switches]
 limit_minus_mm = -2
 limit_plus_mm = 5

@@ -144,14 +144,14 @@ Orders any_of_them(Random& random) {
     return all[below(random, all.size())](random);
 }
 
-constexpr const char* databoard4002_text = "[card.d1]\ntype = \"databoard4002\"\nselect = 13\n";
+constexpr const char* databoard4002_text = "[card.d1]\ntype = \"databoard4002\"\ncard_number = 13\n";
 constexpr const char* ioflex02_text = "[card.p1]\ntype = \"ioflex02\"\n";
 constexpr const char* rtc5_text = R"([card.s]
 type = "rtc5"
 list_memory = 2000
 [belt.line]
 card = "s"
-speed_mm_s = 100
+velocity_mm_s = 100
 counts_per_mm = 100
 [scanner.head]
 card = "s"
@@ -173,8 +173,8 @@ constexpr const char* servo_text = R"([stage.table.servo]
 profile = "scan"
 from_mm = 0
 to_mm = 4
-speed_mm_s = 20
-accel_mm_s2 = 2000
+max_velocity_mm_s = 20
+max_accel_mm_s2 = 2000
 )";
 
 /// Encoders of axes whose edges are wires.

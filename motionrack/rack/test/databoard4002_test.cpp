@@ -137,7 +137,8 @@ TEST(Databoard4002InARack, DrivenEncoderLinesCutTheIdealMotorOff) {
 }
 
 TEST(Databoard4002InARack, TwoCardsShareABusAndAnswerToTheirNumbers) {
-    Host host("[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\nselect = 7\nversion = 3\n");
+    Host host(
+        "[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\ncard_number = 7\nversion = 3\n");
     host.out(1, 7);
     host.command('R', {0x00, 0x20});
     host.command('P', {0x64, 0x00, 0x00}, "c1");  // either name is the bus

@@ -43,8 +43,9 @@ HomingOutcome homed(const std::string& text, const std::string& target, int type
 /// An axis with a switch at 1 mm that backs off at 2 mm/s and comes slowly at 0.5 mm/s.
 std::string axis_from(double start_mm, const std::string& more = {}) {
     return fmt::format(
-        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = {}\n[axis.X.switches]\n"
-        "limit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 1\n{}[axis.X.homing]\nposition_mm = 0\n",
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
+        "{}\n[axis.X.switches]\n"
+        "limit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 1\n{}[axis.X.homing]\nhome_offset_mm = 0\n",
         start_mm, more);
 }
 
@@ -92,9 +93,8 @@ TEST_P(HomeSwitchComingTwice, ThatSticksOnTheWayOffItIsNotHome) {
 }
 
 TEST_P(HomeSwitchComingTwice, ThatClosesOnTheSlowApproachIsNotHome) {
-    expect_refused(
-        homed(axis_from(0) + "clearance_mm = 1\n", "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
-        "before the place where it was released");
+    expect_refused(homed(axis_from(0) + "backoff_mm = 1\n", "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
+                   "before the place where it was released");
     expect_refused(
         homed(axis_from(7, "hysteresis_mm = 1\n"), "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
         "before the place where it had acted in this search");
@@ -107,7 +107,7 @@ TEST_P(HomeSwitchComingTwice, ThatClosesFarBeforeItsPlaceForAWhileIsNotHome) {
 }
 
 TEST_P(HomeSwitchComingTwice, ThatIsSoundAgainBeforeTheNextApproachIsHome) {
-    const HomingOutcome out = homed(axis_from(0) + "speed_mm_s = 2\nclearance_mm = 0.4\n", "X", GetParam(),
+    const HomingOutcome out = homed(axis_from(0) + "search_velocity_mm_s = 2\nbackoff_mm = 0.4\n", "X", GetParam(),
                                     {{"BACK_WAIT", 4, "home.stuck_open"}, {"CLEAR_WAIT", 1, "home.stuck_open=0"}});
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].machine_position, GetParam() == 2 ? 1 : 0, 1e-9);
@@ -116,7 +116,7 @@ TEST_P(HomeSwitchComingTwice, ThatIsSoundAgainBeforeTheNextApproachIsHome) {
 TEST(SoundHomeSwitch, OfAnyKindIsHome) {
     for (const double start : {0.0, 0.9, 1.02, 1.3, 7.0, 60.0})
         for (const char* more : {"hysteresis_mm = 0\n", "hysteresis_mm = 0.4\n", "bounce_ms = 0\n", "bounce_ms = 4\n"})
-            for (const char* keys : {"", "speed_mm_s = 100\n", "direction = \"plus\"\n"})
+            for (const char* keys : {"", "search_velocity_mm_s = 100\n", "search_direction = \"plus\"\n"})
                 for (int type = 1; type <= 2; ++type) {
                     const HomingOutcome out = homed(axis_from(start, more) + keys, "X", type, {});
                     EXPECT_TRUE(out.ended)
@@ -128,11 +128,12 @@ TEST(SoundHomeSwitch, OfAnyKindIsHome) {
 // ---- a card that positions by itself: its reference is active where the wire is broken
 
 std::string carriage_from(double start_mm) {
-    std::string out = carriage("",
-                               "[axis.X.homing]\ndirection = \"plus\"\nspeed_mm_s = 10\nslow_speed_mm_s = 2\n"
-                               "clearance_mm = 3\nposition_mm = 128\n");
-    const std::string_view before = "start_mm = 100";
-    return out.replace(out.find(before), before.size(), fmt::format("start_mm = {}", start_mm));
+    std::string out =
+        carriage("",
+                 "[axis.X.homing]\nsearch_direction = \"plus\"\nsearch_velocity_mm_s = 10\nlatch_velocity_mm_s = 2\n"
+                 "backoff_mm = 3\nhome_offset_mm = 128\n");
+    const std::string_view before = "initial_position_mm = 100";
+    return out.replace(out.find(before), before.size(), fmt::format("initial_position_mm = {}", start_mm));
 }
 
 class HomeReference : public testing::TestWithParam<int> {};

@@ -18,18 +18,18 @@ type = "mcx314"
 [axis.X]
 card = "motion"
 channel = "x"
-start_mm = 40
+initial_position_mm = 40
 [axis.X.switches]
 limit_minus_mm = -8
 limit_plus_mm = 302
 home_mm = 2
 [axis.X.homing]
-home_type = 4
-position_mm = 0
+method = 4
+home_offset_mm = 0
 [axis.Y]
 card = "motion"
 channel = "y"
-start_mm = 7
+initial_position_mm = 7
 [axis.Y.switches]
 limit_minus_mm = -8
 limit_plus_mm = 302
@@ -66,7 +66,8 @@ TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
 
 TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
     const HomingOutcome out =
-        homed(std::string(two_axes) + "[axis.Y.homing]\nposition_mm = -3.5\nspeed_mm_s = 10\nslow_speed_mm_s = 0.25\n");
+        homed(std::string(two_axes) +
+              "[axis.Y.homing]\nhome_offset_mm = -3.5\nsearch_velocity_mm_s = 10\nlatch_velocity_mm_s = 0.25\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[1].counter_position, -3.5, 0.5 / 640);
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
@@ -75,14 +76,14 @@ TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
 }
 
 TEST(RackHomes, UpwardsItFindsWhereTheSwitchIsReleased) {
-    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\ndirection = \"plus\"\n");
+    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\nsearch_direction = \"plus\"\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[1].machine_position, 1.05, 1.01 / 640);
     EXPECT_NEAR(out.axes[1].counter_position, 1.05, 1.01 / 640);
 }
 
 TEST(RackHomes, LowerOrdersGoFirst) {
-    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\norder = 2\n");
+    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\nsequence = 2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_DOUBLE_EQ(out.axes[0].began_s, 0);
     EXPECT_GE(out.axes[1].began_s, out.axes[0].outcome.took_s);
@@ -91,7 +92,7 @@ TEST(RackHomes, LowerOrdersGoFirst) {
 
 TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
     // The index is where the switch acts: type 4 will not have it.
-    std::string text = std::string(two_axes) + "[axis.Y.homing]\norder = 1\n";
+    std::string text = std::string(two_axes) + "[axis.Y.homing]\nsequence = 1\n";
     text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
@@ -116,7 +117,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
                 HasSubstr("not wired to a stop input of its channel (xin0, xin1, xin2, xin3 of card motion)"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"),
                 HasSubstr("type 4 needs the encoder's index"));
-    EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\n"),
+    EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nsearch_velocity_mm_s = 101\n"),
                 HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
 }
@@ -197,7 +198,7 @@ TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
 TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
     const RackReading reading = read_rack_text(
         "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\n[axis.X.servo]\n[axis.X.switches]\n"
-        "cam_from_mm = 20\ncam_to_mm = 25\n[axis.X.homing]\nhome_type = 4\nindex_after_mm = 1\n");
+        "cam_from_mm = 20\ncam_to_mm = 25\n[axis.X.homing]\nmethod = 4\nindex_after_mm = 1\n");
     ASSERT_TRUE(reading.config);
     std::string warnings;
     for (const Error& warning : reading.warnings) warnings += warning.message + "\n";
@@ -261,13 +262,14 @@ TEST(RackHomes, EveryTemplateHomesItsAxes) {
 }
 
 TEST(RackHomes, ChecksWarnOfAHomingThatWillBeRefused) {
-    const RackReading reading =
-        read_rack_text(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\nslow_speed_mm_s = 3\n");
+    const RackReading reading = read_rack_text(
+        std::string(two_axes) + "[axis.Y.homing]\nsearch_velocity_mm_s = 101\nlatch_velocity_mm_s = 3\n");
     ASSERT_TRUE(reading.config);
     ASSERT_EQ(reading.warnings.size(), 2u);
     EXPECT_THAT(reading.warnings[0].message,
-                HasSubstr("speed_mm_s of axis Y is 101, above its max_speed_mm_s, which is 100"));
-    EXPECT_THAT(reading.warnings[1].message, HasSubstr("slow_speed_mm_s of axis Y is 3, above its start_speed_mm_s"));
+                HasSubstr("speed_mm_s of axis Y is 101, above its max_velocity_mm_s, which is 100"));
+    EXPECT_THAT(reading.warnings[1].message,
+                HasSubstr("latch_velocity_mm_s of axis Y is 3, above its max_velocity_step_mm_s"));
 }
 
 }  // namespace

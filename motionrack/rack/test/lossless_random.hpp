@@ -113,7 +113,7 @@ class ChordMaker : public Chance {
 inline RackConfig router_with_probe() {
     std::string text = *rack_template("router");
     text.replace(text.find("\"mcx314\" ", text.find("variant =")), 8, "\"mcx314as\"");
-    return *read_rack_text(text + fmt::format("\n[probe]\nz_to_mm = {}\n", probe_height)).config;
+    return *read_rack_text(text + fmt::format("\n[probe]\nz_max_mm = {}\n", probe_height)).config;
 }
 
 /// Racks whose pulses, start speeds and hosts differ.

@@ -20,11 +20,11 @@ type = "rtc5"
 list_memory = 256
 [belt.line]
 card = "scan"
-speed_mm_s = 100
+velocity_mm_s = 100
 counts_per_mm = 1000
 [scanner.head]
 card = "scan"
-part_on = "line"
+conveyor = "line"
 bits_per_mm = 5184
 )";
 
@@ -122,7 +122,7 @@ TEST(MarkingLine, WhatIsMarkedCanBeSeenWhileItRunsAndLooksChangeNothing) {
 
 TEST(MarkingLine, ACopyInTheMiddleOfAMarkGoesOnAlike) {
     Line bench(std::string(marking_line) +
-               "[scanner.head.galvo]\nideal = false\ndead_us = 100\n[scanner.head.laser]\non_delay_us = "
+               "[scanner.head.galvo]\nideal_mirrors = false\ndead_time_us = 100\n[scanner.head.laser]\non_delay_us = "
                "35\noff_delay_us = 12\n");
     bench.square(5184.0 / 1000);
     ASSERT_TRUE(bench.engine().execute_list(1));
@@ -223,7 +223,7 @@ TEST(MarkingLine, EqualWordsCountAsWordsToo) {
 }
 
 TEST(MarkingLine, PartsThatPassTheSensorStartTheList) {
-    Line bench(std::string(marking_line) + "[belt.line.parts]\nevery_mm = 20\nfirst_mm = 5\nlength_mm = 8\n");
+    Line bench(std::string(marking_line) + "[belt.line.parts]\npart_pitch_mm = 20\nfirst_part_mm = 5\nlength_mm = 8\n");
     ASSERT_TRUE(bench.engine().set_start_list(1));
     bench.put(Op::mark_abs, {1000, 0});
     bench.put(Op::jump_abs, {0, 0});
@@ -247,9 +247,9 @@ TEST(MarkingLine, PartsThatPassTheSensorStartTheList) {
 
 TEST(MarkingLine, ATableTurnsThePartAndItsEncoderCountsDegrees) {
     Line bench(
-        "[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[table.dial]\ncard = \"scan\"\nencoder = 1\nspeed_deg_s = "
+        "[card.scan]\ntype = \"rtc5\"\nlist_memory = 64\n[table.dial]\ncard = \"scan\"\nencoder = 1\nvelocity_deg_s = "
         "90\ncounts_per_deg = 100\n"
-        "centre_x_mm = 20\n[scanner.head]\ncard = \"scan\"\npart_on = \"dial\"\nbits_per_mm = 1000\n");
+        "centre_x_mm = 20\n[scanner.head]\ncard = \"scan\"\nconveyor = \"dial\"\nbits_per_mm = 1000\n");
     ASSERT_TRUE(bench.engine().set_start_list(1));
     bench.put(Op::laser_on_list, {400'000});
     bench.put(Op::set_end_of_list);
@@ -286,7 +286,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[belt.line]\ncard = \"m\"\n"), HasSubstr("one of type rtc5 marks"));
     EXPECT_THAT(refused("[belt.scan]\n"), HasSubstr("cannot be the name"));
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
-    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1\nprofile = [[0, 1]]\n"), HasSubstr("leave one out"));
+    EXPECT_THAT(refused("[belt.line]\nvelocity_mm_s = 1\nprofile = [[0, 1]]\n"), HasSubstr("leave one out"));
     EXPECT_THAT(refused("[belt.line]\nprofile = [[1, 1], [0, 2]]\n"), HasSubstr("rise"));
     EXPECT_THAT(refused("[belt.line]\nprofile = [1, 2]\n"), HasSubstr("pair [seconds, speed]"));
     EXPECT_THAT(refused("[belt.one]\ncard = \"scan\"\n[belt.two]\ncard = \"scan\"\n"),
@@ -294,20 +294,22 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"),
                 HasSubstr("2550 us is possible"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nbits_per_mm = 0\n"), HasSubstr("measures nothing"));
-    EXPECT_THAT(refused("[belt.line]\n[belt.line.parts]\nevery_mm = 5\n"), HasSubstr("the next one comes after 5"));
+    EXPECT_THAT(refused("[belt.line]\n[belt.line.parts]\npart_pitch_mm = 5\n"),
+                HasSubstr("the next one comes after 5"));
     EXPECT_THAT(refused("[table.dial]\n[table.dial.sender]\ntwo_axes = true\n"), HasSubstr("two_axes"));
     EXPECT_THAT(refused("[scanner.head]\n"), HasSubstr("scanner head has no card"));
-    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\n"),
+    EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nconveyor = \"line\"\n"),
                 HasSubstr("there is no belt or table 'line'"));
     EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"),
                 HasSubstr("drives scanner one already"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"),
                 HasSubstr("in the table lens"));
     EXPECT_THAT(refused("[belt.line]\n[wires]\n\"scan.start_n\" = \"line.sensor_n\"\n"), HasSubstr("section parts"));
-    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\ncounts_per_mm = 20000\n"),
+    EXPECT_THAT(refused("[belt.line]\nvelocity_mm_s = 1000\ncounts_per_mm = 20000\n"),
                 HasSubstr("at more than 500 mm/s its encoder"));
-    EXPECT_THAT(refused("[belt.line]\nspeed_mm_s = 1000\n[belt.line.parts]\nevery_mm = 0.002\nlength_mm = 0.001\n"),
-                HasSubstr("at more than 200 mm/s"));
+    EXPECT_THAT(
+        refused("[belt.line]\nvelocity_mm_s = 1000\n[belt.line.parts]\npart_pitch_mm = 0.002\nlength_mm = 0.001\n"),
+        HasSubstr("at more than 200 mm/s"));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ std::string rack_text(const std::string& block, const std::string& more = {}) {
     for (const char* axis : {"X\nx", "Y\ny", "Z\nz"}) {
         text += std::string("[axis.") + axis[0] + "]\ncard = \"motion\"\nchannel = \"" + axis[2] +
                 "\"\nmotor.pull_out_hz = 200000\n";
-        if (axis[0] == 'Z') text += "min_mm = 0\nmax_mm = 80\nstart_mm = 80\n";
+        if (axis[0] == 'Z') text += "min_limit_mm = 0\nmax_limit_mm = 80\ninitial_position_mm = 80\n";
     }
     return text + "[probe]\n" + block + more;
 }
@@ -60,7 +60,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         const std::string program =
             "G21 G90\nG38.2 X" + std::string(feed < 10 ? "1" : "250") + " F" + std::to_string(feed) + "\nM2\n";
         const double edge = feed < 10 ? 0.321 : 187.123;
-        const JobOutcome out = run_probe(rack_text("x_from_mm = " + std::to_string(edge) + "\n"), program);
+        const JobOutcome out = run_probe(rack_text("x_min_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
         // It comes to rest behind the edge, by no more than the way to brake and a little.
@@ -73,7 +73,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
 
 TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
     const JobOutcome out =
-        run_probe(rack_text("x_from_mm = 41.7\ny_from_mm = 0\ny_to_mm = 100\nz_from_mm = 0\nz_to_mm = 75\n"),
+        run_probe(rack_text("x_min_mm = 41.7\ny_min_mm = 0\ny_max_mm = 100\nz_min_mm = 0\nz_max_mm = 75\n"),
                   "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const auto texts = set_probe_result(out);
@@ -88,7 +88,7 @@ TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
 TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     // The classic: fast down, back until it leaves, slowly down again; then up by increments from where it stands.
     const JobOutcome out =
-        run_probe(rack_text("z_to_mm = 12.34\n"),
+        run_probe(rack_text("z_max_mm = 12.34\n"),
                   "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
@@ -129,11 +129,11 @@ void expect_measured(const JobOutcome& out) {
 }
 
 TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
-    expect_measured(run_probe(rack_text("z_to_mm = 12.34\n"), measures));
+    expect_measured(run_probe(rack_text("z_max_mm = 12.34\n"), measures));
 }
 
 TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
-    Rack rack(good(rack_text("z_to_mm = 12.34\n")));
+    Rack rack(good(rack_text("z_max_mm = 12.34\n")));
     auto orders = CommandSchedule::create(
         rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
     ASSERT_TRUE(orders) << orders.error().message;
@@ -148,14 +148,14 @@ TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
 
 TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
     const JobOutcome out =
-        run_probe(rack_text("x_from_mm = 100\nx_to_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
+        run_probe(rack_text("x_min_mm = 100\nx_max_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(set_probe_result(out), std::vector{at("touched", 100, 0, 80)});
     EXPECT_EQ(out.axes[0].real_end, 120);
 }
 
 TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
-    const std::string rack = rack_text("x_from_mm = 200\n");
+    const std::string rack = rack_text("x_min_mm = 200\n");
     const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
     EXPECT_EQ(set_probe_result(may),
@@ -169,17 +169,17 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
 }
 
 TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
-    const JobOutcome touches = run_probe(rack_text("x_from_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
+    const JobOutcome touches = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
     ASSERT_FALSE(touches.ended);
     EXPECT_THAT(touches.ended.error().message, HasSubstr("touches already"));
     EXPECT_EQ(touches.axes[0].real_end, 20);
-    const JobOutcome free = run_probe(rack_text("x_from_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
+    const JobOutcome free = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
     ASSERT_FALSE(free.ended);
     EXPECT_THAT(free.ended.error().message, HasSubstr("does not touch before the move"));
 }
 
 TEST(Probing, GoesWithLimitedJerkToo) {
-    const JobOutcome out = run_probe(rack_text("x_from_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
+    const JobOutcome out = run_probe(rack_text("x_min_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
                                      "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(187.123), 20, 80)});
@@ -193,7 +193,7 @@ std::string bad(const std::string& text) {
 TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
     EXPECT_THAT(bad("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\n"),
                 HasSubstr("cannot catch positions"));
-    EXPECT_THAT(bad(rack_text("x_from_mm = 5\nx_to_mm = 4\n")), HasSubstr("its first end must be below the other"));
+    EXPECT_THAT(bad(rack_text("x_min_mm = 5\nx_max_mm = 4\n")), HasSubstr("its first end must be below the other"));
 }
 
 /// Lines one by one, each only when there is room.
@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(With, ProbingByLines, testing::Values("trapezoid", "jer
                          [](const auto& each) { return std::string(each.param); });
 
 TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
-    Fed fed(config("x_from_mm = 187.123\n"));
+    Fed fed(config("x_min_mm = 187.123\n"));
     fed.drive({"G21 G90", "G1 X10 F3000", "G38.2 X250", "G91 G1 X-2", "X-3", "G90 X20"});
     ASSERT_TRUE(fed.state) << fed.state.error().message;
     const control::ProbeReport& probe = fed.stream->last_probe();
@@ -253,7 +253,7 @@ TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
 }
 
 TEST_P(ProbingByLines, AMissIsAnErrorOrNone) {
-    Fed fed(config("x_from_mm = 200\n"));
+    Fed fed(config("x_min_mm = 200\n"));
     fed.drive({"G21 G90", "G38.3 X50 F3000", "G1 X60"});
     ASSERT_TRUE(fed.state);
     EXPECT_EQ(fed.x(), 60);
@@ -272,7 +272,7 @@ TEST_P(ProbingByLines, AMissIsAnErrorOrNone) {
 }
 
 TEST_P(ProbingByLines, AStopEndsItAndAHoldWaitsForItsEnd) {
-    Fed stopped(config("x_from_mm = 200\n"));
+    Fed stopped(config("x_min_mm = 200\n"));
     bool done = false;
     stopped.on_slice = [&] {
         if (!std::exchange(done, done || stopped.x() > 50) && stopped.x() > 50) stopped.stream->stop();
@@ -284,7 +284,7 @@ TEST_P(ProbingByLines, AStopEndsItAndAHoldWaitsForItsEnd) {
     stopped.drive({"G1 X10"});
     EXPECT_EQ(stopped.x(), 10);
 
-    Fed held(config("x_from_mm = 100\n"));
+    Fed held(config("x_min_mm = 100\n"));
     bool asked = false;
     held.on_slice = [&] {
         if (!asked && held.x() > 50) held.stream->hold(), asked = true;

@@ -210,7 +210,7 @@ TEST(ServoAxis, TheWatchdogsResetTakesTheTrustAway) {
 
 TEST(ServoAxis, AHeldAxisIsBroughtBackAndAFreeOneIsNot) {
     for (const bool held : {true, false}) {
-        Machine m(carriage(held ? "hold_within_mm = 0.25\n" : ""));
+        Machine m(carriage(held ? "position_window_mm = 0.25\n" : ""));
         m.here_is(100);
         ASSERT_TRUE(m.axis->move_to(500, 500));
         ASSERT_TRUE(m.axis->wait(whole_seconds(30)));
@@ -258,8 +258,9 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
     for (const bool plus : {false, true})
         for (int type = 1; type <= 4; ++type) {
             SCOPED_TRACE(fmt::format("type {} {}", type, plus ? "plus" : "minus"));
-            Rack rack(good(carriage("", fmt::format("[axis.X.homing]\ndirection = \"{}\"\n{}", plus ? "plus" : "minus",
-                                                    type >= 3 ? "position_mm = 128\n" : ""))));
+            Rack rack(
+                good(carriage("", fmt::format("[axis.X.homing]\nsearch_direction = \"{}\"\n{}", plus ? "plus" : "minus",
+                                              type >= 3 ? "home_offset_mm = 128\n" : ""))));
             rack.start();
             HomingSettings settings;
             settings.type = type;

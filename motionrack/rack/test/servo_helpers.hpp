@@ -9,7 +9,8 @@ namespace motionrack::rack {
 inline std::string carriage(const std::string& servo = {}, const std::string& rest = {}) {
     return "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nlead_mm = 10\nencoder_counts_per_rev = "
            "1000\n"
-           "max_speed_mm_s = 500\nstart_mm = 100\nmin_mm = -200\nmax_mm = 2900\n[axis.X.servo]\n" +
+           "max_velocity_mm_s = 500\ninitial_position_mm = 100\nmin_limit_mm = -200\nmax_limit_mm = "
+           "2900\n[axis.X.servo]\n" +
            servo +
            "[axis.X.switches]\nlimit_minus_mm = -300\nlimit_plus_mm = 3000\ncam_from_mm = 126\ncam_to_mm = 132\n" +
            rest;

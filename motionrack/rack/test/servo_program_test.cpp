@@ -27,7 +27,7 @@ JobOutcome run(const std::string& rack_text, const std::string& program, RackCon
 
 TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
     RackConfig config;
-    const std::string text = carriage("hold_within_mm = 0.25\n");
+    const std::string text = carriage("position_window_mm = 0.25\n");
     const JobOutcome out = run(text, "G21 G90\nG0 X2560\nG4 P1\nG1 X1280 F12000\nG4 P0.5\nG1 X0 F6000\nM2\n", &config);
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     ASSERT_EQ(out.axes.size(), 1u);
@@ -44,11 +44,12 @@ TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
 }
 
 TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
-    const std::string two = carriage() +
-                            "[card.lift]\ntype = \"databoard4002\"\nselect = 14\n[axis.Z]\ncard = \"lift\"\nlead_mm = "
-                            "5\nencoder_counts_per_rev = 2000\n"
-                            "max_speed_mm_s = 100\nmax_accel_mm_s2 = 400\nmax_mm = "
-                            "500\n[axis.Z.servo]\nspeed_per_volt_mm_s = 20\nfriction_mm_s2 = 20\n";
+    const std::string two =
+        carriage() +
+        "[card.lift]\ntype = \"databoard4002\"\ncard_number = 14\n[axis.Z]\ncard = \"lift\"\nlead_mm = "
+        "5\nencoder_counts_per_rev = 2000\n"
+        "max_velocity_mm_s = 100\nmax_accel_mm_s2 = 400\nmax_limit_mm = "
+        "500\n[axis.Z.servo]\nvelocity_per_volt_mm_s = 20\ncoulomb_friction_mm_s2 = 20\n";
     const JobOutcome out = run(two, "G90\nG0 X600 Z200\nG1 Z50 F3000\nG1 X0 F6000\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].real_end, 0, 0.3);
@@ -68,7 +69,8 @@ TEST(ServoProgram, ASteppingMotorAtTheFrequencyOutputLosesNoSteps) {
     const JobOutcome out =
         run("[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nmotor_steps_per_rev = 200\nmicrosteps "
             "= 5\n"
-            "lead_mm = 10\nencoder_counts_per_rev = 1000\nmax_speed_mm_s = 100\nstart_speed_mm_s = 5\nmax_mm = 500\n",
+            "lead_mm = 10\nencoder_counts_per_rev = 1000\nmax_velocity_mm_s = 100\nmax_velocity_step_mm_s = "
+            "5\nmax_limit_mm = 500\n",
             "G0 X300\nG1 X100 F1200\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(out.axes[0].lost_pulses, 0);
@@ -102,8 +104,8 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
         {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nencoder_counts_per_rev = 0\n", "positions by it"},
         {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\n[axis.X.switches]\ncam_from_mm = 3\n",
          "a cam needs both ends"},
-        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_mm = 20000\n", "8388607 at most"},
-        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_speed_mm_s = 600\n",
+        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_limit_mm = 20000\n", "8388607 at most"},
+        {"[card.b]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"b\"\nmax_velocity_mm_s = 600\n",
          "follow 400000 counts/s"},
     };
     for (const auto& each : wrong) {
@@ -115,7 +117,7 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
     EXPECT_THAT(all_texts(read_rack_text(carriage("lag_ms = 100\nfriction_mm_s2 = 30\n")).warnings),
                 HasSubstr("stop short of its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("load = 9\n")).warnings), HasSubstr("run past its target"));
-    EXPECT_THAT(all_texts(read_rack_text(carriage("speed_per_volt_mm_s = 40\n")).warnings),
+    EXPECT_THAT(all_texts(read_rack_text(carriage("velocity_per_volt_mm_s = 40\n")).warnings),
                 HasSubstr("reaches at 10 V"));
     EXPECT_TRUE(read_rack_text(*rack_template("carriage")).warnings.empty());
 }

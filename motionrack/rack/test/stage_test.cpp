@@ -28,17 +28,17 @@ const std::string good_stage = cards + R"(
 [stage.mask]
 card = "second"
 input = 2
-viscous_per_s = 2
+viscous_friction_per_s = 2
 [stage.mask.scale]
 pitch_um = 5
 reversed = true
-zero_mm = -1
+zero_offset_mm = -1
 [stage.mask.servo]
 profile = "scan"
 from_mm = 0
 to_mm = 4
-speed_mm_s = 20
-accel_mm_s2 = 2000
+max_velocity_mm_s = 20
+max_accel_mm_s2 = 2000
 [stage.table]
 card = "second"
 output = 3
@@ -79,15 +79,15 @@ TEST(StageSections, SayWhatDoesNotFit) {
         {stage + "[stage.other]\ncard = \"host\"\ninput = 2\n",
          "scale 2 of the decoder is that of stage mask already."},
         {stage + "start_mm = 2000\n", "it starts at 2000 mm, beyond its ends of travel at -1000 and 1000 mm."},
-        {stage + "end_minus_mm = 5\nend_plus_mm = 5\n", "the first must be the smaller."},
+        {stage + "hard_stop_minus_mm = 5\nhard_stop_plus_mm = 5\n", "the first must be the smaller."},
         {stage + "scale = { interpolation = 6 }\n", "6 counts of a pitch are no multiple of 4"},
         {stage + "scale = { pitch_um = 0.0012345 }\n", "a pitch of 0.0012345 um is no whole number of picometres"},
         {stage + "scale = { pitch_nm = 5 }\n", "did you mean 'pitch_um'?"},
-        {stage + "servo = { compute_us = 200 }\n", "computing takes 200 us, but there is a frame every 200 us."},
+        {stage + "servo = { control_delay_us = 200 }\n", "computing takes 200 us, but there is a frame every 200 us."},
         {stage + "servo = { profile = \"scan\", from_mm = 5, to_mm = 5 }\n",
          "from_mm is 5 and to_mm is 5; a scan goes from the smaller to the greater."},
         {stage + "servo = { profile = \"steps\", step_mm = 0 }\n", "step_mm is 0; a step goes somewhere."},
-        {stage + "servo = { profile = \"steps\", step_mm = 50, every_ms = 100 }\n", "A step of 50 mm takes"},
+        {stage + "servo = { profile = \"steps\", step_mm = 50, step_period_ms = 100 }\n", "A step of 50 mm takes"},
         {stage + "servo = { profile = \"jump\" }\n", "jump"},
     };
     for (const auto& [text, words] : cases) EXPECT_THAT(first_error(text), HasSubstr(words));
@@ -156,8 +156,10 @@ TEST(RunningStages, FaultsOfMotorAndScaleOpenTheLoop) {
     ASSERT_EQ(conditions.size(), 2u);
     EXPECT_THAT(r.rack.describe(conditions[0]),
                 HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
-    EXPECT_THAT(r.rack.describe(conditions[1]),
-                HasSubstr("nm from where it was to be, more than limit_um = 100; card second opened its loop: 0 V"));
+    EXPECT_THAT(
+        r.rack.describe(conditions[1]),
+        HasSubstr(
+            "nm from where it was to be, more than max_following_error_um = 100; card second opened its loop: 0 V"));
     EXPECT_FALSE(inject_fault(r.rack, "motor.load=-1", "table"));
 }
 

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 const char* const stop_axes =
-    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+    "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
     "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n"
     "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n[axis.Y.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n";
 const char* const dwelling = "G21 G90 F1200\nG1 X20\nG4 P2\nG1 X80\nM2\n";  // the dwell is from 0.52 s to 2.52 s
@@ -142,7 +142,8 @@ TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop)
 
 TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
     std::string on_its_switch = stop_axes;
-    on_its_switch.replace(on_its_switch.find("start_mm = 10"), 13, "min_mm = -6\nstart_mm = -5.5");
+    on_its_switch.replace(on_its_switch.find("initial_position_mm = 10"), 13,
+                          "min_limit_mm = -6\ninitial_position_mm = -5.5");
     on_its_switch.replace(on_its_switch.find("limit_minus_mm = -5"), 19, "bounce_ms = 10\nlimit_minus_mm = -5");
     const StoppedRun ran = run_stopped(on_its_switch, "G21 G90 F1200\nG1 X20\nM2\n", {});
     EXPECT_TRUE(ran.outcome.ended) << ran.error();
@@ -178,7 +179,8 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
 /// While the chip brakes, what waits behind the line must not have its way with the acceleration.
 TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
     std::string slow_y = stop_axes;
-    slow_y.replace(slow_y.find("channel = \"y\""), 13, "channel = \"y\"\nmax_accel_mm_s2 = 500\nmax_speed_mm_s = 50");
+    slow_y.replace(slow_y.find("channel = \"y\""), 13,
+                   "channel = \"y\"\nmax_accel_mm_s2 = 500\nmax_velocity_mm_s = 50");
     for (const char* when : {"0.2s", "0.4s", "0.6s", "0.8s"}) {
         const StoppedRun ran =
             run_stopped(slow_y, "G0 Y40\nG1 X20 Y41 F1200\nG0 X60\nM2\n", {std::string("X.limit_plus=0@") + when});

@@ -42,12 +42,12 @@ TEST(TomlEdit, KeepsTextsOfAllKinds) {
 }
 
 TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
-    TomlNode root = *parse_toml("[axis.X]\nmax_mm = 3\ncard = \"m\"\n", "");
-    EXPECT_TRUE(put_value(root, toml_path("axis.X.max_mm"), number(5)));
-    EXPECT_TRUE(put_value(root, toml_path("axis.Y.servo.lag_ms"), number(2.5)));
+    TomlNode root = *parse_toml("[axis.X]\nmax_limit_mm = 3\ncard = \"m\"\n", "");
+    EXPECT_TRUE(put_value(root, toml_path("axis.X.max_limit_mm"), number(5)));
+    EXPECT_TRUE(put_value(root, toml_path("axis.Y.servo.time_constant_ms"), number(2.5)));
     EXPECT_TRUE(put_value(root, toml_path("wires.\"m.xin1\""), number(0)));
     const std::string before =
-        "axis.X.max_mm = 5\naxis.X.card = \"m\"\naxis.Y.servo.lag_ms = 2.5\nwires.\"m.xin1\" = 0\n";
+        "axis.X.max_limit_mm = 5\naxis.X.card = \"m\"\naxis.Y.servo.time_constant_ms = 2.5\nwires.\"m.xin1\" = 0\n";
     EXPECT_EQ(text_of_toml(root), before);
     EXPECT_FALSE(put_value(root, toml_path("axis.X"), number(5)));
     EXPECT_FALSE(put_value(root, toml_path("axis.X.card.name"), number(5)));
@@ -56,7 +56,7 @@ TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
 
 TEST(TomlEdit, TakesNamesApart) {
     using Path = std::vector<std::string>;
-    EXPECT_EQ(toml_path("axis.X.max_mm"), (Path{"axis", "X", "max_mm"}));
+    EXPECT_EQ(toml_path("axis.X.max_limit_mm"), (Path{"axis", "X", "max_limit_mm"}));
     EXPECT_EQ(toml_path("wires.\"m.xin1\""), (Path{"wires", "m.xin1"}));
     EXPECT_EQ(toml_name(toml_path("wires.\"m.xin1\"")), "wires.\"m.xin1\"");
     for (const char* bad : {"", ".", "a.", ".a", "a..b", "\"a", "a b", "\"a\"b", "\"\""})

@@ -29,7 +29,8 @@ Sweep sweep_of(const std::string& text) {
 const std::string grid =
     "[sweep]\nprogram = \"part.ngc\"\n[vary]\ntext.P = [0.01, 0.5]\ntext.F = { from = 100, to = 200, steps = 4 }\n";
 const std::string chance =
-    "[sweep]\nprogram = \"part.ngc\"\norder = \"random\"\npoints = 40\nseed = 3\n[vary]\ntext.P = [0.01, 0.5]\ntext.F "
+    "[sweep]\nprogram = \"part.ngc\"\nsampling = \"random\"\npoints = 40\nseed = 3\n[vary]\ntext.P = [0.01, "
+    "0.5]\ntext.F "
     "= { from = 100, to = 200 }\n";
 
 TEST(Sweep, GridChangesItsLastParameterFirst) {
@@ -152,7 +153,7 @@ TEST(Point, HasLostStepsThoughItFoundThemAgainByChance) {
 TEST(SweepFile, TakesAnyTextWithoutHarm) {
     std::mt19937 random(7);
     const std::string seed_text =
-        grid + "fault = [\"X.motor.stall@1s\"]\naxis.X.max_mm = { from = 1, to = 9, steps = 3, whole = true }\n";
+        grid + "fault = [\"X.motor.stall@1s\"]\naxis.X.max_limit_mm = { from = 1, to = 9, steps = 3, whole = true }\n";
     for (int i = 0; i < 20'000; ++i) {
         std::string text = seed_text;
         for (int k = 0; k < 4; ++k) text[random() % text.size()] = "[]{}=\"',.\n#0123456789eE-+ ax"[random() % 29];

@@ -5,7 +5,7 @@
 int main() {
     using namespace motionrack::mark;
     const JobRead read =
-        read_job("[drawing]\ntext = 'A1'\n[belt]\nspeed_mm_s = 100\n[fly]\nmode = 'encoder'\n", "mine");
+        read_job("[drawing]\ntext = 'A1'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'encoder'\n", "mine");
     const Load none = [](const std::string&) -> motionrack::Result<std::string> {
         return motionrack::fail(motionrack::ErrorKind::io, "no files");
     };

@@ -53,7 +53,7 @@ static void images(flex2pos* flex) {
 
 /* The image that the rack file gives the card is the one of Init. */
 static void image_of_the_rack(void) {
-    static const char start[] = "[card.p1]\ntype = \"ioflex02\"\nloaded = false\nimage = \"";
+    static const char start[] = "[card.p1]\ntype = \"ioflex02\"\npreloaded = false\nimage = \"";
     char text[400];
     uint8_t image[100];
     size_t size = sizeof image, i, at = sizeof start - 1;
@@ -88,7 +88,7 @@ int main(void) {
     int status[4], i;
     double level = 0;
 
-    expect(mr_rack_open("[card.p1]\ntype = \"ioflex02\"\nloaded = false\n", &rack) == MR_OK, "open");
+    expect(mr_rack_open("[card.p1]\ntype = \"ioflex02\"\npreloaded = false\n", &rack) == MR_OK, "open");
     expect(flex2pos_open(rack, &flex) == MR_OK, "object");
     expect(flex2pos_ReadPosition(flex, 0) == 0 && flex2pos_Result(flex) == Flex_ErrDevice, "nothing before Init");
     expect(flex2pos_Init(flex, 0x2400) == Flex_ErrDevice && strlen(flex2pos_why(flex)) > 0, "a wrong address");

@@ -215,10 +215,10 @@ type = "databoard4002"
 card = "board"
 lead_mm = 10
 encoder_counts_per_rev = 1000
-max_speed_mm_s = 500
-start_mm = 100
-min_mm = -200
-max_mm = 2900
+max_velocity_mm_s = 500
+initial_position_mm = 100
+min_limit_mm = -200
+max_limit_mm = 2900
 [axis.X.servo]
 [axis.X.switches]
 limit_minus_mm = -300

@@ -22,7 +22,7 @@ type = "mcx314"
 [axis.X]
 card = "c1"
 channel = "x"
-start_mm = 10
+initial_position_mm = 10
 max_jerk_mm_s3 = 0
 [axis.X.switches]
 limit_minus_mm = -1
@@ -38,8 +38,8 @@ type = "mcx314"
 [axis.X]
 card = "c1"
 channel = "x"
-start_mm = 5
-max_mm = 300
+initial_position_mm = 5
+max_limit_mm = 300
 [axis.X.switches]
 home_mm = 1
 limit_minus_mm = -1
@@ -47,7 +47,7 @@ limit_plus_mm = 301
 [axis.Y]
 card = "c1"
 channel = "y"
-max_mm = 200
+max_limit_mm = 200
 )";
 
 class World {

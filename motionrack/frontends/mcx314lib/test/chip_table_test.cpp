@@ -22,7 +22,7 @@ type = "mcx314"
 [axis.X]
 card = "c1"
 channel = "x"
-start_mm = 20
+initial_position_mm = 20
 encoder_counts_per_rev = 3200
 [axis.X.switches]
 limit_minus_mm = -2

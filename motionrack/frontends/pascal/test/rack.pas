@@ -6,8 +6,8 @@ uses
   uMotionrack;
 
 const
-  HomingRack = '[card.c1]'#10'type = "mcx314"'#10'[axis.X]'#10'card = "c1"'#10'channel = "x"'#10'start_mm = 5'#10 +
-    'max_mm = 300'#10'[axis.X.switches]'#10'home_mm = 1'#10'limit_minus_mm = -1'#10'limit_plus_mm = 301'#10;
+  HomingRack = '[card.c1]'#10'type = "mcx314"'#10'[axis.X]'#10'card = "c1"'#10'channel = "x"'#10'initial_position_mm = 5'#10 +
+    'max_limit_mm = 300'#10'[axis.X.switches]'#10'home_mm = 1'#10'limit_minus_mm = -1'#10'limit_plus_mm = 301'#10;
   Part = 'G21 G90'#10'G1 X7 F1200'#10'M2'#10;
 
 var

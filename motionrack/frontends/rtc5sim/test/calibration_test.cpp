@@ -17,9 +17,9 @@ constexpr double k = 5184;  // bits/mm
 std::string standing_belt(double direction_deg, bool two_axes) {
     return fmt::format(
         "[card.scan]\ntype = \"rtc5\"\nlist_memory = 16000\n"
-        "[belt.line]\ncard = \"scan\"\nspeed_mm_s = 0\ndirection_deg = {}\n"
+        "[belt.line]\ncard = \"scan\"\nvelocity_mm_s = 0\ndirection_deg = {}\n"
         "[belt.line.sender]\nbits_per_mm = 200\ntwo_axes = {}\n"
-        "[scanner.head]\ncard = \"scan\"\npart_on = \"line\"\nbits_per_mm = {}\n",
+        "[scanner.head]\ncard = \"scan\"\nconveyor = \"line\"\nbits_per_mm = {}\n",
         direction_deg, two_axes, k);
 }
 

@@ -18,14 +18,14 @@ type = "rtc5"
 list_memory = 16000
 [belt.line]
 card = "scan"
-speed_mm_s = 100
+velocity_mm_s = 100
 counts_per_mm = 1000
 [belt.line.parts]
-every_mm = 50
-first_mm = 5
+part_pitch_mm = 50
+first_part_mm = 5
 [scanner.head]
 card = "scan"
-part_on = "line"
+conveyor = "line"
 bits_per_mm = 5184
 )";
 
