@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
         return run(old_host::request_of({argv + 1, argv + argc},
                                         "Usage: example_basic_host LISTING.BAS [ROUNDS [WIRE FROM UNTIL]]"));
     } catch (const std::exception& failure) {
+        std::fflush(stdout);  // the screen until then comes before the reason, in a pipe too
         std::fprintf(stderr, "%s\n", failure.what());
         return 1;
     }

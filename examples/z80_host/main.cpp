@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
             what == "zilog" ? program.zilog : std::string(program.bytes.begin(), program.bytes.end());
         return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() ? 0 : 5;
     } catch (const std::exception& failure) {
+        std::fflush(stdout);  // the screen until then comes before the reason, in a pipe too
         std::fprintf(stderr, "%s\n", failure.what());
         return 1;
     }
