@@ -1,0 +1,136 @@
+// The start pages: their commands, run in the order of the page in a tree like a fresh clone, print what it shows.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <tests/ran.hpp>
+#include <tests/source_root.hpp>
+#include <tests/text_of.hpp>
+#include <vector>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define MOTIONRACK_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define MOTIONRACK_SANITIZED
+#endif
+#endif
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int max_lines = 120, min_commands = 3;
+
+/// A fenced block of a page: ```INFO, its lines, ```.
+struct Fenced {
+    std::string info, text;
+};
+
+std::vector<Fenced> fenced_blocks(const std::string& page) {
+    std::vector<Fenced> out;
+    std::istringstream in(page);
+    bool inside = false;
+    for (std::string line; std::getline(in, line);) {
+        const bool fence = line.rfind("```", 0) == 0;
+        if (fence && !inside) out.push_back({line.substr(3), ""});
+        if (!fence && inside) out.back().text += line + "\n";
+        if (fence) inside = !inside;
+    }
+    return out;
+}
+
+/// Commands of a block, and the text that bash -v prints: each command as it is read, without "$ ", then its output.
+/// A command goes on after a backslash at the end of a line.
+struct Transcript {
+    std::string commands, printed;
+    int count = 0;
+};
+
+Transcript transcript_of(const std::string& block) {
+    Transcript out;
+    std::istringstream in(block);
+    bool goes_on = false;
+    for (std::string line; std::getline(in, line);) {
+        const bool begins = line.rfind("$ ", 0) == 0;
+        if (begins) line.erase(0, 2), ++out.count;
+        if (begins || goes_on) out.commands += line + "\n";
+        goes_on = (begins || goes_on) && !line.empty() && line.back() == '\\';
+        out.printed += line + "\n";
+    }
+    return out;
+}
+
+/// Links to everything in the source tree; copies of the examples, as their scripts go up from where they lie; the
+/// programs of this build; and in the place of the scripts that install and build, functions that do neither.
+class StartPage : public testing::TestWithParam<const char*> {
+  protected:
+    void SetUp() override {
+        fs::remove_all(clone);
+        fs::create_directories(clone / "build");
+        fs::create_directories(clone / "cmake");
+        for (const auto& entry : fs::directory_iterator(source_root)) {
+            const std::string name = entry.path().filename().string();
+            if (name == "examples")
+                fs::copy(entry.path(), clone / name, fs::copy_options::recursive);
+            else if (name != "build" && name != "cmake" && name != ".git")
+                fs::create_symlink(entry.path(), clone / name);
+        }
+        fs::create_directory_symlink(fs::path(MOTIONRACK_PROGRAM).parent_path().parent_path(), clone / "build/release");
+        std::ofstream(clone / "cmake/setup.sh")
+            << "need_packages() { :; }\nbuild_in() { :; }\nbuild_page() { :; }\nrun_packages=() release_options=()\n";
+    }
+    void TearDown() override { fs::remove_all(clone); }
+
+    /// A block with the name of a file behind its language is that file, or a part of the tree's file of that name.
+    void expect_file(const Fenced& block, const std::string& name) const {
+        if (fs::exists(source_root / name))
+            EXPECT_NE(text_of(source_root / name).find(block.text), std::string::npos) << name << "\n" << block.text;
+        else
+            std::ofstream(clone / name, std::ios::binary) << block.text;
+    }
+
+    const fs::path clone = fs::temp_directory_path() / ("motionrack_start_" + std::to_string(::getpid()));
+};
+
+TEST_P(StartPage, PrintsWhatItShows) {
+    const std::string page = text_of(source_root / "docs/start" / (std::string(GetParam()) + ".md"));
+    ASSERT_FALSE(page.empty());
+    EXPECT_LE(std::count(page.begin(), page.end(), '\n'), max_lines);
+#ifdef MOTIONRACK_SANITIZED
+    if (page.find("$ gcc ") != std::string::npos || page.find("$ fpc ") != std::string::npos)
+        GTEST_SKIP() << "Programs of other compilers cannot be linked with libraries that have a sanitizer.";
+#endif
+    int commands = 0;
+    for (const Fenced& block : fenced_blocks(page)) {
+        const std::size_t blank = block.info.find(' ');
+        if (blank != std::string::npos) expect_file(block, block.info.substr(blank + 1));
+        if (!block.info.empty()) continue;
+        const Transcript transcript = transcript_of(block.text);
+        std::ofstream(clone / ".commands", std::ios::binary) << transcript.commands;
+        EXPECT_EQ(run_in(clone, "bash -v .commands").out, transcript.printed);
+        commands += transcript.count;
+    }
+    EXPECT_GE(commands, min_commands);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, StartPage,
+                         testing::Values("gcode", "mcx314", "databoard4002", "ioflex02", "marking", "grating_bus"),
+                         [](const testing::TestParamInfo<const char*>& page) { return std::string(page.param); });
+
+TEST(StartPages, AreAllRunAndListed) {
+    const std::string chooser = text_of(source_root / "docs/start.md"),
+                      own = text_of(source_root / "tests/start_pages_test.cpp");
+    for (const auto& entry : fs::directory_iterator(source_root / "docs/start")) {
+        const std::string name = entry.path().stem().string();
+        EXPECT_NE(chooser.find("](start/" + name + ".md)"), std::string::npos) << name;
+        EXPECT_NE(own.find("\"" + name + "\""), std::string::npos) << name;
+    }
+}
+
+}  // namespace
+}  // namespace motionrack
