@@ -118,7 +118,7 @@ void run_recorded(benchmark::State& state, Work work, bool real_mirrors, bool le
     parts::StationSettings settings;
     settings.galvo.ideal = !real_mirrors;
     if (lens) settings.lens = sim::ScanLens{};
-    settings.workpiece.greatest_points = 100'000;
+    settings.workpiece.max_points = 100'000;
     Station station(settings);
     for (auto _ : state) card.run_until(card.tick() + 100'000, &station);
     state.counters["ticks/s"] =

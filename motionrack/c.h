@@ -207,7 +207,7 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
  *   marked_mm         length of all marks on the part
  *   energy_j          energy that came to the part
  *   points            points of marks that are kept
- *   lost_points       points beyond greatest_points
+ *   lost_points       points beyond max_points
  * An unknown name is told the ones that there are. MR_BAD_CALL. */
 MR_API int mr_part_get(mr_rack* rack, const char* part_dot_quantity, double* value);
 

@@ -63,8 +63,8 @@ constexpr std::array<Field, 5> scanner_table = {
     field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um",
                                       "how far a piece may be off what was marked, where pieces are joined"),
     formerly("greatest_points",
-             field<&RackScanner::greatest_points>("max_points", 16, 4'000'000, "",
-                                                  "points of marks that are kept; more are counted only")),
+             field<&RackScanner::max_points>("max_points", 16, 4'000'000, "",
+                                             "points of marks that are kept; more are counted only")),
 };
 
 bool has_encoder(const RackConveyor& track) {
@@ -206,12 +206,12 @@ class MarkingReader {
         double fastest = std::fabs(track.speed);
         if (!track.profile.empty()) fastest = 0;
         for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
-        if (fastest > track.greatest_speed())
+        if (fastest > track.max_velocity())
             refuse(*node_, with_unit("velocity_{u}_s", unit_),
                    fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
                                "{3:.0f} counts a second, or "
                                "more than {4:.0f} parts a second would come.",
-                               number_text(fastest), unit_, track.greatest_speed(), max_track_counts, max_parts));
+                               number_text(fastest), unit_, track.max_velocity(), max_track_counts, max_parts));
     }
 
     /// Two tracks at one pin would drive against each other.

@@ -40,7 +40,7 @@ struct RackConveyor {
     bool has_encoder() const { return counts_per_unit != 0; }
     parts::ConveyorSettings settings() const;
     /// mm/s or degrees/s: quicker neither its encoder nor its sensor can be followed.
-    double greatest_speed() const;
+    double max_velocity() const;
 };
 
 /// What the encoder of a track can show, counts a second; what can pass a sensor, parts a second.
@@ -53,7 +53,7 @@ struct RackScanner {
     std::optional<std::string> track;  ///< what carries the part; absent: it lies still
     double bits_per_mm = 8656;         ///< without a lens
     double tolerance_um = 0.2;
-    std::int64_t greatest_points = 200'000;
+    std::int64_t max_points = 200'000;
     std::optional<RackLens> lens;
     parts::GalvoSettings galvo;
     parts::LaserSettings laser;

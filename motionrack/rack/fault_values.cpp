@@ -34,7 +34,7 @@ double off_centre(const FaultyPart& part) {
     return counts_per_turn(part) / 7;
 }
 double track_speed_limit(const FaultyPart& part) {
-    return part.track->config.greatest_speed();
+    return part.track->config.max_velocity();
 }
 /// Whether it goes by its profile again has no number; it is checked like a speed.
 double track_profile_limit(const FaultyPart& part) {

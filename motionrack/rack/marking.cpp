@@ -40,7 +40,7 @@ parts::ConveyorSettings RackConveyor::settings() const {
     return out;
 }
 
-double RackConveyor::greatest_speed() const {
+double RackConveyor::max_velocity() const {
     double out = parts::max_track_speed;
     if (has_encoder()) out = std::min(out, max_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
     if (passing) out = std::min(out, max_parts * passing->every);
@@ -54,7 +54,7 @@ parts::StationSettings RackScanner::settings() const {
     out.bits_per_mm = bits_per_mm;
     out.laser = laser;
     out.track.profile = {{0, 0}};
-    out.workpiece = {tolerance_um * 1e-3, static_cast<std::size_t>(greatest_points)};
+    out.workpiece = {tolerance_um * 1e-3, static_cast<std::size_t>(max_points)};
     return out;
 }
 
@@ -81,7 +81,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
     out.config = config;
     const Result<parts::Conveyor> track = parts::Conveyor::make(config.settings());
     MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
-    out.drive = std::make_unique<parts::ConveyorDrive>(kernel, config.name, *track, config.greatest_speed());
+    out.drive = std::make_unique<parts::ConveyorDrive>(kernel, config.name, *track, config.max_velocity());
     if (config.has_encoder()) {
         out.counts = std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".counts", out.track(),
                                                                config.counts_per_unit * (1 - config.slip));

@@ -133,7 +133,7 @@ Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::s
     if (name != speed)
         return fail(ErrorKind::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
                                                     track.config.name, speed, in_quotes(name)));
-    const double greatest = track.config.greatest_speed();
+    const double greatest = track.config.max_velocity();
     if (!(std::fabs(value) <= greatest))
         return fail(ErrorKind::refused,
                     fmt::format("{}.{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
@@ -220,7 +220,7 @@ std::vector<QuantityRange> quantity_ranges(Rack& rack) {
         for (QuantityRange& one : out)
             if (one.name == fmt::format("{}.{}", track.config.name, with_unit(track_speed, track.config.unit()))) {
                 one.can_set = true;
-                one.max = track.config.greatest_speed();
+                one.max = track.config.max_velocity();
                 one.min = -one.max;
             }
     for (const auto& card : rack.cards())

@@ -148,7 +148,7 @@ inline constexpr std::array<QuantityRow<RunningScanner>, 7> scanner_quantities =
      [](RunningScanner& scanner, Instant) { return scanner.workpiece().energy_j(); }, measures},
     {"points", "points of marks that are kept",
      [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().points().size()); }, amount},
-    {"lost_points", "points beyond greatest_points",
+    {"lost_points", "points beyond max_points",
      [](RunningScanner& scanner, Instant) { return static_cast<double>(scanner.workpiece().lost_points()); }, amount},
 }};
 

@@ -61,7 +61,7 @@ class End {
 };
 
 /// The greatest speed that leaves no less than nothing of the line: between false positions.
-std::optional<double> greatest_speed(const End& begin, const End& end, double length, double most) {
+std::optional<double> max_reachable_velocity(const End& begin, const End& end, double length, double most) {
     const auto over = [&](double speed) { return begin.way_to(speed) + end.way_to(speed) - length; };
     double low = std::max(begin.min_speed(), end.min_speed()), high = most;
     if (!(low <= high)) return std::nullopt;
@@ -107,7 +107,7 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vecto
     };
     const End begin = end_of(first > 0, 0), end = end_of(first + 1 < spans.size(), spans.size() - 1);
     if (!begin.is_possible() || !end.is_possible()) return false;
-    const std::optional<double> found = greatest_speed(begin, end, length, full.speed);
+    const std::optional<double> found = max_reachable_velocity(begin, end, length, full.speed);
     if (!found) return false;
     const double peak = *found, jerk = full.jerk;
     const Rise up = begin.to(peak), down = end.to(peak);

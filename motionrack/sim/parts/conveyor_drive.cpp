@@ -9,8 +9,8 @@ namespace {
 constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "drive.profile"};
 }
 
-ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double greatest_speed)
-    : track_(track), max_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double max_velocity)
+    : track_(track), max_speed_(max_velocity), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
 std::span<const std::string_view> ConveyorDrive::fault_names() {
     return track_drive_faults;

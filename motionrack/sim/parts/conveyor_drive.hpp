@@ -20,9 +20,9 @@ namespace motionrack::parts {
 
 class ConveyorDrive final : public sim::Device {
   public:
-    /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most max_track_speed.
+    /// Adds the device `name` to the kernel, before it starts. `max_velocity`: at most max_track_speed.
     ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
-                  double greatest_speed = max_track_speed);
+                  double max_velocity = max_track_speed);
 
     const Conveyor& track() const { return track_; }
     sim::DeviceId id() const { return id_; }

@@ -41,10 +41,10 @@ Result<void> check(const GalvoSettings& s) {
     MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
     MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
-    return range("a greatest speed in bits/ms of", s.greatest_speed, 1, 1e9);
+    return range("a greatest speed in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
 }
 
-GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.greatest_speed / 100) {
+GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     const double w = 2 * pi * settings.natural_hz * galvo_tick_s;  // radians a tick
     over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping * w});

@@ -17,10 +17,10 @@ inline constexpr int max_dead_us = 10'000;
 
 struct GalvoSettings {
     bool ideal = true;
-    double dead_us = 0;              ///< 0 .. 10000, rounded down to 10 us
-    double natural_hz = 2000;        ///< 10 .. 20000
-    double damping = 0.8;            ///< 0.1 .. 10; 1: no overshoot
-    double greatest_speed = 800000;  ///< bits/ms, 1 .. 1e9
+    double dead_us = 0;                    ///< 0 .. 10000, rounded down to 10 us
+    double natural_hz = 2000;              ///< 10 .. 20000
+    double damping = 0.8;                  ///< 0.1 .. 10; 1: no overshoot
+    double max_velocity_bits_ms = 800000;  ///< bits/ms, 1 .. 1e9
 };
 
 /// Ranges and finite numbers.

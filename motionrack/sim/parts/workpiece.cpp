@@ -55,7 +55,7 @@ void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s)
 }
 
 void Workpiece::keep(const MarkedPoint& point) {
-    if (static_cast<std::size_t>(state_.points) >= settings_.greatest_points) {
+    if (static_cast<std::size_t>(state_.points) >= settings_.max_points) {
         ++state_.lost;
         return;
     }

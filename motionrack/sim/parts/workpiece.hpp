@@ -15,8 +15,8 @@
 namespace motionrack::parts {
 
 struct WorkpieceSettings {
-    double tolerance_mm = 0.0002;             ///< how far a segment may be off what was marked, 0 .. 10
-    std::size_t greatest_points = 4'000'000;  ///< more are counted, not kept
+    double tolerance_mm = 0.0002;        ///< how far a segment may be off what was marked, 0 .. 10
+    std::size_t max_points = 4'000'000;  ///< more are counted, not kept
 };
 
 /// A point of a stroke and what was marked on the way to it.
@@ -69,8 +69,8 @@ class Workpiece {
 
     /// All but the points themselves: points come only behind others, so that their number says which there were.
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
-    /// Makes room for greatest_points: from here on nothing is allocated.
-    void reserve() { points_.reserve(settings_.greatest_points); }
+    /// Makes room for max_points: from here on nothing is allocated.
+    void reserve() { points_.reserve(settings_.max_points); }
     /// The points of a work piece whose state was copied.
     void copy_points(const Workpiece& other) { points_.assign(other.points().begin(), other.points().end()); }
 

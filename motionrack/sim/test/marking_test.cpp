@@ -34,7 +34,7 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
 }
 
 TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheSpeedLimit) {
-    GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .greatest_speed = 20'000});
+    GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .max_velocity = 20'000});
     const auto x = driven(galvo, std::vector<std::int32_t>(2000, 10'000));
     double before = 0;
     for (const double at : x) {
@@ -172,7 +172,7 @@ TEST(Workpiece, StraightAndEvenIsOneSegmentAndACircleIsNot) {
 }
 
 TEST(Workpiece, MorePointsThanItMayKeepAreCounted) {
-    Workpiece piece({.greatest_points = 10});
+    Workpiece piece({.max_points = 10});
     for (int i = 0; i < 20; ++i) piece.add({i * 1.0, 0}, {i + 0.5, 0}, 1, i);
     piece.finish();
     EXPECT_EQ(piece.points().size(), 10u);

@@ -70,7 +70,7 @@ TEST(ScanHead, NothingIsAllocatedInARunAndPointsBeyondTheRoomAreCounted) {
     settings.galvo.dead_us = 70;
     settings.laser.on_delay_us = 20;
     settings.laser.off_delay_us = 30;
-    settings.workpiece.greatest_points = 100;
+    settings.workpiece.max_points = 100;
     Bench bench(settings);
     const std::uint64_t before = sim::allocations();
     for (int i = 0; i < 2'000; ++i) {

@@ -1,0 +1,86 @@
+"""Rule: the private words that vocabulary counts get fewer, and never more: the limits of vocabulary.txt only fall.
+
+vocabulary.py SOURCE            compares each count with its limit
+vocabulary.py SOURCE --write    lowers the limits to what the tree has
+"""
+
+import re
+import sys
+from pathlib import Path
+
+import tree
+
+LIMITS = Path(__file__).with_name("vocabulary.txt")
+
+CODE = r"(motionrack|python/src|python/motionrack|hmi/src)/"
+PAGES = r"(docs/(?!pictures/)|examples/|README\.md$|CHANGELOG\.md$|CONTRIBUTING\.md$)"
+
+# name of the count: where it is counted, what is counted, what to write instead
+COUNTS = {
+    "extreme-prefixes": (
+        CODE,
+        r"\b(most|greatest|least|longest|deepest|smallest|fastest|slowest|quickest)_[a-z0-9_]+",
+        "max_, min_ or peak_",
+    ),
+    "headless-what-in-code": (CODE, r"(^|[^a-z])(what|who) (is|was|are|were)\b", "the noun that is meant"),
+    "headless-what-in-pages": (PAGES, r"\b(what|who) (is|was|are|were)\b", "the noun that is meant"),
+    "is-no": (f"({CODE}|{PAGES})", r"\bis no ", "is not a, has no, or a verb"),
+    "is-told": (
+        f"({CODE}|{PAGES})",
+        r"\b(is|are|was|were) told\b|\btells? of\b",
+        "reports, receives, is notified, logs",
+    ),
+    "persons-without-name": (
+        f"({CODE}|{PAGES})",
+        r"\b(nobody|whoever|somebody|anybody|everybody)\b",
+        "who acts: a module, a card, a client, the operator",
+    ),
+    "fillers": (
+        f"({CODE}|{PAGES})",
+        r"\b(so much|so long|so many|lets? go|in vain|all the same|for now|anew)\b",
+        "nothing, or the number",
+    ),
+    "fragments": (r"motionrack/", r"///< of ", "the phrase"),
+    "types-of-one-name": (r"motionrack/.*\.hpp$", "", "a name that no other header has"),
+}
+
+TYPE = re.compile(r"(?:struct|class|enum class) ([A-Z][A-Za-z]+)(?: final)?(?: :[^{]*)? \{")
+
+
+def texts(where: str) -> list[str]:
+    """Texts of the files, without their tests."""
+    pattern = re.compile(where)
+    return [tree.text(path) or "" for path in tree.files() if pattern.match(path) and "/test/" not in path]
+
+
+def count(name: str) -> int:
+    """How often the tree has what the count forbids."""
+    where, what, _ = COUNTS[name]
+    if name == "types-of-one-name":
+        names = [found for text in texts(where) for found in TYPE.findall(text)]
+        return len({one for one in names if names.count(one) > 1})
+    pattern = re.compile(what, re.IGNORECASE | re.MULTILINE)
+    return sum(len(pattern.findall(text)) for text in texts(where))
+
+
+def main() -> int:
+    limits = {name: int(number) for number, name in (line.split() for line in LIMITS.read_text().splitlines())}
+    found = {name: count(name) for name in COUNTS}
+    if "--write" in sys.argv:
+        lines = [f"{min(found[name], limits.get(name, found[name]))} {name}" for name in COUNTS]
+        LIMITS.write_text("\n".join(lines) + "\n")
+        return 0
+    wrong = 0
+    for name, number in found.items():
+        if number > limits.get(name, -1):
+            where, what, instead = COUNTS[name]
+            print(f"{name}: {number}, at most {limits.get(name, -1)}; write {instead} (git grep -iE '{what}')")
+            wrong = 1
+        elif number < limits[name]:
+            print(f"{name}: {number} now, {limits[name]} before; run python3 tests/rules/vocabulary.py . --write")
+            wrong = 1
+    return wrong
+
+
+if __name__ == "__main__":
+    sys.exit(main())
