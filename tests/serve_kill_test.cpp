@@ -19,7 +19,8 @@ class AServedRack : public InFolder {
     void SetUp() override {
         InFolder::SetUp();
         write("table.toml",
-              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_limit_mm "
+              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = "
+              "\"x\"\nmax_limit_mm "
               "= 1000\n");
     }
     std::vector<std::string> arguments() const {

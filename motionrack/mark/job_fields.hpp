@@ -58,7 +58,7 @@ inline constexpr std::array<Field, 5> belt_fields = {
     field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 6> table_fields = {
-    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
+    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "counter-clockwise"),
     field<&BeltSettings::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "of its encoder, four a line"),

@@ -41,7 +41,8 @@ class AServedRackOnABadDisk : public InFolder {
         InFolder::SetUp();
         std::filesystem::create_directory(folder / "data");
         write("table.toml",
-              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nmax_limit_mm "
+              "[rack]\nname = \"table\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = "
+              "\"x\"\nmax_limit_mm "
               "= 1000\n");
     }
     std::string at(const char* name) const { return (folder / name).string(); }

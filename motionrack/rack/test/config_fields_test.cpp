@@ -145,8 +145,8 @@ TEST(RackKeys, KeepsNumbersBitForBit) {
     EXPECT_TRUE(rc::check("what the file says is what the config has", [] {
         const double lead = *rc::gen::inRange(1, 1'000'000) / 7000.0 + 1;
         const double travel = *rc::gen::inRange(1, 1'000'000) / 3000.0;
-        const RackReading reading =
-            read_rack_text(rack_with(fmt::format("lead_mm = {}\nmax_limit_mm = {}\nmax_velocity_mm_s = 2\n", lead, travel)));
+        const RackReading reading = read_rack_text(
+            rack_with(fmt::format("lead_mm = {}\nmax_limit_mm = {}\nmax_velocity_mm_s = 2\n", lead, travel)));
         RC_ASSERT(reading.config.has_value());
         RC_ASSERT(reading.config->axes[0].lead_mm == lead);
         RC_ASSERT(reading.config->axes[0].max_position == travel);

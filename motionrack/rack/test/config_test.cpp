@@ -77,6 +77,7 @@ const std::vector<BadFile>& bad_files() {
          {6, 1},
          {"axis X", "'max_velocty_mm_s'", "did you mean 'max_velocity_mm_s'?"}},
         {rack_with("colour = \"blue\"\n"), {6, 1}, {"axis X has no key 'colour'."}},
+        {rack_with("max_speed_mm_s = 1\n"), {6, 1}, {"'max_speed_mm_s' is now 'max_velocity_mm_s'."}},
         {rack_with("max_velocity_deg_s = 1\n"), {6, 1}, {"counts in deg", "a linear axis", "max_velocity_mm_s"}},
         {rack_with("max_velocity_mm_s = 1\n", 'A'), {6, 1}, {"counts in mm", "a rotary axis", "max_velocity_deg_s"}},
         {rack_with("gear_ratio = 2\n"), {6, 1}, {"gear_ratio", "does not belong", "linear"}},
@@ -104,21 +105,21 @@ const std::vector<BadFile>& bad_files() {
         {rack_with("[axis.Y]\ncard = \"m\"\nchannel = \"w\"\n"), {8, 11}, {"'w'", "x y z u"}},
         {rack_with("[axis.Y]\ncard = \"m\"\nchannel = \"x\"\n"), {8, 11}, {"X and Y", "channel x of card m"}},
         {rack_with("min_limit_mm = 10\nmax_limit_mm = 10\ninitial_position_mm = 10\n"),
-         {6, 10},
+         {6, 16},
          {"min_limit_mm", "10", "max_limit_mm"}},
         {rack_with("min_limit_mm = 10\n"), {3, 7}, {"initial_position_mm", "is 0", "10 .. 300 mm"}},
-        {rack_with("initial_position_mm = 301\n"), {6, 12}, {"initial_position_mm", "301", "0 .. 300 mm"}},
-        {rack_with("initial_position_deg = -1\n", 'A'), {6, 13}, {"initial_position_deg", "-1", "0 .. 360 deg"}},
-        {rack_with("max_velocity_step_mm_s = 101\n"), {6, 20}, {"max_velocity_step_mm_s", "101", "100"}},
+        {rack_with("initial_position_mm = 301\n"), {6, 23}, {"initial_position_mm", "301", "0 .. 300 mm"}},
+        {rack_with("initial_position_deg = -1\n", 'A'), {6, 24}, {"initial_position_deg", "-1", "0 .. 360 deg"}},
+        {rack_with("max_velocity_step_mm_s = 101\n"), {6, 26}, {"max_velocity_step_mm_s", "101", "100"}},
         {rack_with("max_jerk_mm_s3 = 0.0001\n"), {6, 18}, {"0.0001", "0 (trapezoids)", "0.001"}},
         {rack_with("max_velocity_mm_s = 10000\n"),
-         {6, 18},
+         {6, 21},
          {"10000", "6400000 pulses/s", "640 pulses/mm", "4000000", "6250"}},
         {rack_with("max_accel_mm_s2 = 1e6\n"), {6, 19}, {"1000000", "640000000 pulses/s2", "500000000"}},
         {rack_with("max_velocity_mm_s = 0.001\nmax_velocity_step_mm_s = 0.001\n"),
-         {6, 18},
+         {6, 21},
          {"0.64 pulses/s", "slowest"}},
-        {rack_with("max_limit_mm = 4e6\n"), {6, 10}, {"max_limit_mm", "32", "2147483647"}},
+        {rack_with("max_limit_mm = 4e6\n"), {6, 16}, {"max_limit_mm", "32", "2147483647"}},
         {rack_with("encoder_counts_per_rev = 1001\n"), {6, 26}, {"1001", "multiple of 4"}},
         {rack_with("encoder_counts_per_rev = 1000000\n"), {6, 26}, {"20000000 counts/s", "8000000"}},
         {rack_with("[axis.X.motor]\nstart_stop_hz = 300000\n"), {7, 17}, {"300000", "200000", "pull_out_hz"}},
@@ -127,6 +128,12 @@ const std::vector<BadFile>& bad_files() {
          {7, 18},
          {"no way between", "5", "4"}},
         {rack_with("[axis.X.switches]\nlimit_minus_mm = 301\n"), {7, 18}, {"no way between", "301"}},
+    };
+    return files;
+}
+
+const std::vector<BadFile>& bad_wiring() {
+    static const std::vector<BadFile> files = {
         {rack_with("[wires]\n\"m.xin9\" = \"estop\"\n"), {7, 1}, {"'m.xin9'", "did you mean"}},
         {rack_with("[wires]\n\"m.xin1\" = \"X.hom\"\n"), {7, 12}, {"'X.hom'", "did you mean 'X.home'?"}},
         {rack_with("[wires]\n\"m.xin1\" = \"X.home\"\n"), {7, 12}, {"no X.home", "home_mm in its switches"}},
@@ -165,8 +172,8 @@ TEST(TomlReader, ArraysHaveTheirValuesWithTheirPlaces) {
     EXPECT_EQ(t.children[1].find("k")->integer, 2);
 }
 
-TEST(RackFile, TellsWhatIsWrongAndWhere) {
-    for (const BadFile& bad : bad_files()) {
+void expect_refused(const std::vector<BadFile>& files) {
+    for (const BadFile& bad : files) {
         const RackReading reading = read_rack_text(bad.text, "bad.toml");
         EXPECT_FALSE(reading.config.has_value()) << bad.text;
         ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << bad.text;
@@ -176,6 +183,11 @@ TEST(RackFile, TellsWhatIsWrongAndWhere) {
         EXPECT_EQ(error.file, "bad.toml");
         for (const std::string& word : bad.words) EXPECT_THAT(error.message, HasSubstr(word)) << bad.text;
     }
+}
+
+TEST(RackFile, TellsWhatIsWrongAndWhere) {
+    expect_refused(bad_files());
+    expect_refused(bad_wiring());
 }
 
 TEST(RackFile, ListsAllMistakesAtOnceInTheOrderOfTheFile) {
@@ -219,7 +231,7 @@ TEST(RackFile, WarnsOfWhatAMachineCanDoButNobodyWants) {
     };
     EXPECT_EQ(warnings(""), "");
     EXPECT_THAT(warnings("max_velocity_mm_s = 400\n"),
-                HasSubstr("6:18: max_velocity_mm_s of axis X is 400, that is 256000 pulses/s"));
+                HasSubstr("6:21: max_velocity_mm_s of axis X is 400, that is 256000 pulses/s"));
     EXPECT_THAT(warnings("max_velocity_step_mm_s = 10\n"), HasSubstr("above the motor's start_stop_hz 2000"));
     EXPECT_THAT(warnings("[axis.X.switches]\nlimit_plus_mm = 250\n"),
                 HasSubstr("7:17: limit_plus_mm of axis X acts at 250 mm"));
