@@ -34,7 +34,7 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
 }
 
 TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheSpeedLimit) {
-    GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .max_velocity = 20'000});
+    GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .max_velocity_bits_ms = 20'000});
     const auto x = driven(galvo, std::vector<std::int32_t>(2000, 10'000));
     double before = 0;
     for (const double at : x) {
