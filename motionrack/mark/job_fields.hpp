@@ -50,7 +50,7 @@ inline constexpr std::array<Field, 7> pace_fields = {
     field<&ProcessSpeeds::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
 };
 inline constexpr std::array<Field, 5> belt_fields = {
-    formerly("speed_mm_s", field<&BeltSettings::speed>("velocity_mm_s", -1e5, 1e5, "mm/s", "speed"),
+    formerly("speed_mm_s", field<&BeltSettings::speed>("velocity_mm_s", -1e5, 1e5, "mm/s", "speed")),
     field<&BeltSettings::direction_deg>("direction_deg", -3600, 3600, "deg",
                                         "where it goes, from +X counter-clockwise"),
     field<&BeltSettings::counts_per_unit>("counts_per_mm", -1e6, 1e6, "", "of its encoder, four a line"),
@@ -58,7 +58,7 @@ inline constexpr std::array<Field, 5> belt_fields = {
     field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 6> table_fields = {
-    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "counter-clockwise"),
+    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "counter-clockwise")),
     field<&BeltSettings::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "of its encoder, four a line"),
