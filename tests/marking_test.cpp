@@ -60,7 +60,7 @@ TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
 
 TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
     std::string job = text_of(source_root / "examples/marking/long.toml");
-    job.replace(job.find("speed_mm_s = 150"), 16, "speed_mm_s = 300");
+    job.replace(job.find("velocity_mm_s = 150"), 19, "velocity_mm_s = 300");
     job.replace(job.find("ruler.svg"), 9, "examples/marking/ruler.svg");
     refused(job, 3, "It just fits at");
 }

@@ -65,20 +65,21 @@ Transcript transcript_of(const std::string& block) {
     return out;
 }
 
-/// Links to everything in the source tree; copies of the examples, as their scripts go up from where they lie; the
-/// programs of this build; and in the place of the scripts that install and build, functions that do neither.
+/// Links to the files of the source tree, not to what was made there; copies of the examples, as their scripts go up
+/// from where they lie; the programs of this build; and in the place of the scripts that install and build, functions
+/// that do neither.
 class StartPage : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
         fs::remove_all(clone);
         fs::create_directories(clone / "build");
         fs::create_directories(clone / "cmake");
-        for (const auto& entry : fs::directory_iterator(source_root)) {
-            const std::string name = entry.path().filename().string();
+        std::istringstream files(run_in(source_root, "tests/rules/files . | tr '\\0' '\\n' | cut -d/ -f1 | uniq").out);
+        for (std::string name; std::getline(files, name);) {
             if (name == "examples")
-                fs::copy(entry.path(), clone / name, fs::copy_options::recursive);
-            else if (name != "build" && name != "cmake" && name != ".git")
-                fs::create_symlink(entry.path(), clone / name);
+                fs::copy(source_root / name, clone / name, fs::copy_options::recursive);
+            else if (name != "cmake" && !fs::exists(clone / name))
+                fs::create_symlink(source_root / name, clone / name);
         }
         fs::create_directory_symlink(fs::path(MOTIONRACK_PROGRAM).parent_path().parent_path(), clone / "build/release");
         std::ofstream(clone / "cmake/setup.sh")

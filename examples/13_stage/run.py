@@ -27,7 +27,7 @@ class Trial:
         text = MACHINE.replace("servo = {}", f"servo = {{ control_delay_us = {self.control_delay_us} }}")
         text = text.replace("servo = { profile", f"servo = {{ control_delay_us = {self.control_delay_us}, profile")
         for card, offset in zip(("host", "scan", "step"), self.offset_us):
-            keys = f'role = "host"\nchecks = false\noffset_ns = {1e3 * offset!r}\n'
+            keys = f'role = "host"\nverify_lines = false\noffset_ns = {1e3 * offset!r}\n'
             text = text.replace(f"[card.{card}]\n", f"[card.{card}]\n{keys}")
         rack = motionrack.Rack.from_text(text, "machine.toml")
         if self.drift_ppm:

@@ -1,7 +1,7 @@
 // What can be done to the machine by a button and by a key: one place that says who may and what is sent.
 import { signal } from '@preact/signals';
 import { axes, machineState, status } from './link/state';
-import { mayOperate, notice, order, stop, whyNot } from './link/orders';
+import { mayOperate, notice, order, stop, whyNot } from './link/commands';
 import { typed } from './parts/numbers';
 import * as text from './program/text';
 

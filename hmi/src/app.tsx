@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { Cards } from './cards/overview';
 import { Registers } from './cards/registers';
 import { Help } from './keys/help';
-import { dismiss, notices } from './link/orders';
+import { dismiss, notices } from './link/commands';
 import * as state from './link/state';
 import { Alarms, Events } from './panels/events';
 import { Clock } from './panels/clock';

@@ -113,7 +113,7 @@ struct SectionInfo {
 inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none",
                                       "instead of the speed: [[seconds, speed], ..], straight between the points"};
 inline constexpr ArrayKey at_key{
-    "at_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none",
+    "part_positions_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none",
     "instead of count and spacing: the way of the belt until each part's edge is at the sensor"};
 
 inline constexpr std::array<SectionInfo, 11> sections = {

@@ -31,13 +31,13 @@ void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& pro
             return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, speed].");
         belt.profile.push_back({decimal_field(pair.children[0]), decimal_field(pair.children[1])});
     }
-    if (table.find("speed_mm_s") != nullptr || table.find("speed_deg_s") != nullptr)
+    if (table.find("velocity_mm_s") != nullptr || table.find("velocity_deg_s") != nullptr)
         problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
     if (const auto track = parts::Conveyor::make({.profile = belt.profile}); !track)
         problems.error(profile->value_place, track.error().message);
 }
 
-/// at_mm = [0, 40, 95]
+/// part_positions_mm = [0, 40, 95]
 void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
     const TomlNode* at = table.find(key);
     if (at == nullptr) return;

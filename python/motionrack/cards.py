@@ -52,11 +52,11 @@ class Channel:
 class Card(MappedCard):
     """One card of a rack. Registers and channels are attributes, by the names of its map; case does not matter."""
 
-    def __init__(self, world: _core.World, name: str) -> None:
+    def __init__(self, world: _core.RackHandle, name: str) -> None:
         about = _core.describe_card(world, name)
         super().__init__(about["map"], _world=world, _name=name, _about=about, _driver=None, _library=None)
 
-    _world: _core.World
+    _world: _core.RackHandle
     _name: str
     _about: dict[str, Any]
     _driver: Any
@@ -205,7 +205,7 @@ class Card(MappedCard):
 class Cards(Mapping[str, Card]):
     """The cards of a rack by their names."""
 
-    def __init__(self, world: _core.World) -> None:
+    def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
         self._names = list(world.config()["cards"])
         self._cards: dict[str, Card] = {}

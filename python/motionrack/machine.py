@@ -71,7 +71,7 @@ class Machine:
 
     def __init__(self, rack: Rack) -> None:
         """Of the same file as ``rack``, at time 0, disabled. Refused where no program can run on it."""
-        self._core: _core.Operated | None = _core.Operated(rack._world)
+        self._core: _core.SteppedMachine | None = _core.SteppedMachine(rack._world)
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Machine:
@@ -88,7 +88,7 @@ class Machine:
         """See :meth:`Rack.template`."""
         return cls(Rack.template(name))
 
-    def _operated(self) -> _core.Operated:
+    def _operated(self) -> _core.SteppedMachine:
         if self._core is None:
             raise Refused("The machine was closed; nothing was done. Make another one.")
         return self._core

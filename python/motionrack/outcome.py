@@ -154,7 +154,7 @@ class Outcome:
         return self.summary().rstrip("\n")
 
 
-def outcome_of(world: _core.World, ran: _core.Ran, title: str) -> Outcome:
+def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
     """Everything that C++ has of a job, with names and units."""
     data = dict(ran.data())
     axes = {axis["axis"]: AxisOutcome(**axis) for axis in data.pop("axes")}

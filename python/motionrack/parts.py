@@ -15,7 +15,7 @@ class Wires(MutableMapping[str, float]):
     wire), Refused (an output, another value).
     """
 
-    def __init__(self, world: _core.World) -> None:
+    def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
 
     def __getitem__(self, name: str) -> float:
@@ -55,11 +55,11 @@ class Part:
     Setting a quantity pushes the part there by hand, where that is possible; Refused where it is not.
     """
 
-    def __init__(self, world: _core.World, name: str, quantities: dict[str, str]) -> None:
+    def __init__(self, world: _core.RackHandle, name: str, quantities: dict[str, str]) -> None:
         for key, value in (("_world", world), ("_name", name), ("_quantities", quantities)):
             object.__setattr__(self, key, value)
 
-    _world: _core.World
+    _world: _core.RackHandle
     _name: str
     _quantities: dict[str, str]
 
@@ -94,7 +94,7 @@ class Part:
 class Parts(Mapping[str, Part]):
     """The parts of a rack by their names."""
 
-    def __init__(self, world: _core.World) -> None:
+    def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
         self._parts = {name: Part(world, name, quantities) for name, quantities in world.quantities().items()}
 

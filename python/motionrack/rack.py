@@ -25,7 +25,7 @@ class Rack:
     the same history, bit for bit. As a context manager it is closed at the end of the block.
     """
 
-    def __init__(self, world: _core.World, warnings: Iterable[str] = ()) -> None:
+    def __init__(self, world: _core.RackHandle, warnings: Iterable[str] = ()) -> None:
         self._world = world
         self.warnings = list(warnings)  #: of the rack file, a sentence each
         self.cards = Cards(world)  #: by their names
@@ -327,7 +327,7 @@ def _program(
 class Snapshot:
     """The state of a whole rack at an instant."""
 
-    def __init__(self, world: _core.World) -> None:
+    def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
 
     @property

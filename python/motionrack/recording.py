@@ -32,7 +32,7 @@ def unit_of(signal: str) -> str:
 class _Open:
     """Something that begins when it is made and ends with its block, or before."""
 
-    def __init__(self, world: _core.World) -> None:
+    def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
         self._runs = True
 
@@ -49,7 +49,7 @@ class _Open:
 class Recording(_Open):
     """Samples of signals of a rack; see :meth:`Rack.record`."""
 
-    def __init__(self, world: _core.World, signals: Iterable[str], period: int, most: int, title: str) -> None:
+    def __init__(self, world: _core.RackHandle, signals: Iterable[str], period: int, most: int, title: str) -> None:
         self._title = title
         self._trace: Trace | None = None
         world.begin_samples(list(signals), period, most)
@@ -79,7 +79,7 @@ class Recording(_Open):
 class Waves(_Open):
     """Waves that are written to a file; see :meth:`Rack.waves`."""
 
-    def __init__(self, world: _core.World, path: str, signals: Iterable[str]) -> None:
+    def __init__(self, world: _core.RackHandle, path: str, signals: Iterable[str]) -> None:
         self.path = path
         world.begin_waves(path, list(signals))
         super().__init__(world)

@@ -1,6 +1,6 @@
 // A belt, a table or a stage: where it is, and the button that lets it go on after a stop.
 import type { JSX } from 'preact';
-import { mayOperate, order } from '../link/orders';
+import { mayOperate, order } from '../link/commands';
 import { fixed, unitName } from '../parts/numbers';
 import { Button } from '../parts/ui';
 

@@ -1,7 +1,7 @@
 // Accesses to a card through its bus, by hand: ports and registers written and read with all their effects.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
-import { whyNot, orderFor, notice } from '../link/orders';
+import { whyNot, orderFor, notice } from '../link/commands';
 import { inControl, standsStill } from '../link/state';
 import type { CardInfo, CommandInfo } from '../link/rack';
 import { hex } from '../parts/numbers';

@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import uPlot from 'uplot';
-import { notice, orderFor } from '../link/orders';
+import { notice, orderFor } from '../link/commands';
 import type { CardInfo, CommandInfo } from '../link/rack';
 import { fixed, typed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';

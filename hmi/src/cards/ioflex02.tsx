@@ -2,7 +2,7 @@
 // wrong with an encoder.
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
-import { orderFor } from '../link/orders';
+import { orderFor } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { fixed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';

@@ -3,7 +3,7 @@
 import { signal, useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
-import { mayMaintain, notice, query, sentence } from '../link/orders';
+import { mayMaintain, notice, query, sentence } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { ask } from '../link/socket';
 import { link, machineState, status } from '../link/state';

@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useId } from 'preact/hooks';
-import { mayOperate, notice, order, orderFor } from '../link/orders';
+import { mayOperate, notice, order, orderFor } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { Button, Choice, Panel } from '../parts/ui';
 

@@ -5,7 +5,7 @@ import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
 import { channelNames, type CardInfo } from '../link/rack';
-import { mayOperate, notice, order, whyInService } from '../link/orders';
+import { mayOperate, notice, order, whyInService } from '../link/commands';
 import { axisOf } from '../link/state';
 import { typed, unitName, whole } from '../parts/numbers';
 import { Button, Choice, Field, Led, Panel } from '../parts/ui';

@@ -10,7 +10,7 @@
 // The program itself stops an axis that was not renewed for 250 ms: what this page does is only to be quicker.
 import { signal } from '@preact/signals';
 import { axisOf } from '../link/state';
-import { order } from '../link/orders';
+import { order } from '../link/commands';
 import { ask, whenLost } from '../link/socket';
 
 export const RENEW_MS = 80;

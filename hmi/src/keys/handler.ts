@@ -1,7 +1,7 @@
 // What a key does, page-wide: heard before anything on the page, so that a focused button never takes Space for a
 // click.
 import { armed, begin, end, slowDown } from '../jog/lease';
-import { mayOperate, notice } from '../link/orders';
+import { mayOperate, notice } from '../link/commands';
 import { jogOf, KEYS, type Key } from './table';
 
 /** Fields in which keys write, or choose. */

@@ -1,6 +1,6 @@
 // The control lease: taken and given by hand, kept while this tab lives; nothing on the page takes it by itself.
 import { ask } from './socket';
-import { order, whyNot } from './orders';
+import { order, whyNot } from './commands';
 import { holder, inControl, link, mayBeTakenOver, user } from './state';
 
 const KEEP_MS = 3000;

@@ -1,6 +1,6 @@
 // What happened before the page was opened: a reload loses nothing.
 import type { MachineEvent } from './contract';
-import { query } from './orders';
+import { query } from './commands';
 import { addEvent } from './socket';
 
 export async function loadHistory(): Promise<void> {

@@ -1,7 +1,7 @@
 // Pairing: a code from the program's start (in the address, or typed) becomes a token that this browser keeps.
 import { signal } from '@preact/signals';
 import { Refusal, type ErrorBody } from './contract';
-import { notice, sentence } from './orders';
+import { notice, sentence } from './commands';
 import { showToken, TOKEN_KEY } from './socket';
 import { decoded } from '../view';
 

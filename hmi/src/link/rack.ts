@@ -1,6 +1,6 @@
 // What does not change while the program runs: the rack's cards, registers, wires, faults. Asked once a connection.
 import { computed, signal } from '@preact/signals';
-import { query } from './orders';
+import { query } from './commands';
 import { whenOpen } from './socket';
 
 export interface FieldInfo {

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { actions } from '../actions';
-import { mayMaintain, notice, order } from '../link/orders';
+import { mayMaintain, notice, order } from '../link/commands';
 import { status } from '../link/state';
 import { fixed, typed } from '../parts/numbers';
 import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';

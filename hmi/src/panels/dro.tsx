@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { actions, axisLetter, chosenAxis, placeText } from '../actions';
 import { LEDS, type AxisStatus, type LedName } from '../link/contract';
-import { mayOperate, order } from '../link/orders';
+import { mayOperate, order } from '../link/commands';
 import * as state from '../link/state';
 
 import { Icon } from '../parts/icons';

@@ -4,7 +4,7 @@ import type { JSX } from 'preact';
 import { acknowledge, perform } from '../actions';
 import { alarmState } from '../link/alarms';
 import type { Alarm } from '../link/contract';
-import { whyNot } from '../link/orders';
+import { whyNot } from '../link/commands';
 import * as state from '../link/state';
 import { Icon } from '../parts/icons';
 import { seconds } from '../parts/numbers';

@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
-import { mayMaintain, notice, orderFor } from '../link/orders';
+import { mayMaintain, notice, orderFor } from '../link/commands';
 import { rack } from '../link/rack';
 import { fixed, typed } from '../parts/numbers';
 import { Button, Empty, Field, Led, Panel, Select } from '../parts/ui';

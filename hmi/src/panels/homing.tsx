@@ -1,7 +1,7 @@
 // Homing: in which phase each axis is, and afterwards what was found.
 import { signal, useSignalEffect } from '@preact/signals';
 import type { JSX } from 'preact';
-import { query } from '../link/orders';
+import { query } from '../link/commands';
 import * as state from '../link/state';
 import { Icon } from '../parts/icons';
 import { fixed, unitName } from '../parts/numbers';

@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { armed, begin, end, jogging, setArmed, setSpeedPart, setStep, speedPart, stepIndex, STEPS } from '../jog/lease';
 import { padOf } from '../keys/table';
-import { mayOperate, notice } from '../link/orders';
+import { mayOperate, notice } from '../link/commands';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { fixed, percent, unitName } from '../parts/numbers';

@@ -1,6 +1,6 @@
 // Lines by hand: the draft, the log with its answers, and the history that brings lines back.
 import { signal } from '@preact/signals';
-import { sentence } from '../link/orders';
+import { sentence } from '../link/commands';
 import { ask } from '../link/socket';
 
 interface Sent {

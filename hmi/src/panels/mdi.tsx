@@ -1,7 +1,7 @@
 // Lines by hand, with what was sent before: up and down bring it back.
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
-import { mayOperate } from '../link/orders';
+import { mayOperate } from '../link/commands';
 import { Icon } from '../parts/icons';
 import { Button, Empty, Panel } from '../parts/ui';
 import { draft, log, send, walk } from './lines';

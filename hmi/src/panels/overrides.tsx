@@ -1,6 +1,6 @@
 // Feed and rapid overrides: a slider, its number, back to 100 %.
 import type { JSX } from 'preact';
-import { mayOperate, notice, order } from '../link/orders';
+import { mayOperate, notice, order } from '../link/commands';
 import { status } from '../link/state';
 import { percent } from '../parts/numbers';
 import { Button, Panel } from '../parts/ui';

@@ -1,7 +1,7 @@
 // The dialog that asks for a pairing code, and the one that makes codes for others.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
-import { orderFor, sentence, whyNot } from '../link/orders';
+import { orderFor, sentence, whyNot } from '../link/commands';
 import { codeText, dialogOpen, inviteOpen, nameText, pair, whyNotPaired } from '../link/pairing';
 import { Dialog } from '../parts/dialog';
 import { Button, Choice, Field } from '../parts/ui';

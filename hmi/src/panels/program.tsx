@@ -3,7 +3,7 @@ import { useSignal, type Signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { actions, perform } from '../actions';
-import { mayOperate, notice, order, sentence, whyNot } from '../link/orders';
+import { mayOperate, notice, order, sentence, whyNot } from '../link/commands';
 import { ask } from '../link/socket';
 import { status } from '../link/state';
 import { duration, fixed } from '../parts/numbers';

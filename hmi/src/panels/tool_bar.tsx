@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { releaseControl, takeControl, whyNotControl } from '../link/control';
 import { dialogOpen, forget, inviteOpen } from '../link/pairing';
-import { hasRole } from '../link/orders';
+import { hasRole } from '../link/commands';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { Button } from '../parts/ui';

@@ -2,7 +2,7 @@
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Fields } from '../link/contract';
-import { query, sentence } from '../link/orders';
+import { query, sentence } from '../link/commands';
 import { link } from '../link/state';
 
 export interface Polled<T> {

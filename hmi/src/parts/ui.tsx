@@ -2,7 +2,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 import { perform, type Action } from '../actions';
-import { notice } from '../link/orders';
+import { notice } from '../link/commands';
 import { Icon, type IconName } from './icons';
 
 interface ButtonProps {

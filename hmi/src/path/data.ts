@@ -1,6 +1,6 @@
 // The planned and the driven path, as both views of it read them.
 import { computed, signal } from '@preact/signals';
-import { query } from '../link/orders';
+import { query } from '../link/commands';
 import * as state from '../link/state';
 import { checked, type Check } from './checked';
 

@@ -1,6 +1,6 @@
 // The program that is in the panel: its name and text, kept over a reload.
 import { computed, effect, signal } from '@preact/signals';
-import { query } from '../link/orders';
+import { query } from '../link/commands';
 import { link, status } from '../link/state';
 
 const KEY = 'motionrack.program';

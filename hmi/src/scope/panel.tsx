@@ -1,6 +1,6 @@
 // The scope: channels, trigger, what comes before it; run, single, stop; two cursors; export.
 import type { JSX } from 'preact';
-import { notice, order, whyNot } from '../link/orders';
+import { notice, order, whyNot } from '../link/commands';
 import { usePoll } from '../parts/poll';
 import { Button, Empty, Field, Panel, Select } from '../parts/ui';
 import { Chart, Legend } from './chart';

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { channelList } from '../link/rack';
-import { notice } from '../link/orders';
+import { notice } from '../link/commands';
 import { Icon } from '../parts/icons';
 import { Field } from '../parts/ui';
 import { matching } from './matching';

@@ -10,7 +10,7 @@ async function opened(
 ): Promise<{ actions: Actions; program: Program; notices: () => Promise<string[]> }> {
   const { program } = await connected(settings);
   const notices = async (): Promise<string[]> =>
-    (await import('../../src/link/orders')).notices.value.map((one) => one.text);
+    (await import('../../src/link/commands')).notices.value.map((one) => one.text);
   return { actions: await import('../../src/actions'), program, notices };
 }
 

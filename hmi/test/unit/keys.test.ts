@@ -134,7 +134,7 @@ describe('a key', () => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', '~', { altGraph: true, ctrlKey: true, altKey: true })).toBe(true);
     expect(orders(program)).toEqual([]);
-    const { notices } = await import('../../src/link/orders');
+    const { notices } = await import('../../src/link/commands');
     expect(notices.value[0]?.text).toMatch(/no program to run/);
   });
 });
@@ -282,7 +282,7 @@ describe('a jog key that may not jog', () => {
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight');
     key(browser, 'keydown', 'ArrowRight', { repeat: true });
-    const { notices } = await import('../../src/link/orders');
+    const { notices } = await import('../../src/link/commands');
     expect(notices.value.map((one) => one.text)).toEqual(['Jog: bert holds control.']);
     expect(orders(program)).toEqual([]);
   });

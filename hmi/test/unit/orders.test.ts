@@ -4,7 +4,7 @@ import type { Role } from '../../src/link/contract';
 import { after, openBrowser, settled } from './browser';
 import { connected } from './program';
 
-const orders = async (): Promise<typeof import('../../src/link/orders')> => import('../../src/link/orders');
+const orders = async (): Promise<typeof import('../../src/link/commands')> => import('../../src/link/commands');
 const texts = async (): Promise<string[]> => (await orders()).notices.value.map((one) => one.text);
 
 describe('an order', () => {

@@ -41,7 +41,7 @@ test('a code in the address is taken out of it at once, and used', async () => {
   expect(browser.location.hash).toBe('');
   await done;
   expect(browser.posts[0]?.body).toEqual({ code: 'ABCD-EFGH', name: 'carl' });
-  expect((await import('../../src/link/orders')).notices.value).toMatchObject([{ kind: 'done' }]);
+  expect((await import('../../src/link/commands')).notices.value).toMatchObject([{ kind: 'done' }]);
 });
 
 test('a browser without a name gets one of its own', async () => {

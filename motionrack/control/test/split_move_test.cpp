@@ -7,7 +7,7 @@
 namespace motionrack::control {
 namespace {
 
-Move line_to(double x, double y, double a = 0) {
+Move straight_to(double x, double y, double a = 0) {
     Move move;
     move.kind = MoveKind::feed;
     move.feed = 10;
@@ -29,7 +29,7 @@ Move helix(double turn, double z, bool counter_clockwise = true) {
 constexpr Point at_ten = {10, 0, 0, 0, 0, 0};
 
 TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
-    for (const Move& whole : {line_to(3, -4, 77), helix(0.6, 5), helix(0.6, 5, false), helix(1, 0)}) {
+    for (const Move& whole : {straight_to(3, -4, 77), helix(0.6, 5), helix(0.6, 5, false), helix(1, 0)}) {
         const Geometry path = geometry_of(whole, at_ten);
         Point at = at_ten;
         double length = 0;
@@ -51,7 +51,7 @@ TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
 }
 
 TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
-    Move whole = line_to(0, 0);
+    Move whole = straight_to(0, 0);
     whole.feed_mode = FeedMode::inverse_time;
     whole.feed = 0.5;  // 2 s
     const Geometry path = geometry_of(whole, at_ten);
@@ -83,7 +83,7 @@ TEST(TheRestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
 }
 
 TEST(ThePlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
-    Move whole = line_to(10, 0, 90);
+    Move whole = straight_to(10, 0, 90);
     const Geometry path = geometry_of(whole, at_ten);
     EXPECT_EQ(path.shape, PathShape::rotary);
     EXPECT_NEAR(nearest_point(path, {10, 0, 0, 30, 0, 0}).length, 30, 1e-9);
@@ -92,7 +92,7 @@ TEST(ThePlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
 }
 
 TEST(ThePlaceOnAPath, CountsEachAxisInItsPulses) {
-    const Geometry path = geometry_of(line_to(20, 0, 90), at_ten);
+    const Geometry path = geometry_of(straight_to(20, 0, 90), at_ten);
     const PulsesPerUnit pulses = {640, 640, 640, 10, 0, 0};
     const Point half_way = {15, 0, 0, 45, 0, 0}, turned_wrong = {15, 0, 0, 47, 0, 0}, beside = {15, 0, 0.5, 45, 7, 0};
     EXPECT_NEAR(nearest_point(path, half_way, pulses).distance, 0, 1e-9);

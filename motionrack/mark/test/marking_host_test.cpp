@@ -187,7 +187,7 @@ TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
     EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[parts]\ncount = 2\nspacing_mm = 5\n"),
                 HasSubstr("a belt or table that moves"));
     EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\npart_positions_mm = [0, 7, 5]\n"),
-                HasSubstr("j.toml:6:16: 'at_mm' must be"));
+                HasSubstr("j.toml:6:28: 'part_positions_mm' must be"));
     EXPECT_THAT(
         errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\ncount = 2\npart_positions_mm = [0, 7]\n"),
         HasSubstr("leave 'count' out"));

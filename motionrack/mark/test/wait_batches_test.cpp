@@ -55,7 +55,7 @@ TEST(Waits, WhatIsShorterThanAQuarterOfTheFieldStaysInOnePiece) {
 
 TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
     for (const char* fly : {"mode = 'encoder'", "mode = 'simulated'", "mode = 'mcbsp'"})
-        for (const char* belt : {"speed_mm_s = 150", "speed_mm_s = -150\ndirection_deg = 180"}) {
+        for (const char* belt : {"velocity_mm_s = 150", "velocity_mm_s = -150\ndirection_deg = 180"}) {
             const MarkingOutcome out = run(job_of(long_job(belt, fly)), long_svg);
             EXPECT_LE(out.on.deviation.worst_mm, 0.006) << fly << belt;
             EXPECT_EQ(out.on.deviation.missing_mm, 0) << fly << belt;
@@ -75,18 +75,18 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
 
 TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
     // The trailing edge is at -380 mm: 380 - 59.57 mm of way at 150 mm/s.
-    const MarkingOutcome out = run(job_of(long_job("speed_mm_s = 150", "mode = 'encoder'")), long_svg);
+    const MarkingOutcome out = run(job_of(long_job("velocity_mm_s = 150", "mode = 'encoder'")), long_svg);
     EXPECT_GT(out.on.seconds, (380 - 59.57) / 150);
     EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
 }
 
 TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
-    const std::string why = refusal(job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'")), long_svg);
+    const std::string why = refusal(job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'")), long_svg);
     EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks go up to"));
     const std::size_t at = why.find("It just fits at ");
     ASSERT_NE(at, std::string::npos) << why;
     const double fits = std::stod(why.substr(at + 16));
-    MarkingJob job = job_of(long_job("speed_mm_s = 2500", "mode = 'encoder'"));
+    MarkingJob job = job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'"));
     job.belt.speed = fits * 0.999;
     EXPECT_EQ(refusal(job, long_svg), "");
     job.belt.speed = fits * 1.001;
@@ -98,7 +98,7 @@ TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
 }
 
 TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
-    const std::string belt = "speed_mm_s = 100", fly = "mode = 'encoder'";
+    const std::string belt = "velocity_mm_s = 100", fly = "mode = 'encoder'";
     EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"),
                 HasSubstr("never is in the field"));
     EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M65 0 H70'/></svg>"),
@@ -116,7 +116,7 @@ TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {
     const MarkingOutcome parts =
-        run(job_of(long_job("speed_mm_s = 150",
+        run(job_of(long_job("velocity_mm_s = 150",
                             "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
             long_svg);
     for (const PartMarked& part : parts.on.parts) {

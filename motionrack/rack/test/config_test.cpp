@@ -204,7 +204,7 @@ TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
     // Judged by its default (300), initial_position_mm would be outside; but what max_limit_mm should be is not known.
     const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (Place{6, 10}));
+    EXPECT_EQ(reading.errors[0].place, (Place{6, 16}));
 }
 
 TEST(RackFile, ACardOfUnknownTypeGivesNoErrorsAboutItsPins) {

@@ -175,8 +175,8 @@ TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
 
 TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
     std::string text = two_axes;
-    const auto place = text.find("position_mm = 0");
-    text.replace(place, 15, "index_after_mm = 2.1");  // it is 2 mm, and moves nothing that is within a quarter turn
+    const auto place = text.find("home_offset_mm = 0");
+    text.replace(place, 18, "index_after_mm = 2.1");  // it is 2 mm, and moves nothing that is within a quarter turn
     const HomingOutcome out = homed(text);
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].counter_position, 2 - 2.1, 0.5 / 640);
@@ -184,7 +184,7 @@ TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
 
 TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
     std::string text = two_axes;
-    text.erase(text.find("position_mm = 0"), 15);
+    text.erase(text.find("home_offset_mm = 0"), 18);
     const RackReading reading = read_rack_text(text);
     ASSERT_TRUE(reading.config);
     std::string warnings;
@@ -192,7 +192,7 @@ TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
     EXPECT_THAT(warnings, HasSubstr("Axis X needs position_mm or index_after_mm to home to its index"));
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
-    EXPECT_THAT(out.ended.error().message, HasSubstr("give it position_mm (what the index is called)"));
+    EXPECT_THAT(out.ended.error().message, HasSubstr("give it home_offset_mm (what the index is called)"));
 }
 
 TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
@@ -267,7 +267,7 @@ TEST(RackHomes, ChecksWarnOfAHomingThatWillBeRefused) {
     ASSERT_TRUE(reading.config);
     ASSERT_EQ(reading.warnings.size(), 2u);
     EXPECT_THAT(reading.warnings[0].message,
-                HasSubstr("speed_mm_s of axis Y is 101, above its max_velocity_mm_s, which is 100"));
+                HasSubstr("search_velocity_mm_s of axis Y is 101, above its max_velocity_mm_s, which is 100"));
     EXPECT_THAT(reading.warnings[1].message,
                 HasSubstr("latch_velocity_mm_s of axis Y is 3, above its max_velocity_step_mm_s"));
 }

@@ -93,8 +93,8 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
         std::string text;
         const char* says;
     } wrong[] = {
-        {carriage("friction_mm_s2 = 6000\n"), "could never start"},
-        {carriage("top_speed_mm_s = 20000\n"), "it may be 1000000"},
+        {carriage("coulomb_friction_mm_s2 = 6000\n"), "could never start"},
+        {carriage("saturation_velocity_mm_s = 20000\n"), "it may be 1000000"},
         {carriage("", "[axis.X.motor]\nstart_stop_hz = 100\n"), "so motor means nothing"},
         {carriage("", "[axis.Y]\ncard = \"board\"\n"), "both on card board"},
         {carriage("", "[wires]\n\"X.drive\" = \"board.sign\"\n"), "X.drive is a voltage and board.sign a logic level"},
@@ -114,9 +114,10 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
         EXPECT_THAT(all_texts(reading.errors), HasSubstr(each.says)) << each.text;
         EXPECT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
     }
-    EXPECT_THAT(all_texts(read_rack_text(carriage("lag_ms = 100\nfriction_mm_s2 = 30\n")).warnings),
+    EXPECT_THAT(all_texts(read_rack_text(carriage("time_constant_ms = 100\ncoulomb_friction_mm_s2 = 30\n")).warnings),
                 HasSubstr("stop short of its target"));
-    EXPECT_THAT(all_texts(read_rack_text(carriage("load = 9\n")).warnings), HasSubstr("run past its target"));
+    EXPECT_THAT(all_texts(read_rack_text(carriage("load_inertia_ratio = 9\n")).warnings),
+                HasSubstr("run past its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("velocity_per_volt_mm_s = 40\n")).warnings),
                 HasSubstr("reaches at 10 V"));
     EXPECT_TRUE(read_rack_text(*rack_template("carriage")).warnings.empty());

@@ -142,7 +142,7 @@ TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop)
 
 TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
     std::string on_its_switch = stop_axes;
-    on_its_switch.replace(on_its_switch.find("initial_position_mm = 10"), 13,
+    on_its_switch.replace(on_its_switch.find("initial_position_mm = 10"), 24,
                           "min_limit_mm = -6\ninitial_position_mm = -5.5");
     on_its_switch.replace(on_its_switch.find("limit_minus_mm = -5"), 19, "bounce_ms = 10\nlimit_minus_mm = -5");
     const StoppedRun ran = run_stopped(on_its_switch, "G21 G90 F1200\nG1 X20\nM2\n", {});
