@@ -1,9 +1,9 @@
-// The canonical axis: what a program can ask of one axis, whatever card moves it. Units are mm or degrees, and seconds.
+// The canonical axis: the commands and queries of one axis, the same for every card. Units are mm or degrees, and
+// seconds.
 //
-//   untrusted ── home(), set_position() ──► trusted ── emergency stop, alarm, stop_now() at speed ──► untrusted
+//   position invalid ── home(), set_position() ──► valid ── emergency stop, alarm, stop_now() at speed ──► invalid
 //
-// Nothing here waits but wait(): orders start something, and step() carries it on, so that one loop can serve many
-// axes.
+// Only wait() blocks. Commands start an action and step() continues it, so that one loop can serve many axes.
 #pragma once
 
 #include <cstdint>
@@ -19,46 +19,46 @@ class Axis {
   public:
     virtual ~Axis() = default;
 
-    // ---- orders; refused ones (ErrorKind::refused) move nothing
-    /// Starts a move to `position` at no more than `speed` (> 0); an S-curve where the axis has a jerk limit. Refused:
-    /// position not trusted, past the travel, speed above the axis' limit or not finite, axis moving.
+    // ---- commands; a refused command (ErrorKind::refused) moves nothing
+    /// Starts a move to `position` at no more than `speed` (> 0); a double-S profile where the axis has a jerk limit.
+    /// Refused: position not valid, target outside the travel, speed above the axis limit or not finite, axis moving.
     virtual Result<void> move_to(double position, double speed) = 0;
-    /// Starts a move by `distance` from here; also where the position is not trusted, for there the travel is not
-    /// known.
+    /// Starts a relative move by `distance`; also allowed while the position is not valid, because the travel is
+    /// unknown then.
     virtual Result<void> move_by(double distance, double speed) = 0;
-    /// Jogs at `speed` (the sign is the direction, 0 lets go) for as long as it is called again: it decelerates when it
-    /// is not for the axis' hold time. Changes the speed on the fly; the other direction goes by way of a stop.
-    /// Refused: above the limit, into an active limit switch, while the axis moves otherwise.
+    /// Jogs at `speed`; the sign is the direction, 0 ends the jog. Keep calling: the axis decelerates when the calls
+    /// stop for longer than its hold time. Changes the velocity on the fly; a reversal goes through a stop. Refused:
+    /// above the limit, into an active limit switch, while the axis moves otherwise.
     virtual Result<void> jog(double speed, Instant now) = 0;
-    /// Begins to search home. From here on the position is not trusted until it is found. Refused: no such switch or
-    /// index, speeds, axis moving, alarm, emergency stop.
+    /// Starts homing. The position is not valid until home is found. Refused: switch or index not available, invalid
+    /// speeds, axis moving, alarm, emergency stop.
     virtual Result<void> home(const HomingRequest& order, Instant now) = 0;
-    /// Declares the present place to be `position`, which is trusted then. Refused while moving.
+    /// Sets the current position to `position`, which is valid afterwards. Refused while moving.
     virtual Result<void> set_position(double position) = 0;
     /// Decelerates to a stop. Accepted in every state.
     virtual void stop() = 0;
-    /// Stops at once, without a ramp: the position is no longer trusted if the axis was faster than its start speed.
+    /// Stops at once, without a ramp. Invalidates the position if the axis was faster than its velocity step limit.
     virtual void stop_now() = 0;
 
-    // ---- carrying on
-    /// One look at the axis; every few ms while it jogs or homes.
+    // ---- processing
+    /// Updates the axis once; call every few ms while it jogs or homes.
     virtual void step(Instant now) = 0;
-    /// Steps and lets time pass until the axis stands. Errors (ErrorKind::machine): it did not within `timeout`, and
-    /// still moves; it was stopped by a limit, an alarm or the emergency stop; homing failed. ErrorKind::stopped: the
-    /// user asked, it has decelerated.
+    /// Waits for standstill: calls step() and lets time pass. Errors (ErrorKind::machine): still moving after
+    /// `timeout`; stopped by a limit, an alarm or the emergency stop; homing failed. ErrorKind::stopped: the user
+    /// requested a stop, and the axis has decelerated.
     virtual Result<void> wait(Duration timeout) = 0;
 
-    // ---- looking
+    // ---- queries
     virtual AxisState state() = 0;
-    /// Whether position() means a place of the machine.
+    /// Returns true if position() is a machine position.
     virtual bool position_valid() const = 0;
-    /// Where the card says the axis is.
+    /// Returns the commanded position that the card reports.
     virtual double position() = 0;
-    /// What the encoder says, in the axis' unit; 0 without one.
+    /// Returns the encoder position in the unit of the axis; 0 without an encoder.
     virtual double measured_position() = 0;
-    /// Name of the state that a homing is in; "" before the first one.
+    /// Returns the name of the current homing state; "" before the first one.
     virtual std::string_view home_state() const = 0;
-    /// What the last homing found.
+    /// Returns the result of the last homing.
     virtual HomingResult home_outcome() const = 0;
 };
 

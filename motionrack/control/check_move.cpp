@@ -1,4 +1,4 @@
-// What no planner takes.
+// Checks that reject invalid moves before planning.
 #include <fmt/format.h>
 
 #include <motionrack/control/path_limits.hpp>

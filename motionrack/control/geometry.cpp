@@ -1,4 +1,4 @@
-// Lines, arcs and helices by length: one square root and, for arcs, one arc tangent a move; one sine and cosine a
+// Lines, arcs and helices by length. Cost: one square root a move, plus one arc tangent for arcs; one sine and cosine a
 // position.
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void make_straight(Geometry& path) {
     path.tangent_out = path.tangent_in;
 }
 
-/// The angle from (x0, y0) to (x1, y1) in the direction and number of turns that the move asks for.
+/// Returns the angle from (x0, y0) to (x1, y1) in the direction and number of turns of the move.
 double swept_angle(double x0, double y0, double x1, double y1, int turns) {
     double angle = motionrack::atan2(x0 * y1 - y0 * x1, x0 * x1 + y0 * y1);
     const double whole = turns > 0 ? 2 * pi : -2 * pi;
@@ -42,7 +42,7 @@ double swept_angle(double x0, double y0, double x1, double y1, int turns) {
     return angle + whole * (std::abs(turns) - 1);
 }
 
-/// False if the arc has no radius; then nothing has been worked out.
+/// Returns false, with an incomplete geometry, if the arc has no radius.
 bool make_arc(Geometry& path, const Move& move) {
     const int first = move.first;
     const int second = move.second;
@@ -77,7 +77,7 @@ bool make_arc(Geometry& path, const Move& move) {
     return true;
 }
 
-/// Where a point of an arc's plane lies, as an angle in the arc's direction from its start, in [0, 2 pi).
+/// Returns the angle of a point in the plane of an arc, in the direction of the arc from its start, in [0, 2 pi).
 double angle_from_start(const Geometry& path, double x, double y) {
     const double x0 = path.start[path.first] - path.centre_first;
     const double y0 = path.start[path.second] - path.centre_second;
@@ -98,15 +98,14 @@ double distance_to_line(const Geometry& path, const std::array<double, 3>& point
     return std::sqrt(squares);
 }
 
-/// A point seen from a helix: distance from its axis, angle from its start (both in the helix's sense), height over its
-/// start.
+/// A point relative to a helix: distance from its axis, angle from its start in its direction, height over its start.
 struct HelixPoint {
     double from_axis;
     double angle;
     double height;
 };
 
-/// Square of the distance from `point` to the helix at `angle` from its start; `rise` is the height per radian.
+/// Returns the squared distance from `point` to the helix at `angle` from its start; `rise` is the height per radian.
 double helix_square(const Geometry& path, const HelixPoint& point, double angle, double rise) {
     const double whole = std::fabs(path.sweep);
     const double radius = path.radius / (1 + 0.5 * path.radius_growth) * (1 + path.radius_growth * angle / whole);
@@ -117,8 +116,7 @@ double helix_square(const Geometry& path, const HelixPoint& point, double angle,
     return radial * radial + sideways * sideways + height * height;
 }
 
-/// Least square of the distance near the turn whose angle is `angle`: a few Newton steps on the derivative of the
-/// square.
+/// Returns the minimum squared distance near the turn with this angle: a few Newton steps on the derivative.
 double helix_square_near(const Geometry& path, const HelixPoint& point, double angle, double rise) {
     const double whole = std::fabs(path.sweep);
     angle = std::clamp(angle, 0.0, whole);
@@ -146,7 +144,7 @@ double distance_to_arc(const Geometry& path, const std::array<double, 3>& point)
     double best = std::min(helix_square(path, seen, 0, climb / whole), helix_square(path, seen, whole, climb / whole));
     if (std::fabs(climb) < min_length_mm) {
         if (seen.angle > whole) return std::sqrt(best);
-        // of a spiral's turns the two that come nearest to the point's distance from the axis
+        // the two turns of a spiral that come nearest to the point's distance from the axis
         const double grown = seen.from_axis * (1 + 0.5 * path.radius_growth) / path.radius - 1;
         const double nearest =
             path.radius_growth == 0 ? 0 : std::floor((grown / path.radius_growth * whole - seen.angle) / (2 * pi));
@@ -156,7 +154,7 @@ double distance_to_arc(const Geometry& path, const std::array<double, 3>& point)
         return std::sqrt(best);
     }
     const double rise = climb / whole;
-    // the turn at or below the point's height, and the one above
+    // the turn at or below the height of the point, and the next one
     const double turn = std::floor((seen.height / rise - seen.angle) / (2 * pi));
     const double last_turn = std::floor((whole - seen.angle) / (2 * pi));
     const double below = seen.angle + 2 * pi * std::clamp(turn, 0.0, std::max(last_turn, 0.0));
@@ -215,7 +213,7 @@ Point max_tangent_components(const Geometry& path) {
     for (int i = 0; i < axis_count; ++i)
         worst[i] = std::max(std::fabs(path.tangent_in[i]), std::fabs(path.tangent_out[i]));
     if (path.shape != PathShape::arc) return worst;
-    // An axis runs at full speed where the other component of the tangent passes zero; half a turn has such a place for
+    // The tangent component of an axis reaches 1 where the other one passes zero; half a turn contains such a point for
     // both.
     const double full = plane_fraction(path);
     const bool half_turn = std::fabs(path.sweep) >= pi;

@@ -1,4 +1,4 @@
-// What a program orders when it homes an axis, and what it learns: in mm (degrees) and seconds, whatever card does it.
+// Request and result of homing one axis, in mm (degrees) and seconds, the same for every card.
 #pragma once
 
 #include <cstdint>
@@ -9,46 +9,47 @@
 
 namespace motionrack::control {
 
-/// Ways of finding home.
+/// Homing methods.
 enum class HomingMethod : std::uint8_t {
-    stop_at_switch = 1,      ///< quick: decelerates at the switch and stands where it stops
-    twice_to_switch = 2,     ///< back off the switch and to it again slowly: stands on its edge
-    index_after_switch = 3,  ///< decelerates at the switch, then to the encoder's next index
-    twice_and_index = 4      ///< as twice_to_switch, then to the index
+    stop_at_switch = 1,      ///< fast: decelerates at the switch, home is the stop position
+    twice_to_switch = 2,     ///< backs off the switch and approaches it again slowly: home is its edge
+    index_after_switch = 3,  ///< decelerates at the switch, then moves to the next index pulse of the encoder
+    twice_and_index = 4      ///< as twice_to_switch, then to the index pulse
 };
 
 struct HomingRequest {
     HomingMethod type = HomingMethod::twice_to_switch;
     bool towards_plus = false;  ///< direction of the search
-    double speed = 0;           ///< of the search, > 0, at most the axis' greatest
-    double slow_speed = 0;      ///< of the second approach and of the way to the index, > 0, at most the start speed
-    double position = 0;        ///< what the home place is called
-    /// Way back until the switch is released: edges that this does not explain are not trusted. Absent: not compared.
+    double speed = 0;           ///< search velocity, > 0, at most the velocity limit
+    double slow_speed = 0;  ///< latch velocity: second approach and index search, > 0, at most the velocity step limit
+    double position = 0;    ///< home offset: position value assigned at home
+    /// Switch hysteresis: distance back until release. Edges that it does not explain invalidate the result. Absent:
+    /// edges are not compared.
     std::optional<double> hysteresis;
-    double clearance = 0.1;     ///< mm or degrees driven on after the switch is released, >= 0
-    double settle_s = 0.005;    ///< how long contacts must be at rest, 0 .. 10 s
-    double travel = 0;          ///< longest search, mm or degrees; 0: a fifth more than the axis' travel
-    bool turn_at_limit = true;  ///< at a limit switch, search the other way
-    int switch_input = 0;       ///< the card's input of the home switch
+    double clearance = 0.1;     ///< back-off beyond the release of the switch, mm or degrees, >= 0
+    double settle_s = 0.005;    ///< debounce: time for which contacts must be stable, 0 .. 10 s
+    double travel = 0;          ///< longest search, mm or degrees; 0: 1.2 times the travel of the axis
+    bool turn_at_limit = true;  ///< at a limit switch, search in the other direction
+    int switch_input = 0;       ///< input of the card at which the home switch is connected
     bool switch_active_high = false;
-    int index_input = 2;  ///< the card's input of the encoder's index
+    int index_input = 2;  ///< input of the card at which the encoder index is connected
     bool index_active_high = true;
-    std::optional<double> index_after;  ///< how far behind the switch the index is; another one is not trusted
+    std::optional<double> index_after;  ///< expected distance from switch to index; any other index is rejected
 };
 
-/// The home switch or the index changed. Places are positions as they count after homing; before that, where it failed.
+/// Edge of the home switch or the index. Positions count as after homing, or as before it if homing failed.
 struct HomingEdge {
     std::string what;   ///< "switch on", "switch off", "index"
-    std::string state;  ///< in which it was seen
+    std::string state;  ///< homing state in which it was seen
     double position = 0;
-    double within = 0;   ///< it was there or up to so much earlier on the way; 0: exact to the pulse
-    double speed = 0;    ///< of the axis there
-    double seconds = 0;  ///< since the homing began
+    double within = 0;   ///< position uncertainty, backwards along the motion; 0: exact to the pulse
+    double speed = 0;    ///< velocity of the axis at the edge
+    double seconds = 0;  ///< since the start of homing
 };
 
 struct HomingStateVisit {
     std::string state;
-    double from_s = 0;  ///< since the homing began
+    double from_s = 0;  ///< since the start of homing
     double took_s = 0;
     double from = 0;  ///< positions
     double to = 0;
@@ -57,14 +58,14 @@ struct HomingStateVisit {
 struct HomingResult {
     HomingMethod type = HomingMethod::twice_to_switch;
     bool towards_plus = false;
-    bool homed = false;    ///< the position is trusted
-    std::string sentence;  ///< how it ended
+    bool homed = false;    ///< the position is valid
+    std::string sentence;  ///< the outcome as a sentence
     std::vector<HomingEdge> edges;
     std::vector<HomingStateVisit> stays;
     std::vector<std::string> notes;
-    std::int64_t bounces = 0;  ///< changes of the home switch that were no new edge
-    double position = 0;       ///< where the axis stands
-    double moved_by = 0;       ///< how much the counter was off: new position less the old one at the same place
+    std::int64_t bounces = 0;  ///< contact bounces: changes of the home switch that were not counted as edges
+    double position = 0;       ///< final position
+    double moved_by = 0;       ///< position error of the counter: new value less the old one at the same position
     std::optional<double> switch_to_index;
     Instant from{};
     double took_s = 0;

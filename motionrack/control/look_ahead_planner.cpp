@@ -1,4 +1,4 @@
-// The look-ahead: squares of speeds, because over a move they change by the same amount whatever the speed.
+// Look-ahead with squares of velocities: over a move they change by the same amount at any velocity.
 
 #include <algorithm>
 #include <cmath>
@@ -58,14 +58,14 @@ Result<void> LookAheadPlanner::push(const Move& move) {
     return {};
 }
 
-/// As fast as the hardware can be given such moves, at most.
+/// Returns the limits along a move, with a velocity that respects the minimum duration of the hardware.
 AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
     AlongPathLimits along = limits_.along(path, move);
     if (min_seconds_ > 0) along.speed = std::min(along.speed, path.length / min_seconds_);
     return along;
 }
 
-/// Square of the greatest speed.
+/// Returns the square of the junction velocity.
 double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
     const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
                                                         before.control, before.tolerance_mm);
@@ -74,8 +74,9 @@ double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, c
     return std::min(joint, speed * speed);
 }
 
-/// Along a curve in short lines the hardware's rate stands for more and more speed, or less and less: of what it can
-/// slow down a part goes into that. At corners the speed is low, and lines have room for it.
+/// Returns the factor on velocity2 at a junction. On a curve of short lines the hardware's pulse rate corresponds to a
+/// velocity that changes from line to line, and deceleration must make up for that. At corners the velocity is low
+/// enough.
 double LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double min_cosine = 0.98;
     if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
@@ -92,21 +93,21 @@ LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const Alo
     return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
 }
 
-/// Square of the speed from which a move can brake to the square `exit`: v^2 + 2 lag v = exit + reach.
+/// Returns the velocity2 from which a move can decelerate to the square `exit`: v^2 + 2 lag v = exit + reach.
 double LookAheadPlanner::braked(const Node& node, double exit) {
     if (node.lag == 0) return exit + node.reach;
     const double speed = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
     return speed * speed;
 }
 
-/// Square of the least speed at the end of a move that begins with the square `entry`.
+/// Returns the lowest velocity2 at the end of a move that begins with the square `entry`.
 double LookAheadPlanner::min_exit(const Node& node, double entry) {
     return node.lag == 0 ? entry - node.reach : entry - std::max(0.0, node.reach - 2 * node.lag * std::sqrt(entry));
 }
 
 namespace {
 
-/// Two straight moves of which nobody could tell that they are two but by the corner between them.
+/// Returns true for straight moves that may be merged: equal except for the corner between them.
 bool are_alike(const Move& a, const Move& b) {
     const auto straight = [](const Move& move) { return move.kind == MoveKind::feed || move.kind == MoveKind::rapid; };
     return straight(a) && a.kind == b.kind && a.path == b.path && a.path != PathControl::exact_stop &&
@@ -116,7 +117,7 @@ bool are_alike(const Move& a, const Move& b) {
 
 }  // namespace
 
-/// The places between the moves that the line is to stand for lie in their order along it.
+/// Returns true if the junctions inside the merged line are within tolerance and in order along it.
 bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
     double squared = 0, reached = 0;
     Point way = {};
@@ -143,16 +144,16 @@ bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) 
     return true;
 }
 
-/// A straight move of this length takes the hardware's least time at its speed, and most of it can be used for changing
-/// the speed.
+/// Returns the length of a straight move that takes the minimum duration of the hardware at its velocity and can mostly
+/// be used for changing the velocity.
 double LookAheadPlanner::min_length(const Geometry& path, const Move& move) const {
     constexpr double spent_lengths = 12;
     return std::max(limits_.along(path, move).speed * min_seconds_,
                     spent_lengths * drive_->constant_velocity_length(path));
 }
 
-/// A straight move that is too short for the hardware at its speed is made longer by the one behind it, where no
-/// entry speed that is final depends on it.
+/// Extends the last line by a straight move. The line must be too short for the hardware at its velocity, and no final
+/// entry velocity may depend on it.
 bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     constexpr double part_of_tolerance = 0.25;
     if (min_seconds_ <= 0 || tail_ == ready_ || between_size_ == max_between) return false;
@@ -220,7 +221,7 @@ void LookAheadPlanner::flush() {
     forward(tail_);
 }
 
-/// From rest at the end of the window towards its start, down to the first move whose entry cannot change.
+/// Backward pass: from standstill at the end of the window to the first move whose entry velocity cannot change.
 void LookAheadPlanner::backward() {
     const std::uint64_t last_settled = settled_;
     double entry = 0;
@@ -233,7 +234,7 @@ void LookAheadPlanner::backward() {
     }
 }
 
-/// Makes the moves before `until` ready.
+/// Forward pass: makes the moves before `until` ready.
 void LookAheadPlanner::forward(std::uint64_t until) {
     for (; ready_ < until; ++ready_) {
         const Node& here = node(ready_);
@@ -242,10 +243,10 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         const double entry = committed_ * committed_;
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
-        // After change_feeds() a joint may want to be slower than can be braked to.
+        // After change_feeds() a junction may need a lower velocity than the move can decelerate to.
         if (const double slowest = min_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
         double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
-        // From rest to rest over what the hardware spends on its changes of speed: a pulse or two.
+        // From standstill to standstill within the constant-velocity length of the hardware: a pulse or two.
         if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);
         planned.entry_velocity = committed_;
         planned.exit_velocity = std::sqrt(exit);

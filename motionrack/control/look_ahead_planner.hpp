@@ -1,15 +1,16 @@
-// Look-ahead: moves go in one by one, planned moves come out in order, each with the speeds at its ends.
+// Look-ahead planner with trapezoidal profiles: moves are pushed one by one; planned moves are pulled in order, each
+// with its entry and exit velocity.
 //
-//   push --> | ready: speeds final | open: speeds may still rise |
-//   pull <---'                     '-- entry speed is committed
+//   push --> | ready: velocities final | open: velocities may still increase |
+//   pull <---'                         '-- entry velocity is committed
 //
-// An open window ends at rest, so whatever happens next the machine can stop on its path. Speeds are found backwards
-// from that rest (what can still be braked), then forwards (what can be reached). The backward pass does not run at
-// every push but when a quarter more than the window is open; it ends where nothing can change any more, which is where
-// an entry speed is limited by its joint and not by braking. So a push costs the same for any window.
+// An open window ends at standstill, so the machine can always stop on its path. A backward pass from that standstill
+// finds the velocities that can still be braked; a forward pass limits them to the reachable ones. The backward pass
+// runs when 1.25 windows are open, not at every push. It ends where an entry velocity is limited by its junction and
+// not by braking, because no earlier velocity can change. So a push costs the same for any window.
 //
-// Hardware asks for moves that take their time (DriveConstraints::min_seconds). Straight moves that are shorter go
-// into one line with those behind them, as far as the tolerance lets them; what is left short is driven slowly.
+// Some hardware needs a minimum duration of a move (DriveConstraints::min_seconds). Shorter straight moves are merged
+// with the following ones as far as the tolerance allows; a move that remains too short gets a lower velocity.
 #pragma once
 
 #include <array>
@@ -24,18 +25,17 @@
 namespace motionrack::control {
 
 struct LookAheadSettings {
-    /// Every move is planned with at least this many moves after it in view, unless the path stands still before; 1 ..
-    /// 1'000'000.
+    /// Minimum number of moves in view behind a move when it is planned, unless the path stops before; 1 .. 1'000'000.
     int window = 1024;
     /// May be null; must outlive the planner.
     const DriveConstraints* drive = nullptr;
 };
 
-/// Plans trapezoids for a machine: a planned move for each move. Allocates only when it is made and for the text of an
-/// error.
+/// Plans trapezoidal profiles: one planned move for each move or merged line. Allocates only in the constructor and for
+/// error texts.
 class LookAheadPlanner final : public TrajectoryPlanner {
   public:
-    /// `start`: where the machine stands, at rest.
+    /// `start`: the current position, at standstill.
     LookAheadPlanner(const MachineLimits& limits, const Point& start, LookAheadSettings settings = {});
 
     Result<void> push(const Move& move) override;
@@ -43,36 +43,36 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     void flush() override;
     bool pull(PlannedMove& planned) override;
 
-    /// The same, and if none is ready the first open one with what is known: its speeds are final then. False if there
-    /// is none at all.
+    /// As pull(); if no move is ready, returns the first open one, which makes its velocities final. Returns false if
+    /// there is no move.
     bool pull_early(PlannedMove& planned);
 
-    /// The next move that is pushed stays a move of its own.
+    /// Excludes the next pushed move from merging.
     void keep_apart() { apart_ = true; }
 
-    /// How many moves can be pulled or are open.
+    /// Returns the number of moves that are ready or open.
     std::size_t size() const { return tail_ - head_; }
 
-    /// Plans the moves that were not pulled once more, with other feeds: `change` gets each of them, in order, and sets
-    /// the feed and the rapid_override of its move. They stay cut and merged as they are, so what could be braked
-    /// before still can be, whatever the speed with which the last pulled move ends.
+    /// Replans the moves that were not pulled, with other feed rates. `change` gets each of them in order and sets the
+    /// feed and the rapid_override of its move. Splits and merges stay as they are, so the path can still be braked
+    /// after the last pulled move, whatever its exit velocity.
     void change_feeds(const std::function<void(PlannedMove&)>& change);
 
-    /// Where the path ends so far.
+    /// Returns the end of the path so far.
     const Point& position() const { return position_; }
 
   private:
-    /// What the two passes need of a move, apart from the rest so that they stay in the cache.
+    /// Data of a move for the two passes, kept apart from the rest so that it stays in the cache.
     struct Node {
-        double joint;   ///< square of the greatest speed at the start
-        double reach;   ///< change of the square of the speed over the move: 2 accel length
-        double cruise;  ///< square of the greatest speed on the move
-        double entry;   ///< square of the speed at the start from which the end of the window can be reached
-        double gain;    ///< by what the square of the speed grows at the start, at once; 1 or more
-        double lag;     ///< speed that could be taken off before a new one counts: accel late_seconds
+        double joint;   ///< max_junction_velocity2 at the start
+        double reach;   ///< change of velocity2 over the move: 2 accel length
+        double cruise;  ///< highest velocity2 on the move
+        double entry;   ///< velocity2 at the start from which the end of the window can be reached
+        double gain;    ///< factor on velocity2 at the start, from the pulse rate at the junction; 1 or more
+        double lag;     ///< velocity that deceleration could remove before a new one applies: accel late_seconds
     };
 
-    /// What the next joint needs of the last move.
+    /// Data of the last move for the next junction.
     struct Last {
         Geometry path;
         AlongPathLimits along;
@@ -101,35 +101,35 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     std::vector<PlannedMove> slots_;
     std::vector<Node> nodes_;
     std::uint64_t mask_ = 0;
-    std::uint64_t batch_ = 0;    ///< so many open moves start the passes
-    std::uint64_t chunk_ = 0;    ///< at least so many then become ready
+    std::uint64_t batch_ = 0;    ///< number of open moves that triggers the passes
+    std::uint64_t chunk_ = 0;    ///< minimum number of moves that become ready then
     std::uint64_t head_ = 0;     ///< next to pull
     std::uint64_t ready_ = 0;    ///< first open move
     std::uint64_t tail_ = 0;     ///< one past the last move
-    std::uint64_t settled_ = 0;  ///< the entry speed of this move and of all before it is final
-    double committed_ = 0;       ///< entry speed of the first open move
-    std::int64_t pushed_ = 0;    ///< moves that are planned or were
+    std::uint64_t settled_ = 0;  ///< entry velocities up to and including this move are final
+    double committed_ = 0;       ///< entry velocity of the first open move
+    std::int64_t pushed_ = 0;    ///< moves that were planned or are open
     Point position_;
     Last last_, before_last_;  ///< open moves
     double min_seconds_ = 0, late_seconds_ = 0;
     std::array<double, axis_count> half_pulse_ = {};
     bool apart_ = false;
     static constexpr std::size_t max_between = 31;
-    std::array<Point, max_between> between_ = {};  ///< where the moves meet that the last one is made of
+    std::array<Point, max_between> between_ = {};  ///< junctions inside the last move, where moves were merged
     std::size_t between_size_ = 0;
 };
 
-/// Seconds that a planned move takes: a dwell its seconds, a move its trapezoid, or its S-curve where it has a jerk.
+/// Returns the duration of a planned move, s: a dwell, a trapezoid, or a double-S profile where it has a jerk.
 double seconds_of(const PlannedMove& planned);
 
-/// Sums over planned moves, for reports.
+/// Totals over planned moves, for reports.
 struct PlanSummary {
     std::int64_t moves = 0;
     std::int64_t dwells = 0;
-    std::int64_t stops = 0;    ///< moves that end at rest
-    double seconds = 0;        ///< all, dwells included
-    double path_mm = 0;        ///< XYZ path; moves of ABC alone add nothing
-    double peak_velocity = 0;  ///< mm/s, of moves of XYZ
+    std::int64_t stops = 0;    ///< moves that end at standstill
+    double seconds = 0;        ///< s, dwells included
+    double path_mm = 0;        ///< XYZ path; moves of ABC only add nothing
+    double peak_velocity = 0;  ///< mm/s, XYZ moves only
 
     void add(const PlannedMove& planned);
 };

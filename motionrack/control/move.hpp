@@ -1,4 +1,4 @@
-// The canonical move: what a part program means, in machine coordinates, whatever dialect it was written in.
+// The canonical move: the motion that a part program requests, in machine coordinates, independent of the dialect.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ using Point = std::array<double, axis_count>;
 
 enum class MoveKind : std::uint8_t {
     rapid,  ///< straight, as fast as the axes allow (G0)
-    feed,   ///< straight at the feed (G1)
-    arc,    ///< arc or helix at the feed (G2, G3)
-    dwell   ///< nothing moves for `seconds` (G4)
+    feed,   ///< straight at the feed rate (G1)
+    arc,    ///< arc or helix at the feed rate (G2, G3)
+    dwell   ///< no motion for `seconds` (G4)
 };
 
-/// What the path does between this move and the next (G61, G61.1, G64).
+/// Path control between this move and the next (G61, G61.1, G64).
 enum class PathControl : std::uint8_t {
-    exact_path,  ///< G61: never leaves the path; stands still where the direction changes, passes tangent joints
-    exact_stop,  ///< G61.1: stands still at the end of every move
+    exact_path,  ///< G61: never leaves the path; stops where the direction changes, passes tangent junctions
+    exact_stop,  ///< G61.1: stops at the end of every move
     continuous   ///< G64 P: within `tolerance_mm` of the path
 };
 
 enum class FeedMode : std::uint8_t {
-    units_per_second,  ///< G94: `feed` is mm/s along XYZ (deg/s along ABC where no XYZ moves)
+    units_per_second,  ///< G94: `feed` is mm/s along XYZ (deg/s along ABC if XYZ do not move)
     inverse_time       ///< G93: `feed` is 1/s; the move takes 1/feed seconds
 };
 
@@ -41,15 +41,16 @@ struct Move {
     std::uint8_t first = 0;
     std::uint8_t second = 1;
     std::int32_t turns = 0;
-    std::int32_t line = 0;      ///< line of the source, from 1
-    std::int64_t index = -1;    ///< of the program's moves, as they were read, from 0; its parts keep it; -1: of none
-    double feed = 0;            ///< see FeedMode; not used by traverse and dwell
-    double rapid_override = 1;  ///< traverse: part of the axes' greatest speed, above 0 to 1
+    std::int32_t line = 0;  ///< source line, from 1
+    std::int64_t index =
+        -1;  ///< number among the moves of the program, as read, from 0; kept by its parts; -1: not from a program
+    double feed = 0;            ///< see FeedMode; ignored by rapids and dwells
+    double rapid_override = 1;  ///< rapids: share of the axes' maximum velocities, above 0 to 1
     double tolerance_mm = 0;    ///< for PathControl::continuous
     double centre_first = 0;    ///< mm
     double centre_second = 0;   ///< mm
     double seconds = 0;         ///< dwell only
-    Point end = {};             ///< where the move ends
+    Point end = {};             ///< target position
 };
 
 }  // namespace motionrack::control

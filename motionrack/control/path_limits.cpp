@@ -1,4 +1,4 @@
-// Limits along a path and at its joints, from reciprocals of the axes' limits.
+// Limits along a path and at its junctions, from reciprocals of the axis limits.
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,10 @@ namespace {
 constexpr double share_towards_centre = 0.8;
 constexpr double share_along_arc = 0.4;
 
-/// Stands for 1 / 0 without making 0 * infinity.
+/// Replaces 1 / 0 and avoids 0 * infinity.
 constexpr double no_limit_left = 1e200;
 
-/// Joints slower than this (units a second, squared) are stops.
+/// Junctions below this velocity (units a second, squared) are stops.
 constexpr double min_junction_velocity2 = 1e-18;
 
 double reciprocal(double limit) {
@@ -98,8 +98,8 @@ AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const 
 
 double PathLimits::max_corner_velocity2(const Point& in, const Point& out, double mean_length,
                                         double tolerance_mm) const {
-    double per_jump = 0;   // of a unit of speed
-    double per_accel = 0;  // of a unit of speed squared per length
+    double per_jump = 0;   // per unit of velocity
+    double per_accel = 0;  // per unit of velocity squared, by length
     double per_corner = 0;
     double linear = 0;
     for (int i = 0; i < axis_count; ++i) {

@@ -1,4 +1,4 @@
-// One move after the other.
+// Executes one move after another.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ double PointToPointAxes::speed_of(const PlannedMove& move, std::size_t axis) con
     return std::min(feed, most);
 }
 
-/// Starts every axis that the move moves; where one refuses, the others are stopped.
+/// Starts every axis of the move; if one refuses, stops the others.
 Result<void> PointToPointAxes::order(const PlannedMove& move) {
     const auto moves = [&](std::size_t i) { return axes_[i] != nullptr && move.move.end[i] != move.start[i]; };
     int moving = 0;
@@ -65,7 +65,7 @@ Result<void> PointToPointAxes::order(const PlannedMove& move) {
     return {};
 }
 
-/// Until all stand. The first one that fails, and a wish to stop, stop the others.
+/// Waits for standstill of all axes. An axis that fails, or a stop request, stops the others.
 Result<void> PointToPointAxes::wait() {
     Result<void> ended;
     while (true) {
@@ -106,7 +106,7 @@ Result<void> PointToPointAxes::follow(const PlannedMove& move) {
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (done) return done;
-    known_ = false;  // they stand somewhere on the way
+    known_ = false;  // they stop somewhere on the way
     if (done.error().place.line == 0) done.error().place.line = move.move.line;
     return done;
 }

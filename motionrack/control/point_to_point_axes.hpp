@@ -1,7 +1,7 @@
-// Programs on cards that position each axis by itself: every straight move becomes an order to the axes that it moves,
-// and the next one waits until they stand.
+// Programs on cards that position each axis independently: every straight move becomes one command for each axis that
+// moves. The next move starts at standstill.
 //
-//   PlannedMove ─► move_to of each axis that it moves ─► step all until they stand ─► the next
+//   PlannedMove ─► move_to of each axis that moves ─► step all until standstill ─► the next
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ namespace motionrack::control {
 
 class PointToPointAxes final : public AxisGroup {
   public:
-    /// `axes`: nullptr where there is none; they must be trusted. `host`: whose time passes.
+    /// `axes`: nullptr for a missing axis; the positions must be valid. `host`: provides the time.
     PointToPointAxes(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host);
 
     Result<void> begin() override;
-    /// Returns when the axes stand. A feed is the speed of the axis that moves, a traverse the greatest speed of each.
-    /// Errors: those of Axis::move_to and Axis::wait; refused, an arc or a feed of several axes.
+    /// Returns at standstill. A feed rate is the velocity of the one axis that moves; a rapid uses the maximum velocity
+    /// of each. Errors: those of Axis::move_to and Axis::wait; refused, an arc or a feed move of several axes.
     Result<void> follow(const PlannedMove& move) override;
     Result<void> finish() override;
     void stop(bool immediate) override;
@@ -39,7 +39,7 @@ class PointToPointAxes final : public AxisGroup {
     MachineLimits limits_;
     Interrupt& host_;
     Point commanded_ = {};
-    bool known_ = false;  ///< where they were sent, or stand; else their cards are asked
+    bool known_ = false;  ///< commanded_ is up to date; otherwise the cards are read
     std::int64_t blocks_ = 0;
     std::vector<MoveStart> starts_;
 };

@@ -1,4 +1,4 @@
-// A move planned by itself.
+// Plan of a single move.
 #include <fmt/format.h>
 
 #include <motionrack/control/make_planner.hpp>

@@ -1,4 +1,4 @@
-// The loop of a part program.
+// Main loop of a part program.
 #include <fmt/format.h>
 
 #include <motionrack/control/make_planner.hpp>
@@ -106,7 +106,7 @@ Result<void> ProgramExecutor::submit() {
     }
 }
 
-/// A move was read: with its number.
+/// Returns the move that was read, with its number.
 Move ProgramExecutor::programmed(const Move& read) {
     Move move = read;
     move.index = read_++;
@@ -115,7 +115,7 @@ Move ProgramExecutor::programmed(const Move& read) {
     return move;
 }
 
-/// A block is about to be driven.
+/// Notifies the caller of a planned move before it is submitted.
 void ProgramExecutor::tell(const PlannedMove& planned) {
     summary_.add(planned);
     if (on_block_) on_block_(blocks_, planned);
@@ -123,7 +123,7 @@ void ProgramExecutor::tell(const PlannedMove& planned) {
     line_ = planned.move.line;
 }
 
-/// What the axes had is driven, and it ends at rest.
+/// Executes the queue of the axes to standstill and reports the stop.
 Result<void> ProgramExecutor::stopped() {
     MOTIONRACK_CHECK(axes_.finish());
     return stopped_on_request(line_, axes_.commanded_position(), settings_.gcode.limits);
@@ -147,7 +147,7 @@ Result<void> ProgramExecutor::take(const gcode::CanonCall& step, ProgramResult& 
         if (!planner_->has_room()) MOTIONRACK_CHECK(submit());
         return planner_->push(programmed(step.move));
     }
-    // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
+    // Calls that need standstill wait for it; a spindle or coolant word does not interrupt the path.
     if (gcode::needs_standstill(step)) {
         planner_->flush();
         MOTIONRACK_CHECK(submit());
@@ -157,7 +157,8 @@ Result<void> ProgramExecutor::take(const gcode::CanonCall& step, ProgramResult& 
     return {};
 }
 
-/// Everything before it is driven, then the probing move alone; the program goes on where the machine stands.
+/// Executes all moves before the probing move, then the probing move alone; the program continues at its final
+/// position.
 Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run) {
     run.moves += 1;
     planner_->flush();
@@ -192,7 +193,7 @@ Result<void> ProgramExecutor::run(std::string_view text, const std::string& file
         if (*step == nullptr) break;
         outcome = (*step)->probe != gcode::Probe::none ? probe(**step, reader, run) : take(**step, run);
     }
-    // What was read before a problem is driven to its end, so that the machine stands where the program says.
+    // Executes the moves read before an error, so that the machine stops at the programmed position.
     const bool axes_stopped =
         !outcome && (outcome.error().kind == ErrorKind::machine || outcome.error().kind == ErrorKind::stopped);
     if (!axes_stopped) {

@@ -1,10 +1,9 @@
-// Runs a part program: the reader's moves go through look-ahead to the axes, in constant memory, whatever the program's
-// length.
+// Runs a whole part program: the moves of the reader go through the look-ahead to the axes. Memory is constant for any
+// program length.
 //
 //   text --ProgramReader--> Move --LookAheadPlanner--> PlannedMove --AxisGroup--> card
 //
-// Callers check the whole text before anything moves (check_program), unless they stream; run then reads it a second
-// time.
+// Callers check the whole text before any motion (check_program), unless they stream; run then reads it a second time.
 #pragma once
 
 #include <atomic>
@@ -20,7 +19,7 @@
 
 namespace motionrack::control {
 
-/// Something the program asked for beside motion, in order, with the planned move that was last handed out before it.
+/// A canonical call other than motion, in program order, with the number of the last planned move before it.
 struct ProgramEvent {
     int line = 0;
     std::int64_t after_block = -1;
@@ -37,22 +36,22 @@ struct ProgramProbe {
 struct ExecutorSettings {
     gcode::Settings gcode;  ///< limits, start position, offsets
     LookAheadSettings planner;
-    bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
+    bool jerk_limited = false;  ///< limits jerk instead of using trapezoidal profiles
     const std::atomic<bool>* stop =
-        nullptr;  ///< somebody wishes to stop: with limited jerk the ride slows down, else the axes on their own
-    const std::atomic<bool>* halted = nullptr;  ///< the machine must stop: the same
-    double accel_reserve = 0;        ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
-    std::size_t event_limit = 2000;  ///< events kept; later ones are counted only
+        nullptr;  ///< stop requested: a jerk-limited trajectory decelerates on the path, otherwise each axis on its own
+    const std::atomic<bool>* halted = nullptr;  ///< the machine requests a stop, with the same effect
+    double accel_reserve = 0;        ///< share of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t event_limit = 2000;  ///< maximum number of stored events; later ones are only counted
 };
 
-/// What came of a program.
+/// Result of a program run.
 struct ProgramResult {
     PlanSummary plan;
     std::int64_t lines = 0;  ///< lines read
-    std::int64_t moves = 0;  ///< read, without dwells
+    std::int64_t moves = 0;  ///< moves read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
-    std::vector<ProgramProbe> probes;  ///< as many as events are kept
+    std::vector<ProgramProbe> probes;  ///< limited to the same number as the events
     bool ended = false;                ///< by M2 or M30
 };
 
@@ -60,16 +59,16 @@ class ProgramExecutor {
   public:
     ProgramExecutor(AxisGroup& axes, const ExecutorSettings& settings);
 
-    /// Called with each planned move just before the axes get it (block numbers from 0).
+    /// Sets the callback for each planned move, called just before it is submitted (block numbers from 0).
     void on_planned_move(std::function<void(std::int64_t block, const PlannedMove& move)> call) {
         on_block_ = std::move(call);
     }
-    /// Called with each move as the program has it (dwells, too), and where it starts, long before it is driven.
+    /// Sets the callback for each programmed move (dwells included) and its start, called when it is read.
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
-    /// Drives a program that check_program found nothing wrong with. Errors: invalid_input (with place) if the reader
-    /// finds a problem all the same: the axes then finish what was read before and stand; machine and stopped as
-    /// AxisGroup says. `run` is filled as far as it went.
+    /// Executes a program that check_program accepted. Errors: invalid_input (with line and column) if the reader still
+    /// finds a problem; the axes have executed the moves before it. Errors machine and stopped: as for AxisGroup. `run`
+    /// holds the results up to that point.
     Result<void> run(std::string_view text, const std::string& file, ProgramResult& run);
 
   private:
@@ -93,8 +92,8 @@ class ProgramExecutor {
     PlanSummary summary_;
     std::int64_t blocks_ = 0;
     std::int64_t read_ = 0;  ///< moves and dwells
-    Point read_to_ = {};     ///< where the last of them ends
-    int line_ = 0;           ///< of the move that was handed over last
+    Point read_to_ = {};     ///< end of the last of them
+    int line_ = 0;           ///< line of the move that was submitted last
     bool held_ = false;
     std::function<void(std::int64_t, const PlannedMove&)> on_block_;
     std::function<void(const Move&, const Point&)> on_move_;

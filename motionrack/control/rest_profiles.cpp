@@ -1,4 +1,4 @@
-// Closed forms of the trapezoid and of the S-curve; which case holds is decided by the distance.
+// Closed forms of the trapezoidal and the double-S profile; the distance selects the case.
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +10,8 @@ namespace motionrack::control {
 
 double cube_root(double x) {
     if (!(x >= 1e-290)) return x > 0 ? cube_root(x * 0x1p+300) * 0x1p-100 : 0;
-    // y ~ x^(-1/3) from a third of its exponent (x y^3 within 0.103 of 1), then two steps of fourth order, no division.
+    // Start: y ~ x^(-1/3) from a third of the exponent (x y^3 within 0.103 of 1). Then two steps of fourth order,
+    // without division.
     double y = std::bit_cast<double>(0x553EE80000000000u - std::bit_cast<std::uint64_t>(x) / 3);
     for (int step = 0; step < 2; ++step) {
         const double h = 1 - x * y * (y * y);
@@ -35,7 +36,7 @@ TrapezoidalProfile::TrapezoidalProfile(double distance, double speed, double acc
 TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel)
     : distance_(distance), entry_(entry), exit_(exit), accel_(accel) {
     const double reach = accel * distance;
-    const double half_gain = 0.5 * (exit - entry) * (exit + entry);  // of the square of the speed
+    const double half_gain = 0.5 * (exit - entry) * (exit + entry);  // change of velocity2
     if (std::fabs(half_gain) > reach) {
         clamp_exit_velocity();
         return;
@@ -47,7 +48,7 @@ TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exi
     }
     peak_ = std::max({std::sqrt(peak_squared), entry, exit});
     if (!(peak_ > 0)) return;
-    // times from lengths: differences of nearly equal speeds would lose their digits
+    // durations from lengths: differences of nearly equal velocities would lose their digits
     cruise_start_ = 0.5 * (reach + half_gain) / accel;
     cruise_from_ = 2 * cruise_start_ / (entry + peak_);
     cruise_until_ = cruise_from_;
@@ -121,7 +122,7 @@ SCurveProfile::SCurveProfile(double distance, double speed, double accel, double
     const double sixth = jerk * (1.0 / 6);
     phases_[0] = {0, 0, 0, 0, sixth, jerk};
     phases_[1] = {rise, speed_0 * rise * (1.0 / 3), speed_0, 0.5 * peak_accel_, 0, 0};
-    // phase 2 is told backwards from its end, where the acceleration is 0
+    // phase 2 is stored backwards from its end, where the acceleration is 0
     phases_[2] = {speed_up, 0.5 * peak_ * speed_up, peak_, 0, -sixth, -jerk};
 }
 

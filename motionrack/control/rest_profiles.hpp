@@ -1,6 +1,7 @@
-// Speed profiles of one axis: trapezoids between any two speeds, and jerk-limited S-curves from rest to rest.
+// Velocity profiles of one axis: trapezoidal between any two velocities, and jerk-limited from standstill to
+// standstill.
 //
-//   speed   trapezoid                      S-curve (7 phases)
+//   velocity  trapezoid                     double-S (7 phases)
 //             ____________                      ____________
 //            /            \                   ,'            `.          phases 0 2 4 6: jerk +j -j -j +j
 //           /              \                 /                \         phases 1 5:     acceleration constant
@@ -15,36 +16,36 @@
 
 namespace motionrack::control {
 
-/// Where an axis is in its profile.
+/// Kinematic state at an instant of a profile.
 struct ProfileSample {
     double position;  ///< from the start of the profile
     double speed;
     double accel;
-    double jerk;  ///< of the phase that begins or lasts here; 0 for trapezoids
+    double jerk;  ///< in the current phase; 0 for trapezoids
 };
 
-/// The quickest way over a distance between two speeds, within a speed and an acceleration.
+/// The time-optimal profile over a distance between two velocities, within a velocity and an acceleration.
 class TrapezoidalProfile {
   public:
     TrapezoidalProfile() = default;
 
-    /// From rest to rest. `distance` >= 0, `speed` > 0, `accel` > 0, all finite.
+    /// From standstill to standstill. `distance` >= 0, `speed` > 0, `accel` > 0, all finite.
     TrapezoidalProfile(double distance, double speed, double accel);
 
-    /// From `entry` to `exit`, both 0 .. `speed`. If the distance is too short to get from the one to the other, the
-    /// exit speed becomes the nearest that can be reached; see exit().
+    /// From `entry` to `exit`, both 0 .. `speed`. If the distance is too short for this change of velocity, clamps the
+    /// exit velocity to the nearest reachable one; see exit().
     TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel);
 
     double distance() const { return distance_; }  ///< length
     double duration() const { return duration_; }  ///< s
-    double entry() const { return entry_; }        ///< speed at the start
-    double exit() const { return exit_; }          ///< speed at the end
-    double peak() const { return peak_; }          ///< greatest speed reached
+    double entry() const { return entry_; }        ///< velocity at the start
+    double exit() const { return exit_; }          ///< velocity at the end
+    double peak() const { return peak_; }          ///< peak velocity
 
-    /// Ends of the phases (speeding up, cruise, slowing down), s.
+    /// Ends of the phases (acceleration, cruise, deceleration), s.
     std::array<double, 3> phase_ends() const { return {cruise_from_, cruise_until_, duration_}; }
 
-    /// The state at `t` s; before 0 the start, from duration() on the end, at which the distance is reached exactly.
+    /// Returns the state at `t` s; before 0 the start, from duration() on the end with exactly the whole distance.
     ProfileSample sample(double t) const;
 
   private:
@@ -62,8 +63,8 @@ class TrapezoidalProfile {
     double cruise_start_ = 0;  ///< position at cruise_from_
 };
 
-/// The quickest way from rest to rest within a speed, an acceleration and a jerk. It is symmetric about its middle, so
-/// only the first half is kept: three phases and half the cruise.
+/// The time-optimal profile from standstill to standstill within a velocity, an acceleration and a jerk. It is
+/// symmetric, so only the first half is stored: three phases and half of the cruise.
 class SCurveProfile {
   public:
     SCurveProfile() = default;
@@ -73,17 +74,17 @@ class SCurveProfile {
 
     double distance() const { return distance_; }      ///< length
     double duration() const { return duration_; }      ///< s
-    double peak() const { return peak_; }              ///< greatest speed reached
-    double peak_accel() const { return peak_accel_; }  ///< greatest acceleration reached
+    double peak() const { return peak_; }              ///< peak velocity
+    double peak_accel() const { return peak_accel_; }  ///< peak acceleration
 
     /// Ends of the seven phases, s.
     std::array<double, 7> phase_ends() const;
 
-    /// The state at `t` s; before 0 the start, from duration() on the end, at which the distance is reached exactly.
+    /// Returns the state at `t` s; before 0 the start, from duration() on the end with exactly the whole distance.
     ProfileSample sample(double t) const;
 
   private:
-    /// A cubic in the time since the phase's own zero.
+    /// A cubic in the time since the zero of the phase.
     struct Phase {
         double zero = 0;
         double position = 0;
@@ -97,11 +98,11 @@ class SCurveProfile {
     double duration_ = 0;
     double peak_ = 0;
     double peak_accel_ = 0;
-    std::array<double, 3> ends_ = {};  ///< of phases 0, 1, 2
+    std::array<double, 3> ends_ = {};  ///< end times of phases 0, 1, 2
     std::array<Phase, 3> phases_ = {};
 };
 
-/// The cube root of x >= 0 to 7e-16 of its value, with the same bits everywhere.
+/// Returns the cube root of x >= 0, to a relative error of 7e-16 and with the same bits on every platform.
 double cube_root(double x);
 
 inline ProfileSample TrapezoidalProfile::sample(double t) const {

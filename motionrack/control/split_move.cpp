@@ -1,4 +1,4 @@
-// Parts end on the path of the whole; a rest begins where the machine stands.
+// Parts end on the path of the whole move; a remaining move starts at the current position.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::control {
 
 namespace {
 
-/// An arc that has this much more to turn than there was left of it has missed its end.
+/// If the remaining arc would turn by this much (rad) more than before, the position is behind its end.
 constexpr double too_much_turn = 0.5;
 
 double share_of_time(const Move& move, double whole, double part) {

@@ -1,4 +1,4 @@
-// Parts of moves: a long move as short ones, and what is left of a move where the machine stands on it.
+// Splitting of moves: a long move into short ones, and the remaining part of an interrupted move.
 #pragma once
 
 #include <motionrack/control/geometry.hpp>
@@ -6,25 +6,24 @@
 
 namespace motionrack::control {
 
-/// The part of a move from `from` to `to` (lengths along its path, from < to), as a move that begins where the part
-/// begins. Ends of parts lie on the path; the last part ends where the move ends, exactly. In inverse time it takes its
-/// share of the move's time.
+/// Returns the part of a move from `from` to `to` (lengths along its path, from < to) as a move. Its ends lie on the
+/// path; a part that ends with the move ends exactly there. In inverse time mode it takes its share of the time.
 Move sub_move(const Move& move, const Geometry& path, double from, double to);
 
-/// Each axis' pulses per mm or degree: what makes places of linear and rotary axes comparable. An axis with 0 of them
-/// does not count.
+/// Pulses per mm or degree of each axis, which make positions of linear and rotary axes comparable. Axes with 0 are
+/// ignored.
 using PulsesPerUnit = Point;
 inline constexpr PulsesPerUnit units_alone = {1, 1, 1, 1, 1, 1};
 
-/// The point of a path that is nearest to a place. An arc may turn by less than a whole turn.
+/// The point of a path that is nearest to a given position. An arc may have less than a full turn.
 struct Nearest {
     double length = 0;    ///< along the path
-    double distance = 0;  ///< greatest difference of any of the six axes, in its pulses
+    double distance = 0;  ///< largest difference over the six axes, in pulses
 };
 Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
 
-/// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of
-/// an arc so little may be left that it is a straight line.
+/// Returns the remaining part of a move that was interrupted at `place`, at most a few pulses off its path. The short
+/// remainder of an arc may become a straight line.
 Move remaining_move(const Move& move, const Geometry& path, const Point& place,
                     const PulsesPerUnit& pulses = units_alone);
 

@@ -1,4 +1,5 @@
-// Entries go from the reader to the planner to the axes, and leave at the front when the machine has passed them.
+// Entries pass from the reader to the planner to the axes, and are removed at the front when the machine has passed
+// them.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -14,9 +15,9 @@ namespace {
 using gcode::CanonCall;
 using gcode::CanonCallKind;
 
-/// Pieces of an arc are short enough to tell from a place where on it the machine is.
+/// Largest sweep of a slice of an arc: short enough that a position on it is unambiguous.
 constexpr double max_sweep = 2 * pi / 3;
-/// And all pieces long enough that their ends on whole pulses do not matter.
+/// Minimum length of a slice: long enough that rounding its ends to whole pulses does not matter.
 constexpr double min_pulses = 200;
 
 }  // namespace
@@ -107,11 +108,11 @@ void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
     if (cut.path.shape == PathShape::nothing) return;
     const double wanted = limits_.along(cut.path, step.move).speed * settings_.slice_s;
     const Point worst = max_tangent_components(cut.path);
-    double pulses = 0;  // of the fastest axis for a unit of length
+    double pulses = 0;  // pulses of the fastest axis per unit of length
     for (std::size_t i = 0; i < worst.size(); ++i)
         pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / min_pulses);
-    // Axes that position one by one would come to rest at the end of each.
+    // Point-to-point axes would stop at the end of each slice.
     if (!ride_ && !settings_.gcode.point_to_point)
         cut.pieces = static_cast<int>(
             std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / max_sweep), 1e9))));
@@ -134,7 +135,7 @@ void StreamExecutor::add_piece() {
     if (last) cutting_.reset();
 }
 
-// ---- wishes
+// ---- operator requests
 
 void StreamExecutor::hold() {
     if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
@@ -151,7 +152,7 @@ void StreamExecutor::resume() {
 
 void StreamExecutor::stop() {
     if (!path_begun_ && !has_work()) {
-        // A pause behind which nothing waits would make the next line wait.
+        // A pause with no pending entry would block the next line.
         if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
         return;
     }
@@ -164,7 +165,7 @@ void StreamExecutor::set_overrides(double feed, double rapid) {
     rapid_wanted_ = std::clamp(rapid, 0.01, 1.0);
 }
 
-// ---- driving
+// ---- execution
 
 Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
     if (ride_) return drive_ride(more_may_come);
@@ -186,8 +187,8 @@ Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
-    // A last move is kept back while there is time for the line after it: then it need not end at rest. Who brakes gets
-    // all the path there is: that is what it brakes along.
+    // Holds a last move back while there is time for the line after it, so that it need not end at standstill. A hold
+    // or stop submits it: deceleration may need the whole known path.
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
     const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
     if (planner_.size() <= 1 && keep_back) return state_ = ExecutionState::waiting;
@@ -199,7 +200,7 @@ Result<void> StreamExecutor::fill_planner() {
     for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         const Entry& entry = entries_[planned_];
         if (!entry.is_move()) {
-            planner_.keep_apart();  // it is told of where it stands in the program
+            planner_.keep_apart();  // an event must keep its position between the moves
             continue;
         }
         Move move = entry.step.move;
@@ -214,7 +215,7 @@ bool StreamExecutor::stops_before(const Entry& entry) const {
     return entry.is_probe() || gcode::needs_standstill(entry.step);
 }
 
-/// Whether what the axes have goes on for longer than the margin.
+/// Returns true if the submitted path lasts longer than the margin.
 bool StreamExecutor::time_left() {
     if (block_began_ == never) return false;
     double seconds = 0;
@@ -260,7 +261,7 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     return stand();
 }
 
-/// The axes stand where the path that they had ends.
+/// Handles standstill at the end of the submitted path.
 Result<ExecutionState> StreamExecutor::stand() {
     const Wish wish = std::exchange(wish_, Wish::none);
     stop_flag_ = false;
@@ -338,7 +339,7 @@ void StreamExecutor::new_planner(const Point& place) {
     ride_ends_ = true;
 }
 
-// ---- what the machine has passed
+// ---- entries that the machine has passed
 
 void StreamExecutor::take_move_starts() {
     for (const MoveStart& start : axes_->take_move_starts()) {
@@ -350,7 +351,7 @@ void StreamExecutor::take_move_starts() {
     }
 }
 
-/// The first entry was passed.
+/// Removes the first entry.
 void StreamExecutor::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {

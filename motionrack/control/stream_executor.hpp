@@ -1,19 +1,18 @@
-// Drives G-code that comes line by line, and can be held, slowed and stopped at any instant.
+// Executes G-code line by line. The operator can hold, override or stop it at any time.
 //
-//   line ──Interpreter──► moves, in pieces ──► entries ──LookAheadPlanner──► PlannedMove ──► AxisGroup
-//                                                ▲                       │
-//                  hold: the rest of the path ───┴── from where it stands ┘
+//   line ──Interpreter──► moves, in slices ──► entries ──LookAheadPlanner──► PlannedMove ──► AxisGroup
+//                                                 ▲                       │
+//                   hold: remaining path ─────────┴── from its standstill ┘
 //
-//   driving ──hold()──► held ──resume()──► driving        a step done or M0: paused ──resume()──► driving
-//   stop(), a fault: rest
+//   running ──hold()──► feed_hold ──resume()──► running        single block or M0: paused ──resume()──► running
+//   stop(), a fault: idle
 //
-// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon; to axes that position one by
-// one they go whole, and an override counts from the next one on. With each move that it hands
-// over, the path that is known ends at rest: a sender that falls silent leaves the machine standing at the end of its
-// last line.
+// Long moves are submitted in slices of about 0.1 s, so that an override takes effect soon. Point-to-point axes get
+// whole moves, and an override applies from the next one on. With each submitted move the known path ends at
+// standstill: if the sender falls silent, the machine stops at the end of the last line.
 //
-// With limited jerk a ride takes the planner's place: it holds, resumes and overrides along its own curve, and the axes
-// never brake on their own but when the machine stops them.
+// With limited jerk, a TrajectoryInterpolator replaces the planner: it holds, resumes and overrides along its own
+// trajectory. The axes then decelerate on their own only when the machine stops them.
 #pragma once
 
 #include <atomic>
@@ -34,27 +33,28 @@
 namespace motionrack::control {
 
 struct StreamExecutorSettings {
-    gcode::Settings gcode;  ///< its start is where the axes stand
+    gcode::Settings gcode;  ///< its start is the current position of the axes
     LookAheadSettings planner;
-    bool jerk_limited = false;        ///< not trapezoids, but within each axis' jerk
-    double accel_reserve = 0;         ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
-    std::size_t max_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
-    double slice_s = 0.1;             ///< of a long move at its speed
+    bool jerk_limited = false;  ///< limits jerk instead of using trapezoidal profiles
+    double accel_reserve = 0;   ///< share of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t max_entries =
+        1'500;             ///< maximum number of known moves and events that are not executed yet; 16 or more
+    double slice_s = 0.1;  ///< duration of a slice of a long move at its velocity
     Duration margin =
-        milliseconds(30);  ///< so long before the path that was handed over ends, more of it is handed over
+        milliseconds(30);  ///< lead time: the next move is submitted this long before the submitted path ends
 };
 
 enum class ExecutionState : std::uint8_t {
-    idle,       ///< all that is known is done
-    running,    ///< something was handed over
+    idle,       ///< everything known is executed
+    running,    ///< moves are submitted and not executed yet
     waiting,    ///< there is time for more lines before the axes need the next move
-    feed_hold,  ///< stands on its path after hold()
-    paused      ///< stands after M0, M1 or a step; resume() goes on
+    feed_hold,  ///< standstill on the path after hold()
+    paused      ///< standstill after M0, M1 or a single block, until resume()
 };
 
-/// The last probing move.
+/// Report of the last probing move.
 struct ProbeReport {
-    std::int64_t count = 0;  ///< of probing moves that have ended, this one too
+    std::int64_t count = 0;  ///< number of probing moves that have ended, including this one
     std::int32_t line = 0;
     gcode::Probe probe = gcode::Probe::none;
     bool begun = false;  ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
@@ -65,95 +65,98 @@ struct ProbeReport {
 
 class StreamExecutor {
   public:
-    /// `host`: whose time passes. The axes' stop flag must be stop_flag().
+    /// `host`: provides the time. The stop flag of the axes must be stop_flag().
     StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExecutorSettings& settings);
 
-    // ---- what may be called at any time, also while drive() runs, from a slice of the host's time
-    /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin
-    /// where it stopped.
+    // ---- callable at any time, also from a slice of the host's time while drive() runs
+    /// Returns true if line() accepts another line. After a probing line only when its move has ended, because the next
+    /// lines start where it stopped.
     bool has_room() const {
         return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop;
     }
-    /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
+    /// Checks a line and queues its moves. Requires has_room(). On an error the line has no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
-    /// The same of a whole program that is walked through: in its whole language.
+    /// As above, for a line of a whole program whose control flow `walk` tracks, in the complete language.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk);
-    /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind
-    /// the others. Needs has_room().
+    /// Ends the program: queues the moves that wait for a following line (see gcode::Interpreter::finish). Requires
+    /// has_room().
     gcode::Outcome<void> program_over();
-    /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the
-    /// lines after it begin where it ends. It must be one that the axes can do. Needs has_room().
+    /// Queues a move that does not come from a line. Modes do not change, the feed override is ignored, and later lines
+    /// start at its end. The move must be within the limits of the axes. Requires has_room().
     void move(const Move& move);
-    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven. A probing move goes to its end
-    /// first.
+    /// Decelerates to a stop on the path; drive() then returns feed_hold. No effect without motion. A probing move is
+    /// completed first.
     void hold();
-    /// Goes on from a hold or a pause.
+    /// Resumes after a feed hold or a pause.
     void resume();
-    /// Decelerates along the path and forgets everything that is not driven. In every state; drive() returns rest.
+    /// Decelerates to a stop on the path and discards everything not executed. Accepted in every state; drive() then
+    /// returns idle.
     void stop();
-    /// Parts of the programmed feed and of the rapid speed: 0.01 .. 2 and 0.01 .. 1, else the nearest of these.
+    /// Sets the feed override and the rapid override, clamped to 0.01 .. 2 and 0.01 .. 1.
     void set_overrides(double feed, double rapid);
-    /// Pauses after each line.
+    /// Enables single block: a pause after each line.
     void set_single_step(bool on) { single_step_ = on; }
     bool has_work() const { return !entries_.empty() || unpulled_; }
     std::size_t entries() const { return entries_.size(); }
     const ProbeReport& last_probe() const { return last_probe_; }
-    /// A probing move was read and is not done.
+    /// Returns true while a probing move was read but has not ended.
     bool probe_pending() const { return probe_waits_; }
-    /// Moves and dwells, as they were read, that are not done.
+    /// Returns the number of moves and dwells, as read, that have not ended.
     std::size_t moves() const { return moves_; }
-    /// 0: none since reset_modal_state().
+    /// Returns 0 if no line was executed since reset_modal_state().
     std::int32_t current_line() const { return line_driven_; }
     ExecutionState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
 
-    /// The coolant was switched by hand: lines go on from there.
+    /// Sets the coolant state after manual switching; later lines continue from it.
     void set_coolant(bool mist, bool flood) { interpreter_.set_coolant(mist, flood); }
 
-    // ---- between drives
-    /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room
-    /// for another. `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors:
-    /// ErrorKind::machine, the motion was stopped by the machine; everything was forgotten.
+    // ---- between calls of drive()
+    /// Submits the next move, or ends the path if there is none. Blocks in the host's time until the axes have room for
+    /// another move. `more_may_come`: lines may follow soon, so the last move is held back while time remains. Errors:
+    /// ErrorKind::machine if the machine stopped the motion; everything was discarded.
     Result<ExecutionState> drive(bool more_may_come);
-    /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
+    /// Continues from the current position of `axes` after other motion of the machine. Requires standstill.
     void resync_axes(AxisGroup& axes);
-    /// A new program, or after a reset: modes as at the start, no line driven, work offsets kept. Needs rest.
+    /// Resets the modes for a new program or after a reset, and the current line; keeps the work offsets. Requires
+    /// standstill.
     void reset_modal_state();
-    /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
+    /// Sets the work offsets and the G28 and G30 positions to 0. Requires standstill.
     void clear_offsets();
-    /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say.
-    /// Needs rest.
+    /// Resets, after a program, the modes that Grbl does not have, so that a sender's lines keep their meaning.
+    /// Requires standstill.
     void reset_after_program() { interpreter_.reset_after_program(); }
-    /// What reset_modal_state() leaves: how a program that begins here is read.
+    /// Returns the settings for a program that starts here, as after reset_modal_state().
     gcode::Settings fresh_settings() const;
 
-    /// Called when the machine passes an event of the program (spindle, message, tool, end), in order.
+    /// Sets the callback for program events (spindle, message, tool, end), called in order when the machine passes
+    /// them.
     void on_event(std::function<void(const gcode::CanonCall&)> call) { on_event_ = std::move(call); }
-    /// Called with each move as it was read, before it is cut.
+    /// Sets the callback for each move as it was read, before it is sliced.
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
   private:
     enum class Wish : std::uint8_t { none, hold, stop };
-    /// A piece of a move, or an event.
+    /// A slice of a move, or an event.
     struct Entry {
         gcode::CanonCall step;
         std::string text;
         Point start = {};
-        double seconds = 0;       ///< of a move that was handed over
-        std::int64_t number = 0;  ///< of a move that the ride has had
-        bool last = true;         ///< piece of its move
-        bool by_hand = false;     ///< not of a line
+        double seconds = 0;       ///< duration of a submitted move
+        std::int64_t number = 0;  ///< number of a move in the trajectory interpolator
+        bool last = true;         ///< last slice of its move
+        bool by_hand = false;     ///< not from a line
         bool is_probe() const { return step.probe != gcode::Probe::none; }
         bool is_overridable() const { return !by_hand && step.overridable; }
         bool is_move() const { return step.kind == gcode::CanonCallKind::move && !is_probe(); }
-        /// What the overrides make of its move.
+        /// Applies the overrides to its move.
         void override_feed(Move& move, double feed, double rapid) const {
             if (is_overridable()) move.feed = step.move.feed * feed;
             if (step.overridable) move.rapid_override = rapid;
         }
     };
-    /// A move that is being cut.
+    /// A move that is being sliced.
     struct Cutting {
         gcode::CanonCall step;
         Geometry path;
@@ -178,7 +181,7 @@ class StreamExecutor {
     void pop();
     void new_planner(const Point& place);
 
-    // with limited jerk
+    // jerk-limited execution
     Result<ExecutionState> drive_ride(bool more_may_come);
     Result<void> fill_ride();
     bool ride_may_wait(bool rest_follows) const;
@@ -192,27 +195,27 @@ class StreamExecutor {
     PathLimits limits_;
     gcode::Interpreter interpreter_;
     LookAheadPlanner planner_;
-    std::optional<TrajectoryInterpolator> ride_;  ///< if the jerk is limited; then planner_ idles
-    /// Of what the axes have had, from the one that they drive on: the numbers of its moves (ride_), or how many of
-    /// entries_ it stands for.
+    std::optional<TrajectoryInterpolator> ride_;  ///< if the jerk is limited; planner_ is unused then
+    /// Submitted moves from the executing one on: their numbers in the interpolator (ride_), or how many of entries_
+    /// each covers.
     std::deque<std::int64_t> blocks_;
-    std::int64_t first_block_ = 0;  ///< of blocks_, as the axes count
-    bool ride_ends_ = true;         ///< it was told that its path ends
-    Instant last_push_{};           ///< when it got a move last
-    std::deque<Entry> entries_;     ///< front: being driven
+    std::int64_t first_block_ = 0;  ///< number of the first of blocks_, as the axes count
+    bool ride_ends_ = true;         ///< the interpolator was flushed
+    Instant last_push_{};           ///< instant of the last push to the interpolator
+    std::deque<Entry> entries_;     ///< front: executing
     std::optional<Cutting> cutting_;
-    std::string text_;             ///< of the last line
-    Point read_to_ = {};           ///< where the last entry ends
+    std::string text_;             ///< text of the last line
+    Point read_to_ = {};           ///< end of the last entry
     std::int64_t read_ = 0;        ///< moves and dwells
     std::size_t moves_ = 0;        ///< in entries_ and cutting_
-    std::size_t planned_ = 0;      ///< entries that the planner has had
-    std::size_t handed_ = 0;       ///< entries up to the last move that the axes have had
-    Instant block_began_ = never;  ///< of that move; never: it has not begun
+    std::size_t planned_ = 0;      ///< entries pushed to the planner
+    std::size_t handed_ = 0;       ///< entries up to the last submitted move
+    Instant block_began_ = never;  ///< start of the executing move; never: none has started
     std::int32_t line_driven_ = 0;
-    bool unpulled_ = false;    ///< of the last line not everything is in entries_
-    bool path_begun_ = false;  ///< the axes have moves that they were not told the end of
+    bool unpulled_ = false;    ///< calls of the last line are missing in entries_
+    bool path_begun_ = false;  ///< the axes have moves without a finish()
     bool single_step_ = false;
-    bool probe_waits_ = false;  ///< entries_ has a probing move, at its end but for events
+    bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     bool probing_ = false;
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;

@@ -1,4 +1,4 @@
-// What is left of the path of a stream where a hold has brought the axes to rest.
+// Remaining path of a stream after a feed hold.
 #include <limits>
 #include <motionrack/control/split_move.hpp>
 #include <motionrack/control/stream_executor.hpp>
@@ -7,10 +7,10 @@ namespace motionrack::control {
 
 namespace {
 
-/// Pulses that a place may be beside the straight line that they are of.
+/// Largest distance in pulses between a position and the straight line on which it lies.
 constexpr double beside_pulses = 1.5;
 
-/// Where one path ends and the other begins the way turns back by more than a right angle.
+/// Returns true if the path reverses by more than a right angle at the junction.
 bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUnit& pulses) {
     double cosine = 0;
     for (std::size_t i = 0; i < pulses.size(); ++i)
@@ -20,24 +20,24 @@ bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUn
 
 }  // namespace
 
-/// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
+/// Keeps the remaining path. The axes stopped on the last started move, or already on the one queued behind it.
 void StreamExecutor::keep_rest_of_path() {
     const Point place = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
     PulsesPerUnit pulses;
     for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
-    // A block may stand for several moves.
+    // A planned move may cover several moves.
     std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
     known += blocks_.size() > 1 ? blocks_[1] : 0;
     std::size_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
-    Geometry path;  // the nearest one
+    Geometry path;  // the nearest path
     for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
         if (!entries_[i].is_move()) continue;
         --known;
         const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
         const double off = nearest_point(here, place, pulses).distance;
-        // A way back is as near as the way there, of which nothing may be left out.
+        // A return stroke is as near as the outward one, of which nothing may be skipped.
         if (off >= (turns_back(path, here, pulses) ? least - beside_pulses : least)) continue;
         least = off;
         nearest = i;

@@ -1,4 +1,4 @@
-// A probing move of a stream: alone, from rest to rest; no line is read before it is done.
+// A probing move of a stream: alone, from standstill to standstill; no line is read before it has ended.
 #include <fmt/format.h>
 
 #include <motionrack/control/stream_executor.hpp>

@@ -1,4 +1,5 @@
-// A stream with limited jerk: the ride holds, resumes and overrides along its curve; the axes get its moves one by one.
+// Jerk-limited stream: the interpolator holds, resumes and overrides along its trajectory; the axes get its moves one
+// by one.
 #include <algorithm>
 #include <motionrack/control/make_planner.hpp>
 #include <motionrack/control/stream_executor.hpp>
@@ -7,10 +8,10 @@ namespace motionrack::control {
 
 namespace {
 
-/// s of motion that the axes have at once: how soon a wish is felt.
+/// s of motion submitted at a time: the delay of a hold or an override
 constexpr double max_line_seconds = 0.03;
-/// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no
-/// line has come for so long, and so long before it would slow down for the end of what it tells.
+/// s before braking at which an unfinished path is flushed. The interpolator returns nothing of the last moves until it
+/// knows what follows. It is flushed if no line has come and deceleration for the end of its plan is this near.
 constexpr double ends_before = 0.2;
 constexpr Duration sender_is_silent = milliseconds(50);
 
@@ -46,16 +47,16 @@ Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
     if (PlannedMove planned; ride_->pull(planned, true)) return submit(planned);
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
-        // Where the ride stands: at the end of what is known, or held.
+        // The interpolator is stationary: at the end of the known path, or on hold.
         Result<ExecutionState> finished = finish_path();
         if (!finished || !more_follows) return finished;
     } else {
-        pop_driven(ride_->rider().first_pending_move());  // dwells of no time
+        pop_driven(ride_->rider().first_pending_move());  // dwells of zero duration
     }
     return more_follows ? state_ = ExecutionState::waiting : stand();
 }
 
-/// A first move alone waits for the line after it: then it need not end at rest.
+/// Returns true while a single first move waits for the line after it, so that it need not end at standstill.
 bool StreamExecutor::ride_may_wait(bool rest_follows) const {
     return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !ride_ends_;
 }
@@ -72,7 +73,8 @@ Result<void> StreamExecutor::fill_ride() {
     return {};
 }
 
-/// Of one move of a ride the axes get several blocks; else a block may stand for several moves.
+/// Removes the moves before a block. With an interpolator one move becomes several blocks; otherwise one block may
+/// cover several moves.
 void StreamExecutor::pop_before_block(std::int64_t block) {
     for (; first_block_ < block; ++first_block_) {
         for (std::int64_t left = ride_ ? 0 : blocks_.front(); left > 0; pop()) left -= entries_.front().is_move();
@@ -81,7 +83,7 @@ void StreamExecutor::pop_before_block(std::int64_t block) {
     if (ride_) pop_driven(blocks_.front());
 }
 
-/// All up to the last move before this one.
+/// Removes all entries up to the last move before this one.
 void StreamExecutor::pop_driven(std::int64_t first_pending_move) {
     std::size_t driven = 0;
     for (std::size_t i = 0; i < planned_; ++i)

@@ -1,4 +1,4 @@
-// What looks ahead along a path: moves go in one by one, planned moves come out in order.
+// Interface of the look-ahead planners: moves are pushed one by one, planned moves are pulled in order.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -8,26 +8,28 @@
 
 namespace motionrack::control {
 
-/// What the hardware that drives the path asks of it beside what the machine does.
+/// Constraints of the hardware that executes the path, in addition to the limits of the machine.
 class DriveConstraints {
   public:
     virtual ~DriveConstraints() = default;
-    /// The greatest speed along the path at the joint of two moves, mm/s (degrees/s); infinity if there is no limit.
+    /// Returns the highest velocity along the path at the junction of two moves, mm/s (degrees/s); infinity without a
+    /// limit.
     virtual double max_junction_velocity(const Geometry& before, const Geometry& after) const = 0;
-    /// The part of a move, mm (degrees), on which the hardware can neither speed up nor slow down; 0 .. its length.
+    /// Returns the length at constant velocity that the hardware needs in a move, mm (degrees); 0 .. the length of the
+    /// move.
     virtual double constant_velocity_length(const Geometry& path) const = 0;
-    /// How many axes it draws together; one more is steered beside these.
+    /// Returns the number of axes that the hardware interpolates together; one auxiliary axis can run beside them.
     virtual int max_interpolated_axes() const { return axis_count; }
-    /// A steered axis is told its speed no more often than after so many s.
+    /// Returns the minimum time between two velocity updates of an auxiliary axis, s.
     virtual double min_velocity_update_s() const { return 0; }
-    /// By what the speed along the path is multiplied at the joint of two moves where the rate of the hardware goes on.
+    /// Returns the factor on the path velocity at the junction of two moves while the hardware keeps its pulse rate.
     virtual double speed_ratio(const Geometry& before, const Geometry& after) const {
         (void)before, (void)after;
         return 1;
     }
-    /// A move that takes less, s, may be over before the hardware has the next one.
+    /// Returns the shortest duration of a move, s; a shorter one may end before the hardware has the next move.
     virtual double min_seconds() const { return 0; }
-    /// A new speed counts so long after the joint of two moves, s: until then the old one goes on.
+    /// Returns the delay of a new velocity after the junction of two moves, s; the old velocity applies until then.
     virtual double late_seconds() const { return 0; }
 };
 
@@ -41,28 +43,28 @@ class TrajectoryPlanner {
   public:
     virtual ~TrajectoryPlanner() = default;
 
-    /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell
-    /// ends the path there. Refused, with the planner as it was: see checked_path.
+    /// Adds a move that starts where the last one ended. Requires has_room(). Skips a move of zero length; a dwell ends
+    /// the path. Refused, without any change: see checked_path.
     virtual Result<void> push(const Move& move) = 0;
 
-    /// False only while there are planned moves to pull.
+    /// Returns false only while planned moves can be pulled.
     virtual bool has_room() const = 0;
 
-    /// No move follows for now: the path comes to rest at its present end, and all of it can be pulled.
+    /// Ends the path at its current end with a standstill, so that all of it can be pulled.
     virtual void flush() = 0;
 
-    /// The next planned move; false if none is ready.
+    /// Returns the next planned move; false if none is ready.
     virtual bool pull(PlannedMove& planned) = 0;
 
-    /// Comes to rest along the path as soon as the limits allow, and then has nothing more to pull. False: it cannot,
-    /// and goes on as planned.
+    /// Decelerates to a stop on the path as soon as the limits allow, and has nothing more to pull then. Returns false,
+    /// without any change, if it cannot.
     virtual bool hold() { return false; }
 };
 
 class PathLimits;
 
-/// The move from where it begins. Refused: numbers that are not finite, a feed that is not above 0, an arc without a
-/// plane or turns, an axis the machine does not have.
+/// Computes the geometry of the move from `start`. Refused: numbers that are not finite, a feed rate that is not above
+/// 0, an arc without a plane or turns, a missing axis.
 Result<Geometry> checked_path(const Move& move, const Point& start, const PathLimits& limits);
 
 }  // namespace motionrack::control

@@ -1,5 +1,6 @@
-// A travel is solved in units of its limits (jerk 1, acceleration 1) and told in the user's: from the start on as far
-// as the cruise, from the target back behind it, so that both ends are exact and the roundings meet in the middle.
+// A profile is solved in units of its limits (jerk 1, acceleration 1) and stored in user units. It is stored forwards
+// from the start up to the cruise, and backwards from the target behind it. Both ends are exact; rounding errors meet
+// in the middle.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double to_roundings = 1 + 1e-10;
 
-/// Of one user's unit in those where jerk and acceleration have the limit 1.
+/// One user unit in the scaled units, in which jerk and acceleration have the limit 1.
 struct Scale {
     explicit Scale(const KinematicLimits& limits)
         : accel(1 / limits.accel),
@@ -21,13 +22,13 @@ struct Scale {
           position(speed * limits.jerk * accel),
           top(limits.speed * speed) {}
     double accel;
-    double seconds;  ///< user's in one scaled
+    double seconds;  ///< user seconds in one scaled second
     double speed;
     double position;
     double top;
 };
 
-/// The speed that is left, or reached, when the acceleration has gone to 0.
+/// Returns the velocity when the acceleration has reached 0.
 double speed_at_last(double speed, double accel) {
     return speed + 0.5 * accel * std::fabs(accel);
 }
@@ -47,7 +48,7 @@ bool finite(const KinematicState& s) {
 
 }  // namespace
 
-/// Phases in the user's units, from scaled ones.
+/// Converts scaled phases to user units.
 class AxisProfileBuilder {
   public:
     AxisProfileBuilder(AxisProfile& out, const KinematicState& from, const KinematicLimits& limits, const Scale& scale)
@@ -59,7 +60,7 @@ class AxisProfileBuilder {
 
     double way() const { return way_; }
 
-    /// From here to a speed in user's units, the rest scaled.
+    /// Returns the conditions from the current state to a velocity in user units, the other values scaled.
     BoundaryConditions course_to(double speed, double accel, double way) const {
         const double end = speed * scale_.speed;
         const double change = time_ == 0 ? (speed - at_.speed) * scale_.speed : end - speed_;
@@ -73,7 +74,7 @@ class AxisProfileBuilder {
         accel_ = sign;
     }
 
-    /// Returns the greatest speed for what follows, which the start may exceed by roundings.
+    /// Returns the maximum velocity for the following phases, which the start may exceed by rounding.
     double bring_speed_within() {
         const double last = speed_at_last(speed_, accel_);
         const double most = std::max(std::fabs(last), std::fabs(speed_));
@@ -86,7 +87,7 @@ class AxisProfileBuilder {
         return scale_.top;
     }
 
-    /// Phases of one sign of the jerk each, in time's order; the first four are told from the start on.
+    /// Adds the phases, each with jerk of one sign, in order of time; stores the first four forwards.
     void add(const TimeOptimalSolution& course, double top) {
         const DoubleSPhases& p = course.phases;
         const double side = course.mirrored ? -1 : 1;
@@ -112,7 +113,7 @@ class AxisProfileBuilder {
         }
     }
 
-    /// The last three phases, told back from the target.
+    /// Stores the last three phases backwards from the target.
     void end_at(const KinematicState& target) {
         double end[4] = {time_};
         for (int k = 0; k < 3; ++k) end[k + 1] = end[k] + tail_[k].seconds * scale_.seconds;
@@ -133,7 +134,7 @@ class AxisProfileBuilder {
         out_.target_ = target;
     }
 
-    /// The direct change of speed, told from the start on.
+    /// Adds a direct velocity change, stored forwards.
     void change(const DirectVelocityChange& change, double speed, double accel) {
         const double side = change.mirrored ? -1 : 1;
         forward(side, change.rise);
@@ -153,7 +154,7 @@ class AxisProfileBuilder {
                 s.speed + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
     }
 
-    /// `sign` of the jerk; `scaled` s.
+    /// `sign`: of the jerk; `scaled`: duration in scaled s.
     void forward(double sign, double scaled) {
         if (!(scaled > 0)) return;
         const double seconds = scaled * scale_.seconds;
@@ -178,7 +179,7 @@ class AxisProfileBuilder {
         forward(0, scaled);
     }
 
-    /// Before the course begins: also in scaled units, for what is left of the way.
+    /// Adds a phase before the solution; tracks it in scaled units as well, for the remaining distance.
     void ramp(double sign, double t) {
         way_ += t * (speed_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
         speed_ += t * (accel_ + 0.5 * t * sign);
@@ -193,8 +194,8 @@ class AxisProfileBuilder {
         hold(accel_ > 0 ? 1 : -1, t);
     }
 
-    /// From above the greatest speed (side 1; -1: below minus it) down to it, with no more acceleration than lets the
-    /// axis stay above minus it.
+    /// Decelerates from above the maximum velocity (side 1; -1: below minus the maximum) to it, with an acceleration
+    /// that keeps the velocity above minus the maximum.
     void brake(double side) {
         const double top = scale_.top;
         const double over = side * speed_ - top, accel = side * accel_;
@@ -212,7 +213,7 @@ class AxisProfileBuilder {
             accel_ = side * steepest;
         }
         speed_ = side * top;
-        // on from just there: a start far outside has roundings that are large beside the limits
+        // continue exactly at the limit: far outside, rounding errors are large relative to the limits
         at_.speed = side * limits_.speed;
         at_.accel = accel_ * limits_.accel;
         goes_on_ = false;
@@ -223,7 +224,7 @@ class AxisProfileBuilder {
     const KinematicLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
-    bool goes_on_ = true;             ///< at_ is the end of the last phase, to the bit
+    bool goes_on_ = true;             ///< at_ is exactly the end of the last phase
     double speed_, accel_, way_ = 0;  ///< scaled
     std::array<Part, 3> tail_ = {};
 };

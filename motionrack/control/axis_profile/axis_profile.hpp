@@ -1,15 +1,15 @@
-// The quickest motion of one axis from any state to another, within a speed, an acceleration and a jerk.
+// Time-optimal profile of one axis from any state to any state, within a velocity, an acceleration and a jerk.
 //
-//   acceleration                                    phases of constant jerk; any may last 0 s and is then left out
+//   acceleration                                    phases of constant jerk; any may last 0 s and is then omitted
 //      ___                                            0 2 4 6: jerk +j -j -j +j
-//     /   \                                           1 5:     greatest acceleration
-//  __/     \___________            __                 3:       cruise at the greatest speed
-//   | 0| 1|2|    3     \          /                 or the same upside down. In front of them stand those that bring a
-//                       \________/                  start that is outside the limits within them.
+//     /   \                                           1 5:     maximum acceleration
+//  __/     \___________            __                 3:       cruise at the maximum velocity
+//   | 0| 1|2|    3     \          /                 or the same mirrored. Phases in front of them bring a start state
+//                       \________/                  from outside the limits to within them.
 //                      | 4|  5  |6|
 //
-// Units: any length (mm, degrees, pulses) and seconds. The solution takes no memory and no C library functions beyond
-// sqrt, and has the same bits on every compiler.
+// Units: any length (mm, degrees, pulses) and seconds. The solution allocates nothing and calls only sqrt of the C
+// library, so it has the same bits on every compiler.
 #pragma once
 
 #include <array>
@@ -19,34 +19,35 @@
 
 namespace motionrack::control {
 
-/// Where an axis is and how it moves.
+/// Position, velocity and acceleration of an axis.
 struct KinematicState {
     double position = 0;
-    double speed = 0;  ///< of either sign
-    double accel = 0;  ///< of either sign
+    double speed = 0;  ///< signed
+    double accel = 0;  ///< signed
 };
 
-/// Greatest amounts, in both directions; all > 0 and finite.
+/// Absolute limits, for both directions; all > 0 and finite.
 struct KinematicLimits {
     double speed = 0;
     double accel = 0;
     double jerk = 0;
 };
 
-/// Positions over time, made by travel(), change_speed() and stop().
+/// Position over time, made by time_optimal_profile(), velocity_change_profile() and stop_profile().
 class AxisProfile {
   public:
-    /// A cubic in the time since `zero`; it holds until `end`.
+    /// A cubic in the time since `zero`, valid until `end`.
     struct Phase {
-        double end;      ///< s from the start of the travel
-        double zero;     ///< s from the start of the travel: the phase's begin, or its end where it is told backwards
-        double seconds;  ///< how long it lasts, more exactly than `end` tells it; < 0 where it is told backwards
+        double end;  ///< s from the start of the profile
+        double
+            zero;  ///< s from the start of the profile: start of the phase, or its end if the phase is stored backwards
+        double seconds;                 ///< duration, more exact than `end`; < 0 if the phase is stored backwards
         double position, speed, accel;  ///< at `zero`
         double jerk;
 
-        /// The state at `t`, s from the start of the travel, within the phase.
+        /// Returns the state at `t`, s from the start of the profile, within the phase.
         ProfileSample at(double t) const {
-            // the end of a long travel is known less exactly than the length of a phase: no reason to pass a limit
+            // `end` of a long profile is less exact than the duration of a phase, and must not cause a limit violation
             double s = t - zero;
             s = seconds < 0 ? (s < seconds ? seconds : s > 0 ? 0 : s) : (s > seconds ? seconds : s < 0 ? 0 : s);
             return {position + s * (speed + s * (0.5 * accel + s * jerk * (1.0 / 6))),
@@ -55,18 +56,18 @@ class AxisProfile {
     };
     static constexpr int max_phases = 9;
 
-    AxisProfile() {}  // which leaves the phases as they are: clearing them would take a tenth of a travel's time
+    AxisProfile() {}  // leaves the phases uninitialised: clearing them would take a tenth of the time of a solution
 
     double duration() const { return duration_; }           ///< s
-    const KinematicState& start() const { return start_; }  ///< as it was given
+    const KinematicState& start() const { return start_; }  ///< as given
     const KinematicState& target() const {
         return target_;
-    }  ///< as it was given; after change_speed() with the place reached
+    }  ///< as given; after velocity_change_profile() with the position reached
 
-    /// In order; those of 0 s are left out. At most 9.
+    /// Returns the phases in order, without those of 0 s. At most 9.
     std::span<const Phase> phases() const { return {phases_.data(), static_cast<std::size_t>(count_)}; }
 
-    /// The state at `t` s; up to 0 the start, from duration() on the target, exactly.
+    /// Returns the state at `t` s; up to 0 the start, from duration() on exactly the target.
     ProfileSample sample(double t) const;
 
   private:
@@ -78,27 +79,29 @@ class AxisProfile {
     KinematicState target_;
 };
 
-/// True if a motion can end so and go on within the limits: |accel| <= limits.accel and
-/// |speed| + accel^2 / (2 limits.jerk) <= limits.speed, to 1e-10 of the limits. False for what is not finite.
+/// Returns true if a motion can end in this state and continue within the limits. This requires |accel| <= limits.accel
+/// and |speed| + accel^2 / (2 limits.jerk) <= limits.speed, to 1e-10 of the limits. Returns false for numbers that are
+/// not finite.
 bool is_feasible_end(double speed, double accel, const KinematicLimits& limits);
 
-/// The quickest motion from `from` to `to`, its duration to 1e-8 of itself and of 1 s; speed and acceleration stay
-/// within 1 + 1e-9 of the limits. `from` is any state of finite numbers. An acceleration outside the limits is brought
-/// within first; then a speed that is outside, or cannot but get there, is, too, each as quickly as the jerk allows.
-/// The quickest motion begins where the speed is within for good, so that a start that is too fast comes in slowing
-/// down and may get slower than the limit. A target that the direct change of speed misses by no more than roundings of
-/// the numbers is reached by it. Nothing if the motion cannot end so (see is_feasible_end), a number is not finite or a
-/// limit is not > 0.
+/// Computes the time-optimal profile from `from` to `to`; its duration is exact to 1e-8 of itself and of 1 s. Velocity
+/// and acceleration stay within 1 + 1e-9 of the limits. `from` is any state of finite numbers. An acceleration outside
+/// the limits is brought within them first. Then a velocity that is outside, or cannot avoid leaving, is brought
+/// within, as fast as the jerk allows. The time-optimal part starts when the velocity stays within the limits; it may
+/// overshoot below the velocity limit while it decelerates into it. Reaches a target that the direct velocity change
+/// misses only by rounding. Returns nothing if the end state is not feasible (see is_feasible_end), a number is not
+/// finite or a limit is not > 0.
 std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, const KinematicState& to,
                                                 const KinematicLimits& limits);
 
-/// The quickest change to a speed and an acceleration, wherever that is. An acceleration outside the limits is brought
-/// within first; a speed outside is left on the quickest way to the target. Nothing as for travel().
+/// Computes the fastest change to a velocity and an acceleration; the end position is free. An acceleration outside the
+/// limits is brought within them first; a velocity outside is left on the way to the target. Returns nothing as
+/// time_optimal_profile().
 std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
                                                    const KinematicLimits& limits);
 
-/// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite or a limit is
-/// not > 0.
+/// Computes the fastest stop; the end position is free; as velocity_change_profile() to 0. Returns nothing if a number
+/// is not finite or a limit is not > 0.
 std::optional<AxisProfile> stop_profile(const KinematicState& from, const KinematicLimits& limits);
 
 inline ProfileSample AxisProfile::sample(double t) const {

@@ -1,9 +1,10 @@
-// Which swing reaches a place: by the holds it has a root of a quadratic or of a quartic, bracketed.
+// Finds the double-S profile that reaches a position: depending on the holds a bracketed root of a quadratic or a
+// quartic.
 //
-// A phase of the acceleration that rises from 0 and falls back to 0 lasts u(x) = 2 sqrt(x) for a peak of sqrt(x) <= 1,
-// and u(x) = 1 + x with a hold of x - 1 s. The reach of a swing is (start_foot + v) u(P^2)/2 +- (end_foot + v) u(s^2)/2
-// with v = end_foot + s^2, minus where s < 0. Its derivative over the duration is the flow, which first falls and then
-// rises with s: the reach may rise to a crest, fall and rise again, and what lies before the crest is quicker.
+// A phase of the acceleration that rises from 0 and returns to 0 lasts u(x) = 2 sqrt(x) for a peak of sqrt(x) <= 1,
+// and u(x) = 1 + x with a hold of x - 1 s. The reach is (start_foot + v) u(P^2)/2 +- (end_foot + v) u(s^2)/2 with
+// v = end_foot + s^2, minus where s < 0. Its derivative with respect to the duration is the flow, which first falls and
+// then rises with s: the reach may rise to a crest, fall and rise again. Solutions before the crest are faster.
 
 #include <limits>
 #include <motionrack/control/axis_profile/double_s_solver.hpp>
@@ -23,14 +24,15 @@ double cube_third(double x) {
     return x * x * x * (1.0 / 3);
 }
 
-/// What roundings of the speeds and accelerations make of a way: they change the time at the greatest acceleration
-/// `accel`, and so the way by `sensitive` over it; no more than 1e-12 of the way.
+/// Returns the rounding error of a distance, at most 1e-12 of it. Errors of velocities and accelerations change the
+/// time at the maximum acceleration `accel`, and so the distance by `sensitive` over `accel`.
 double noise_of(double way, double sensitive, double accel) {
     return 8 * relative_rounding * (way + std::min(512 * way, sensitive / accel));
 }
 
-/// A root of a function that is below 0 at `least` and above at `most`, crossing once: Halley's steps from `guess`, a
-/// bisection where one would leave the bracket. `at(x)` gives the function and its first two derivatives.
+/// Finds the root of a function that is below 0 at `least` and above at `most`, with a single crossing. Uses Halley
+/// steps from `guess`, and a bisection where a step would leave the bracket. `at(x)` returns the function and its first
+/// two derivatives.
 struct Jet {
     double value, first, second;
 };
@@ -42,7 +44,7 @@ double crossing(double least, double most, double guess, Function at) {
         (f.value < 0 ? least : most) = x;
         const double change = 2 * f.value * f.first / (2 * f.first * f.first - f.value * f.second);
         double next = x - change;
-        // what is left after a step of third order, once the second is small beside the first
+        // remaining error of a third-order step, once the second derivative term is small beside the first
         const bool near = std::fabs(change * f.second) < 1e-4 * f.first;
         if (near && std::fabs(change) <= 1e-6 * std::fabs(x)) return std::max(least, std::min(next, most));
         if (!(next > least && next < most)) {
@@ -57,7 +59,7 @@ double crossing(double least, double most, double guess, Function at) {
 }  // namespace
 
 DirectVelocityChange direct_velocity_change(const BoundaryConditions& c) {
-    // A single phase from one acceleration to the other changes the speed by `ramp`.
+    // A single phase from one acceleration to the other changes the velocity by `ramp`.
     const double sum = c.start_accel + c.end_accel;
     const double ramp = 0.5 * sum * std::fabs(c.end_accel - c.start_accel);
     const double size =
@@ -107,14 +109,14 @@ double DoubleSSolver::reach_at(double s) const {
     return (both_ + low) * up + (2 * end_foot_ + low) * down;
 }
 
-/// Its sign is that of the flow.
+/// Returns a value with the sign of the flow.
 double DoubleSSolver::flow_at(double s) const {
     const double high = rise_ + s * s;
     if (high > 1) return end_foot_ + s * (s + 0.5);
     return start_foot_ + high + 0.5 * s * std::sqrt(high);
 }
 
-/// The s < 0 at which the reach has its crest; 1 if it has none.
+/// Returns the s < 0 at which the reach has its crest; 1 if it has none.
 double DoubleSSolver::first_crest() const {
     const double below = 0.25 - 4 * end_foot_;
     if (below > 0) {
@@ -146,7 +148,7 @@ bool DoubleSSolver::find(double slack, double sensitive) {
         find_above(least);
         return true;
     }
-    // at both sides of the gap the acceleration's valley is as deep as that
+    // depth of the acceleration valley at both sides of the gap
     const double noise = slack + noise_of(std::fabs(reach_), sensitive, gap_);
     if (reach_ <= reach_at(-gap_) + noise) {
         find_between(least, -gap_);
@@ -166,7 +168,7 @@ void DoubleSSolver::find_beyond_gap() {
     find_above(gap_);
 }
 
-/// The reach crosses what is wanted once above `least`, or the top is met before.
+/// The reach crosses the required one once above `least`, or the maximum velocity is met before.
 void DoubleSSolver::find_above(double least) {
     const double most = std::max(least, std::sqrt(std::max(0.0, top_ - end_foot_)));
     const double more = reach_ - reach_at(most);
@@ -178,7 +180,7 @@ void DoubleSSolver::find_above(double least) {
     find_between(least, most);
 }
 
-/// The reach crosses what is wanted once between `least` and `most`.
+/// The reach crosses the required one once between `least` and `most`.
 void DoubleSSolver::find_between(double least, double most) {
     if (most > 1 && (least >= 1 || reach_at(1) < reach_)) {
         s_ = std::clamp(with_both_holds(), std::max(1.0, least), most);
@@ -189,7 +191,7 @@ void DoubleSSolver::find_between(double least, double most) {
         s_ = with_hold(least, most);
         return;
     }
-    // |s| at which the peak is just 1
+    // |s| at which the peak is exactly 1
     const double edge = std::sqrt(1 - rise_);
     const auto reach_at_edge = [&](double s) { return both_ + s * s + (2 * end_foot_ + s * s) * s; };
     if (most > edge && (least >= edge || reach_at_edge(edge) < reach_)) {
@@ -235,7 +237,7 @@ double DoubleSSolver::without_hold(double least, double most) const {
     const double b = 4 * both_, c = 4 * reach_, rise_square = rise_ * rise_;
     double guess = 0;
     if (both_ > 0 && reach_ > 0) {
-        // bounds of the root by leaving one of the terms out
+        // bounds of the root by omitting one of the terms
         const double slow = (reach_ + std::sqrt(reach_ * reach_ + both_ * rise_square)) / (2 * both_);
         guess = std::min(slow, cube_root(c) + std::sqrt(rise_));
     } else {
@@ -259,7 +261,7 @@ DoubleSPhases DoubleSSolver::phases() const {
         std::swap(peak, valley);
         std::swap(hold_peak, hold_valley);
     }
-    peak = std::max(peak, start_accel_);  // which they are, but for roundings
+    peak = std::max(peak, start_accel_);  // true except for rounding
     valley = std::max(valley, -end_accel_);
     const bool cruises = cruise_ > 0;
     return {peak - start_accel_,
@@ -274,7 +276,7 @@ DoubleSPhases DoubleSSolver::phases() const {
 TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double top, double slack) {
     const DirectVelocityChange direct = direct_velocity_change(given);
     const BoundaryConditions course = direct.mirrored ? given.mirrored() : given;
-    // the way of the direct change, phase by phase from both ends
+    // distance of the direct change, phase by phase from both ends
     const double a = course.start_accel, b = course.end_accel;
     const double first = direct.rise * (course.start_speed + direct.rise * (0.5 * a + direct.rise * (1.0 / 6)));
     const double last = direct.fall * (course.end_speed - direct.fall * (0.5 * b + direct.fall * (1.0 / 6)));

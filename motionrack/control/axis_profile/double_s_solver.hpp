@@ -1,24 +1,24 @@
-// The family of motions among which the quickest one between two states is found, in units where the greatest jerk
-// and the greatest acceleration are 1.
+// Solves for the double-S profile that is time-optimal between two states, in units where the maximum jerk and the
+// maximum acceleration are 1.
 //
-// The quickest change of speed, wherever it ends, raises the acceleration and lets it fall again (or the other way
-// round). Mirrored if need be, it rises first:
+// The fastest velocity change raises the acceleration and lowers it again (or the reverse); its end position is free.
+// Mirrored if necessary, it rises first:
 //
-//   acceleration    direct            a swing (s > 0)             a swing with s < 0
+//   acceleration    direct            double S (s > 0)            double S with s < 0
 //        ___                          ___                          ___
 //       /   \                        /   \                        /   \      _ end
 //      /     \ end                  /     \          _ end       /     \____/
 //   __/_______\___________       __/_______\________/_____     _/___________|___ -s
 //   start                                   \______/ -s        start
 //
-// What gets farther than the direct change is a swing: jerk +1, -1, +1, the acceleration held where it is 1 or -1. What
-// gets less far is, told backwards in time, a swing, too.
-// Draw the first and the last phase on to where the acceleration is 0. The speeds there are the feet, and the way
-// between these two places is the reach. With the peak P and the valley -s all swings have
+// A distance beyond that of the direct change needs a double S: jerk +1, -1, +1, with holds at the accelerations 1 and
+// -1. A shorter distance needs a double S in reversed time. Extend the first and the last phase to zero acceleration.
+// The velocities there are the feet (zero_accel_velocity); the distance between these two points is the reach. With the
+// peak P and the valley -s every double S has
 //     P^2 - s^2 = end_foot - start_foot = rise
-// (with a hold of h seconds 1 + h instead of P^2, or of s^2), so that s alone tells them apart; s begins at minus the
-// last acceleration. Where the acceleration passes through 0, at s > 0, the speed has its peak end_foot + s^2, and a
-// swing that would get faster than the greatest speed cruises there instead.
+// (with a hold of h seconds 1 + h instead of P^2, or of s^2), so that s alone distinguishes them; s starts at minus the
+// final acceleration. Where the acceleration passes through 0, at s > 0, the velocity has its peak end_foot + s^2. A
+// double S that would exceed the maximum velocity cruises there instead.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,12 @@
 
 namespace motionrack::control {
 
-/// Speed and acceleration at both ends and the way between them.
+/// Velocity and acceleration at both ends, and the distance.
 struct BoundaryConditions {
     double start_speed, start_accel;
     double end_speed, end_accel;
     double distance;
-    double change;  ///< of the speed: where two speeds are nearly equal, more exact than their difference here
+    double change;  ///< velocity difference: more exact than the difference of nearly equal velocities
 
     BoundaryConditions mirrored() const {
         return {-start_speed, -start_accel, -end_speed, -end_accel, -distance, -change};
@@ -41,44 +41,45 @@ struct BoundaryConditions {
     }
 };
 
-/// Durations of the phases with jerk +1, 0, -1, 0, -1, 0, +1. Where there is no cruise, the first -1 lasts as both.
+/// Durations of the phases with jerk +1, 0, -1, 0, -1, 0, +1. Without cruise the first -1 covers both.
 struct DoubleSPhases {
     double rise, hold, fall, cruise, sink, low, back;
 };
 
-/// The quickest change of speed: jerk +1, 0, -1, or mirrored -1, 0, +1.
+/// The fastest velocity change: jerk +1, 0, -1, or mirrored -1, 0, +1.
 struct DirectVelocityChange {
     bool mirrored;
     double rise, hold, fall;
 };
-/// The way of the course does not matter.
+/// Ignores the distance of `course`.
 DirectVelocityChange direct_velocity_change(const BoundaryConditions& course);
 
-/// A motion as a swing of a course that may be mirrored, then told backwards.
+/// A solution as phases of boundary conditions that are mirrored if so flagged, then reversed in time.
 struct TimeOptimalSolution {
     bool mirrored;
     bool backwards;
     DoubleSPhases phases;
 };
 
-/// |accelerations| <= 1, speeds within `top` for good; `slack` is how much of the way is nothing but roundings.
+/// Requires |accelerations| <= 1 and velocities that stay within `top`; `slack` is the share of the distance due to
+/// rounding.
 TimeOptimalSolution solve_time_optimal(const BoundaryConditions& course, double top, double slack);
 
-/// DoubleSSolver of a course whose direct change rises first and falls short of the way.
+/// Solver for conditions whose direct change rises first and does not reach the distance.
 class DoubleSSolver {
   public:
     DoubleSSolver(const BoundaryConditions& course, double top);
 
-    /// Finds the quickest among those that the direct change leads to. False: the way is less than they come to, and
-    /// that of the course told backwards is to be taken beyond its gap. `slack` and what roundings make of `sensitive`
-    /// are forgiven at the gap.
+    /// Finds the fastest solution of the branch that starts at the direct change. Returns false if the distance is
+    /// shorter than that branch; then solve the time-reversed conditions beyond the gap. `slack`, and the rounding
+    /// error of `sensitive`, are tolerated at the gap.
     bool find(double slack, double sensitive);
-    /// Finds the quickest of those beyond the gap.
+    /// Finds the fastest solution beyond the gap.
     void find_beyond_gap();
     DoubleSPhases phases() const;
 
   private:
-    /// P^2, or 1 and the hold.
+    /// Returns P^2, or 1 plus the hold.
     double high_at(double s) const { return std::max(floor_, rise_ + s * s); }
     double reach_at(double s) const;
     double flow_at(double s) const;
@@ -93,13 +94,13 @@ class DoubleSSolver {
     double start_foot_, end_foot_;
     double rise_;   ///< from foot to foot, >= 0
     double both_;   ///< sum of the feet
-    double reach_;  ///< wanted
+    double reach_;  ///< required
     double top_;
     double least_;          ///< s of the direct change
-    bool swapped_ = false;  ///< peak and valley, and the feet, have changed places, since the feet would fall
-    double floor_ = 0;      ///< what P^2 is at least, since the acceleration starts there
-    double gap_ = 0;        ///< no swing has |s| below it: its first phase would last less than nothing
-    double s_ = 0;          ///< found
+    bool swapped_ = false;  ///< peak and valley, and the feet, are swapped so that the feet rise
+    double floor_ = 0;      ///< minimum of P^2, because the acceleration starts there
+    double gap_ = 0;        ///< no solution has |s| below it: its first phase would have a negative duration
+    double s_ = 0;          ///< solution
     double cruise_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Knots first, then corners: each is the arc's place at the mean of its knots, moved outwards by what the spreading
-// takes back.
+// Computes the knots first, then the corners: each is the point of the arc at the mean of its knots, moved outwards to
+// compensate for the blend.
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 namespace motionrack::control {
 namespace {
 
-/// The greatest angle of a step (rad).
+/// Maximum angle of a knot interval (rad).
 constexpr double widest_angle = 0.2;
 
-/// Steps that double, one after the other, at most.
+/// Maximum number of consecutive doubled intervals.
 constexpr int max_doubled = 60;
 
-/// Of steps that double, from 1, the sum of the first `count`.
+/// Returns the sum of the first `count` doubled intervals, starting with 1.
 double doubled(std::int64_t count) {
     return static_cast<double>((std::uint64_t{1} << count) - 1);
 }
@@ -92,7 +92,7 @@ double ArcControlPolygon::knot(std::int64_t i) const {
     return first_ + step_in_ * doubled(rising_) + static_cast<double>(i - rising_) * step_;
 }
 
-/// The control point of a cubic B-spline that follows the arc: exact for cubics.
+/// Returns the control point of a cubic B-spline that follows the arc: exact for cubics.
 Point ArcControlPolygon::control(double u, const double (&knots)[3]) const {
     const double a = knots[0] - u, b = knots[1] - u, c = knots[2] - u;
     const double second = -(a * a + b * b + c * c) / 12;

@@ -1,4 +1,4 @@
-// An arc turns with the part of it that is done; a spiral's u is an integral that is never less than its length.
+// The angle of an arc is proportional to its completed share; u of a spiral is an integral that is at least its length.
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ ArcCurvePoint ArcCurve::at(double u) const {
     const double slope = rate_out_ - rate_in_;
     const double part =
         slope == 0 ? u / rate_in_ : 2 * u / (rate_in_ + std::sqrt(std::max(0.0, rate_in_ * rate_in_ + 2 * slope * u)));
-    const double by_u = 1 / (rate_in_ + slope * part);  // derivatives of `part` by u
+    const double by_u = 1 / (rate_in_ + slope * part);  // derivatives of `part` with respect to u
     const double by_u2 = -slope * by_u * by_u * by_u;
     const double by_u3 = 3 * by_u2 * by_u2 / by_u;
     ArcCurvePoint out;
@@ -49,7 +49,7 @@ ArcCurvePoint ArcCurve::at(double u) const {
     const double x = from_first_ * turned.cos - from_second_ * turned.sin;
     const double y = from_first_ * turned.sin + from_second_ * turned.cos;
     const double size = 1 + growth_ * part;
-    // of the place in the plane by `part`: outwards along (x, y), around along (-y, x)
+    // derivative in the plane with respect to `part`: outwards along (x, y), around along (-y, x)
     const double out1 = growth_, around1 = size * sweep_;
     const double out2 = -size * sweep_ * sweep_, around2 = 2 * growth_ * sweep_;
     const double out3 = -3 * growth_ * sweep_ * sweep_, around3 = -size * sweep_ * sweep_ * sweep_;

@@ -1,4 +1,4 @@
-// Widths: the widest that the tolerance allows, and no wider than the machine can notice.
+// Blend lengths: as long as the tolerance allows, and not longer than useful for the machine.
 
 #include <algorithm>
 #include <cmath>
@@ -8,30 +8,29 @@
 namespace motionrack::control {
 namespace {
 
-/// A turn that takes less than this part of the acceleration and of the jerk at the greatest speed needs to be no
-/// wider.
+/// A corner that takes less than this share of acceleration and jerk at the maximum velocity needs no longer blend.
 constexpr double unnoticed = 1.0 / 16;
 
-/// Changes smaller than this are none.
+/// Smaller changes count as zero.
 constexpr double no_change = 1e-13;
 
-/// Not narrower than this (mm, degrees) for want of need.
+/// Minimum blend length (mm, degrees) by the previous rule.
 constexpr double narrowest_need = 0.05;
 
-/// Widths become narrower by no more than this to reach from corner to corner, where the two sides differ by this part
-/// of the width.
+/// Lower bound on the factor by which a blend is shortened to reach from corner to corner. Then the allowed difference
+/// of its two sides, relative to its length.
 constexpr double min_snapped = 0.7;
 constexpr double min_snapped_even = 0.45;
 constexpr double snap_ratio = 0.01;
 
-/// Widths reach from their corner to this part of the way to where the curve begins or ends.
+/// Largest share of the distance from a corner to the start or end of the curve that a blend covers.
 constexpr double part_to_rest = 0.6;
 
-/// Lengths that differ by less, relatively, are equal.
+/// Lengths with a smaller relative difference are equal.
 constexpr double equal = 1e-10;
 
-/// The deviation at distance d from a turn of size 1 and width L is (L - 2d)^3 / 12 L^2. Sums of these over turns that
-/// have the same width.
+/// The deviation at distance d from a corner of size 1 and blend length L is (L - 2d)^3 / 12 L^2. Sum of these over
+/// blends of the same length.
 struct Sum {
     double a = 0, b = 0, c = 0, e = 0;
     double per_accel = 0, per_jerk = 0;
@@ -48,7 +47,7 @@ struct Sum {
     double slope(double width) const {
         return (a * width * width * width - c * width + 2 * e) / (12 * width * width * width);
     }
-    /// The width at which the sum is `room`, or a little more: it is convex, and `width` has more.
+    /// Returns the blend length at which the sum is `room`, or slightly more: it is convex, and `width` exceeds it.
     double solve(double width, double room) const {
         for (int i = 0; i < 3; ++i) width -= (at(width) - room) / slope(width);
         return width;
@@ -121,7 +120,7 @@ double CornerBlends::proposed_width(std::int64_t k) const {
     if (own.linear < no_change && own.rotary < no_change) return 0;
     const std::int64_t first = std::max<std::int64_t>(0, k - reach);
     const std::int64_t past = std::min(made_, k + reach + 1);
-    // No width reaches far towards a rest: what turns there takes the jerk with which the path begins or ends.
+    // A blend near a standstill stays short: it uses jerk that the start or end of the path needs.
     const double left = (own.u - (*this)[first].u) * (first == 0 ? part_to_rest : 1);
     const double right = past == k + reach + 1 ? (*this)[past - 1].u - own.u : part_to_rest * (end_ - own.u);
     const double most = 2 * std::min(left, right);
@@ -182,9 +181,8 @@ double CornerBlends::shrink_at(std::int64_t k) const {
     return scale * std::min(1.0, own.tolerance / sum);
 }
 
-/// Spreads a turn over a width, or over a little less so that it reaches from corner to corner, as nearly as it can:
-/// where corners are as far apart as each other, the spread turns then add up to a curvature without ripples, and knots
-/// fall together.
+/// Sets a blend length, or slightly less so that the blend reaches from corner to corner. With equally spaced corners
+/// the blends then add up to a curvature without ripples, and knots coincide.
 void CornerBlends::set_blend_length(std::int64_t k, double width) {
     CornerBlend& own = turn(k);
     own.blend_length = width;

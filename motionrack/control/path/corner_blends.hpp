@@ -1,10 +1,10 @@
-// The turns of one curve, in order, and the widths over which they are spread.
+// Corner blends of one curve, in order, with their blend lengths.
 //
-//   add --> | made: proposed a width | checked: what it leaves of each corner's room | settled: final | --> drop
+//   add --> | added: length proposed | checked: scale that keeps each corner's tolerance | settled: final | --> drop
 //
-// A width is proposed for each turn as if its neighbours had the same. Then each corner looks at all that reach over
-// it: where their deviations add up to more than its room, all of them shrink. No width reaches over more than `reach`
-// turns on either side, so a turn settles when 3 * reach turns after it are known, or all.
+// The proposed length of a blend assumes neighbours of the same length. The check adds the deviations of all blends
+// that reach over a corner; if the sum exceeds its tolerance, all of them shrink. A blend reaches over at most `reach`
+// corners on either side, so it settles when 3 * reach corners after it are known, or all.
 #pragma once
 
 #include <array>
@@ -14,28 +14,28 @@
 
 namespace motionrack::control {
 
-/// The path's direction changes by `change` at `u`; this is spread over begin .. end as a triangle whose peak is at
-/// `peak`. The mean of these three is u, so that outside of them nothing changes.
+/// The tangent of the path changes by `change` at `u`. The blend spreads this over begin .. end as a triangle with its
+/// peak at `peak`. The mean of these three is u, so that nothing changes outside.
 struct CornerBlend {
     double u = 0;
     double begin = 0, peak = 0, end = 0;
     double rise = 0,
            fall = 0;     ///< 1 / ((peak - begin)(end - begin)), 1 / ((end - peak)(end - begin)); 0 without such a side
-    bool fixed = false;  ///< its width was given: of an arc
+    bool fixed = false;  ///< given blend length (arcs)
     double blend_length = 0;
-    double linear = 0;  ///< size of the change of XYZ
-    double rotary = 0;  ///< of the rotary axis that turns most
-    double tolerance =
-        0;  ///< how far the curve may be from the corner by spreading: mm, or degrees where only ABC move
-    double room_per_rotary = 0;  ///< what a degree of the rotary axes counts in `room`
-    double speed = 0;            ///< greatest du/dt here
-    double per_accel = 0;        ///< of the change; greatest over the axes, so that the width for a speed can be told
+    double linear = 0;           ///< size of the XYZ change
+    double rotary = 0;           ///< change of the rotary axis with the largest change
+    double tolerance = 0;        ///< largest deviation from the corner by blending: mm, or degrees where only ABC move
+    double room_per_rotary = 0;  ///< weight of a degree of the rotary axes in `tolerance`
+    double speed = 0;            ///< maximum du/dt here
+    double per_accel =
+        0;  ///< change relative to the axis limit, largest over the axes: gives the blend length for a velocity
     double per_jerk = 0;
-    double blend_scale = 1;  ///< what its corner asks of all that reach over it
-    Point at = {};           ///< the corner
+    double blend_scale = 1;  ///< factor that the tolerance of its corner requires of all blends that reach over it
+    Point at = {};           ///< position of the corner
     Point change = {};
-    Point tangent = {};     ///< after the corner
-    double feed = 0;        ///< after the corner; each span begins with a turn, so pieces end where feeds change
+    Point tangent = {};  ///< after the corner
+    double feed = 0;  ///< after the corner; every segment begins with a blend, so segments end where feed rates change
     std::int32_t line = 0;  ///< after the corner
 };
 
@@ -46,16 +46,16 @@ class CornerBlends {
 
     explicit CornerBlends(const MachineLimits& limits);
 
-    /// Begins a new curve.
+    /// Starts a new curve.
     void clear();
     bool has_room() const { return made_ - dropped_ < capacity; }
-    /// A turn to fill; begin, peak and end too where it is fixed.
+    /// Adds a blend for the caller to fill; for a fixed one including begin, peak and end.
     CornerBlend& add();
-    /// What is to be known of the last turn is: works out what follows from its change.
+    /// Completes the last blend: computes the values that follow from its change.
     void added();
-    /// No turn comes after; the curve ends at u.
+    /// Ends the curve at u; no corner follows.
     void complete(double u);
-    /// Turns before this one are not needed any more.
+    /// Discards the blends before this one.
     void drop_before(std::int64_t index) { dropped_ = index; }
 
     std::int64_t size() const { return made_; }

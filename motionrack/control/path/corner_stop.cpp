@@ -8,17 +8,17 @@ namespace motionrack::control {
 namespace {
 
 constexpr double stop_rounding = 1e-9;
-/// What both of an axis may take.
+/// Maximum share of an axis' jerk for each of the two legs.
 constexpr double max_share = 0.5;
-/// What is eased is a little longer than what overlaps.
+/// Ratio of the reduced-jerk length to the overlap.
 constexpr double spare = 1.1;
-/// Eased are legs that win more than this part of their time: where the jerk changes their speed is not quite the
-/// quickest.
+/// Minimum gain, relative to the duration of a leg, for a jerk reduction: a leg whose velocity the jerk changes is not
+/// quite time-optimal.
 constexpr double worth_easing = 0.01;
-/// Less of the room is tried too: down to this part.
+/// Smallest share of the tolerance that is tried.
 constexpr double min_room = 0.05;
 
-/// s in which a leg that begins at rest only speeds up: to its speed, or to its middle.
+/// Returns the time in which a leg from standstill only accelerates: to its velocity, or to its middle, s.
 double rising_seconds(const LegLimits& leg) {
     const double full = leg.accel / leg.jerk, by_jerk = cube_root(4 * leg.length / leg.jerk);
     const double to_middle =
@@ -26,12 +26,12 @@ double rising_seconds(const LegLimits& leg) {
     return std::min(ramp_duration_s(leg.speed, leg), to_middle);
 }
 
-/// s in which the acceleration of such a leg rises.
+/// Returns the time in which the acceleration of such a leg rises, s.
 double rise_of(const LegLimits& leg) {
     return std::min(leg.accel / leg.jerk, 0.5 * rising_seconds(leg));
 }
 
-/// s until such a leg has gone so far, but no longer than its acceleration lasts.
+/// Returns the time until such a leg has covered a distance, limited to its acceleration phase, s.
 double leg_seconds_over(double way, const LegLimits& leg) {
     const double rise = rise_of(leg), left = way - leg.jerk * rise * rise * rise / 6;
     if (left <= 0) return cube_root(6 * way / leg.jerk);
@@ -44,20 +44,20 @@ LegLimits eased(LegLimits leg, double share) {
     return leg;
 }
 
-/// An axis that turns back gets the acceleration of both: this is the part of the jerk with which they overlap as long
-/// as the room lasts and it does not get too much.
+/// Returns the share of the jerk for an axis that reverses and so has the acceleration of both legs. With it they
+/// overlap for as long as the tolerance allows, within the axis limits.
 double share_turning_back(const LegLimits& leg, double corner_tolerance_mm) {
     const double jerk = 0.5 * leg.accel / cube_root(6 * corner_tolerance_mm);
     return jerk * std::sqrt(jerk) / leg.jerk;
 }
 
-/// What overlaps for so long is eased.
+/// Returns the jerk reduction for an overlap of this duration.
 JerkReduction ease_for(const LegLimits& leg, double share, double seconds) {
     return {std::min(spare * share * leg.jerk * seconds * seconds * seconds / 6, 0.5 * leg.length), share};
 }
 
-/// s that a leg loses by it, where it is at its greatest speed. With constant acceleration a launch is known by when
-/// and where it would have begun without any jerk.
+/// Returns the time that a leg loses by it, at its maximum velocity. A launch with constant acceleration is described
+/// by the time and position at which it would start without jerk limit.
 double cost_of(const JerkReduction& ease, const LegLimits& leg) {
     const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
     const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;
@@ -102,7 +102,7 @@ CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, 
     }
     if (!too_much) {
         stop.gain = max_overlap_s(before, after, corner_tolerance_mm);
-        // Beyond, an axis that turns back would get the acceleration of both.
+        // Beyond this, an axis that reverses would have the acceleration of both legs.
         if (shared) stop.gain = std::min({stop.gain, rise_of(before), rise_of(after)});
         return stop;
     }

@@ -1,17 +1,17 @@
-// A stop at a corner, of which the tolerance lets the next leg begin before the one before it has ended: what it wins,
-// and what it needs.
+// A stop at a corner whose tolerance lets the next leg start before the previous one has ended: the time gained and the
+// jerk reduction required.
 //
-//   speed  ╲         ╱       An axis of both legs gets the jerk of both. Where that is too much,
-//           ╲▁_    _▁╱       both are eased about the corner: there they take a part of their jerk.
-//              ▔──▔
-//             eased
+//   velocity  ╲         ╱     An axis of both legs has the jerk of both. Where the sum exceeds its limit, both legs
+//              ╲▁_    _▁╱     use a share of their jerk near the corner.
+//                 ▔──▔
+//           reduced jerk
 #pragma once
 
 #include <motionrack/control/path/junction.hpp>
 
 namespace motionrack::control {
 
-/// The end of a leg on which it takes only a part of its jerk.
+/// Part of a leg at its end with reduced jerk.
 struct JerkReduction {
     double length = 0;  ///< mm or degrees
     double share = 1;
@@ -22,7 +22,8 @@ struct CornerStop {
     JerkReduction before, after;
 };
 
-/// About what max_overlap_s() will find; `corner_tolerance_mm`: how far the path may be from the corner's sides.
+/// Estimates the overlap that max_overlap_s() will find. `corner_tolerance_mm`: largest distance of the path from the
+/// sides of the corner.
 CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
                                double corner_tolerance_mm, const MachineLimits& limits);
 

@@ -8,10 +8,10 @@ namespace motionrack::control {
 namespace {
 
 constexpr double no_corner_limit = 1e300;
-/// Speeds are found to about a part of 2 to this power: times are compared, not driven.
+/// Number of bisections for velocities: durations are compared, not executed.
 constexpr int corner_halvings = 12;
 
-/// The greatest speed in least .. most for which way(speed), which grows, is no longer than `length`.
+/// Returns the largest velocity in least .. most for which way(speed), an increasing function, is at most `length`.
 template <class Candidate>
 double fastest(double least, double most, double length, Candidate way) {
     if (way(most) <= length) return most;
@@ -22,7 +22,7 @@ double fastest(double least, double most, double length, Candidate way) {
     return least;
 }
 
-/// Where one of the leg's ends is passed.
+/// A passed end of a leg.
 struct Side {
     double speed = 0, half_blend_length = 0;
 };
@@ -31,7 +31,7 @@ Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
     return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half_blend_length : 0};
 }
 
-/// The least of an axis' limit / |tangent|, and of `least`.
+/// Returns the minimum of limit / |tangent| over the axes, and of `least`.
 template <class LimitOf>
 double min_along(const Point& tangent, double least, LimitOf limit_of) {
     for (std::size_t i = 0; i < tangent.size(); ++i)
@@ -58,7 +58,7 @@ double max_jerk_along(const Point& tangent, const MachineLimits& limits) {
     return min_along(tangent, no_corner_limit, [&](std::size_t i) { return effective_jerk(limits[i]); });
 }
 
-// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its
+// The tangent changes as two parabolas: its maximum rate is 2 changes over the blend length, the second rate 4 over its
 // square.
 Junction junction_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
                           double width, const MachineLimits& limits) {

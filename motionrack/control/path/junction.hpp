@@ -1,8 +1,8 @@
-// Joints of a path: driven through on a rounded path, or with a stop at their point? What each costs, leg by leg.
+// Junctions of a path: passed on a blend, or with a stop. Cost of both, leg by leg.
 //
-//   speed  top ───────╮╱▔▔▔▔▔▔╲          a leg is a move between its two joints; where one is passed its half of the
-//                     │        ╲___      turn is driven at the joint's speed, and the rest of the leg is left for
-//              half ──┴─ rest ──┴─ half  changing it
+//   velocity  top ───╮╱▔▔▔▔▔▔╲          a leg is a move between its two junctions; where one is passed, its half of
+//                    │        ╲___      the blend is driven at the junction velocity, and the rest of the leg is left
+//             half ──┴─ rest ──┴─ half  for changing the velocity
 //
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace motionrack::control {
 
-/// The greatest speed on a curvature takes so much of an axis' acceleration across the path and of its jerk; the rest
-/// changes the speed.
+/// Share of an axis' lateral acceleration and jerk that the maximum velocity on a curve uses; the rest changes the
+/// velocity.
 inline constexpr double max_curvature_share = 0.8;
 
-/// A move, and what the axes can do along it; mm or degrees, and s.
+/// A move and the limits of the axes along it; mm or degrees, and s.
 struct LegLimits {
     double length = 0;
     double speed = 0, accel = 0, jerk = 0;
@@ -24,32 +24,32 @@ struct LegLimits {
 struct Junction {
     bool can_stop = true;
     bool can_pass = false;
-    double speed = 0;              ///< through its turn, by what the axes can do
-    double half_blend_length = 0;  ///< of the way over which the turn is spread, on either side
-    double gain = 0;  ///< s that a stop wins because the next move begins before the one before it has ended
+    double speed = 0;              ///< junction velocity that the axes allow
+    double half_blend_length = 0;  ///< half of the blend length, mm or degrees
+    double gain = 0;  ///< time gained by a stop because the next move starts before the previous one ends, s
 
     bool is_choice() const { return can_stop && can_pass; }
 };
 
-/// s from one speed to another that is `more`, without acceleration at both.
+/// Returns the duration of a velocity change by `more`, with zero acceleration at both ends, s.
 double ramp_duration_s(double more, const LegLimits& leg);
 
-/// An axis without a limit of its jerk gets one with which it reaches its acceleration in this time.
+/// An axis without a jerk limit gets one with which it reaches its acceleration in this time.
 inline constexpr double default_jerk_time_s = 0.002;
 inline double effective_jerk(const AxisLimits& axis) {
     return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / default_jerk_time_s;
 }
 
-/// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
+/// Return the limits of the axes along `tangent` or over a blend: the minimum of limit / |tangent|.
 double max_velocity_along(const Point& tangent, const MachineLimits& limits);
 double max_accel_along(const Point& tangent, const MachineLimits& limits);
 double max_jerk_along(const Point& tangent, const MachineLimits& limits);
 
-/// A turn from one tangent to another that is spread over `width`, between these legs. What a stop wins is not told.
+/// Computes a junction whose blend has the length `width`, between these legs; does not set the gain of a stop.
 Junction junction_between(const LegLimits& before, const LegLimits& after, const Point& in, const Point& out,
                           double width, const MachineLimits& limits);
 
-/// s; a joint that is stopped at is left with its point. Very long where the leg has no room for it.
+/// Returns the duration of a leg, s; a stop is at the junction point itself. Very long if the leg is too short.
 double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at_begin, const Junction& end,
                       bool stops_at_end);
 

@@ -33,7 +33,8 @@ JunctionPlanner::Candidate JunctionPlanner::time_optimal_to(const LegLimits& leg
     return out;
 }
 
-/// All joints before the first about which the two ways do not agree. Where too many wait the quicker way is taken.
+/// Decides all junctions before the first one on which the two candidates differ. If too many wait, takes the faster
+/// one.
 void JunctionPlanner::decide() {
     decided_ = known_;
     if (!ways_[0].open || !ways_[1].open) return;

@@ -1,7 +1,7 @@
-// Which joints of a path are passed and which are stopped at: the quickest row of legs, as far as the path is known.
+// Chooses which junctions of a path are passed and which are stops: the fastest sequence over the known path.
 //
-//   joint    0          1           2            the quickest ways to stop at the last joint and to pass it are kept;
-//   stop     ●────────  ●  ╲      ╱ ●            what both have in common is decided
+//   junction 0          1           2            the fastest candidates for stopping at and for passing the last
+//   stop     ●────────  ●  ╲      ╱ ●            junction are kept; their common beginning is decided
 //   pass           ╲──  ●  ─╲───── ●
 #pragma once
 
@@ -14,33 +14,33 @@ namespace motionrack::control {
 
 class JunctionPlanner {
   public:
-    /// Joints that wait for what comes after them.
+    /// Maximum number of junctions that wait for later ones.
     static constexpr std::size_t most = 12;
 
-    /// The path begins at rest.
+    /// Starts a path at standstill.
     void begin();
-    /// A leg, and the joint at its end. After it no more than `most` joints are undecided.
+    /// Adds a leg and the junction at its end. Afterwards at most `most` junctions are undecided.
     void add(const LegLimits& leg, const Junction& end);
 
-    /// Joints that are decided and were not taken; the path's begin is none.
+    /// Returns the number of decided junctions that were not taken; the start of the path does not count.
     std::size_t decided() const { return decided_; }
-    /// Of the first of these: whether it is a stop.
+    /// Takes the first of them; returns true for a stop.
     bool take();
 
   private:
-    /// The quickest way to the last joint, if it is stopped at, or passed.
+    /// The fastest sequence that stops at, or passes, the last junction.
     struct Candidate {
         bool open = false;
         double seconds = 0;
-        std::uint32_t stops = 0;  ///< bit i: at the i-th joint that was not taken
+        std::uint32_t stops = 0;  ///< bit i: stop at the i-th junction that was not taken
     };
 
     Candidate time_optimal_to(const LegLimits& leg, const Junction& end, bool stops) const;
     void decide();
 
     Junction last_;
-    std::array<Candidate, 2> ways_;  ///< passed, stopped at
-    std::size_t known_ = 0;          ///< joints that were not taken
+    std::array<Candidate, 2> ways_;  ///< [0] passes, [1] stops
+    std::size_t known_ = 0;          ///< junctions that were not taken
     std::size_t decided_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Pieces end at the knots of all turns; each begins with the programmed polygon's place plus what the turns that reach
-// there add, so that roundings do not add up.
+// Segments end at the knots of all blends. Each starts at the position on the programmed polygon plus the contribution
+// of the blends there, so that rounding errors do not accumulate.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace motionrack::control {
 namespace {
 
-/// Pieces that are shorter than this part of u are none: roundings of the same knot.
+/// Segments shorter than this share of u are rounding errors of the same knot, and skipped.
 constexpr double curve_rounding = 4e-16;
 
 Point cubic(const Point& a, const Point& b, const Point& c, const Point& d, double x) {
@@ -23,8 +23,8 @@ double dot(const Point& a, const Point& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// How fast XYZ run at most on the piece where u runs with 1, or the fastest rotary axis where only ABC move; a hardly
-/// greater number.
+/// Returns an upper bound on the XYZ velocity on the segment for du/dt = 1, or on that of the fastest rotary axis if
+/// only ABC move.
 double max_velocity_on(const CubicSegment& piece, bool rotary) {
     const double x = piece.length;
     if (rotary) {
@@ -38,7 +38,7 @@ double max_velocity_on(const CubicSegment& piece, bool rotary) {
         return most;
     }
     const Point out = tangent_on(piece, x);
-    // the square's second half derivative is a + b x + c x^2
+    // half the second derivative of the square is a + b x + c x^2
     const double a = dot(piece.curvature, piece.curvature) + dot(piece.tangent, piece.curvature_rate);
     const double b = 3 * dot(piece.curvature, piece.curvature_rate);
     const double c = 1.5 * dot(piece.curvature_rate, piece.curvature_rate);
@@ -48,13 +48,13 @@ double max_velocity_on(const CubicSegment& piece, bool rotary) {
     return std::sqrt(ends + std::max(0.0, -least) * x * x * 0.25);
 }
 
-/// What is left of the tolerance for spreading turns on a span.
+/// Returns the remaining tolerance for blends on a segment.
 Tolerance room_on(const MergedSegment& span, double arcs) {
     const double part = 1 - arcs - 2 * left_out_share;
     return {part * span.tolerance.linear - span.merged.linear, part * span.tolerance.rotary - span.merged.rotary};
 }
 
-/// The same at the joint of two spans. Where one is an arc, both may be.
+/// Returns the remaining tolerance at a junction; both segments may be arcs.
 Tolerance room_between(const MergedSegment& before, const MergedSegment& after) {
     const bool lines = before.kind == MergedSegmentKind::line && after.kind == MergedSegmentKind::line;
     const double arcs = lines ? 0 : 2 * (after.tangent ? arc_tangent_share : arc_corner_share);
@@ -121,9 +121,9 @@ void PathBuilder::end_curve(PathElement& item) {
     begun_ = false;
 }
 
-// ---- turns
+// ---- corners
 
-/// Makes the next turn, or tells that none follows; false if that is not known yet, or there is no room for it.
+/// Adds the next corner, or completes the curve; returns false if neither is possible yet.
 bool PathBuilder::next_turn() {
     if (begun_ && (turns_.is_complete() || !turns_.has_room())) return false;
     if (in_arc_) {
@@ -198,21 +198,21 @@ void PathBuilder::add_corner(const MergedSegment& span) {
     turns_.added();
 }
 
-/// The first step of an arc's polygon at a joint: as long as its share of the tolerance allows, so that the curvature
-/// comes slowly.
+/// Returns the first knot interval of an arc at a junction: as long as its share of the tolerance allows, so that the
+/// curvature rises slowly.
 double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
     if (neighbour.kind == MergedSegmentKind::rest) return 0;
     const double share = tangent ? arc_tangent_share : arc_corner_share;
     const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
     const auto by_room = [room](const ArcCurve& bow) { return std::sqrt(room / (joint_error * bow.max_curvature())); };
-    // The first hat reaches over the joint, but not over the neighbour's other end, nor over many of its corners.
+    // The first hat reaches over the junction, but not over the other end of the neighbour or many of its corners.
     double step = std::min(by_room(arc.bow), neighbour.length / step_before_joint);
     if (neighbour.kind == MergedSegmentKind::arc) {
         const double other =
             std::min(by_room(neighbour.bow), inner_step(neighbour.bow, inner_share * neighbour.tolerance.linear));
         step = std::min(step, 2 * other);
     }
-    // The way over the first corner is longer than the arc by this; the rotary axes turn with it.
+    // The distance over the first corner exceeds the arc by this; the rotary axes move with it.
     const double rotary_room = share * std::min(arc.tolerance.rotary, neighbour.tolerance.rotary);
     const double square = arc.bow.max_curvature() * arc.bow.max_curvature();
     while (step_after_joint / 9 * step * step * step * square * arc.bow.rotary_rate() > rotary_room) step *= 0.5;
@@ -254,13 +254,13 @@ void PathBuilder::add_arc_corner() {
     turns_.added();
 }
 
-// ---- pieces
+// ---- output of segments
 
 bool PathBuilder::next_piece(CubicSegment& piece) {
     place_turns();
     const std::int64_t settled = turns_.settled();
     const bool all = turns_.is_complete();
-    // Turns that are not settled begin after this.
+    // Blends that are not settled begin after this.
     const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - CornerBlends::reach)].u;
     const double least = curve_rounding * (1 + cursor_);
     while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + least) ++first_event_;
@@ -299,8 +299,8 @@ void PathBuilder::add_event(double u) {
     events_[i] = u;
 }
 
-/// The piece from the cursor to `end`. A hat's integral F rises from 0 to 1 over its width; before its corner it adds F
-/// to the tangent, after it, it takes 1 - F away from it.
+/// Computes the segment from the cursor to `end`. The integral F of a hat rises from 0 to 1 over its blend. Before its
+/// corner it adds F to the tangent; behind it, it subtracts 1 - F.
 void PathBuilder::fill(CubicSegment& piece, double end) {
     const double from = cursor_;
     const double middle = 0.5 * (from + end);

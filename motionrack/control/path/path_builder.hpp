@@ -1,5 +1,4 @@
-// A program's path as a curve that all axes can follow without a jump of acceleration: moves go in, cubic pieces come
-// out.
+// Builds a path with continuous acceleration for all axes from a program: moves are pushed, cubic segments are pulled.
 //
 //   programmed  ──────┐       tangent  ▔▔▔▔╲
 //                     │       of X          ╲▁▁▁▁
@@ -7,14 +6,14 @@
 //   curve       ──────╮       curvature     ▁▁▁╲  ╱▁▁▁
 //                     │       of X         ╲╱
 //
-//   p'(u) = first tangent + sum of the turns, each times how much of its spread is done
+//   p'(u) = first tangent + sum of the corner changes, each times the completed share of its blend
 //
-// Each turn of the programmed path is spread over a width about its corner, steepest in its middle. Widths overlap:
-// that is what makes dense chords smooth.
+// Each corner of the programmed path is spread over a blend length about it, with the peak in the middle. Blends
+// overlap, which makes dense chords smooth.
 //
-// u is the length of the programmed path: mm of XYZ, or degrees of the axis that turns most where only ABC move. Where
-// no turn is spread the curve is the programmed path and XYZ run as fast as u does; elsewhere a little slower, or,
-// where a wide turn reaches over a narrow one, faster.
+// u is the length of the programmed path: mm of XYZ, or degrees of the axis with the largest rotation where only ABC
+// move. Outside of blends the curve is the programmed path, and XYZ move exactly as fast as u. Inside they are a little
+// slower, or faster where a long blend reaches over a short one.
 #pragma once
 
 #include <array>
@@ -28,19 +27,19 @@
 
 namespace motionrack::control {
 
-/// A cubic piece of a curve; x = u - begin, 0 .. length: p(x) = start + tangent x + curvature x^2/2 + curvature_rate
-/// x^3/6, axis by axis.
+/// Cubic segment of a curve; x = u - begin, 0 .. length: p(x) = start + tangent x + curvature x^2/2 + curvature_rate
+/// x^3/6, for each axis.
 struct CubicSegment {
-    double begin = 0;   ///< u, from the beginning of its curve
-    double length = 0;  ///< of u, above 0
+    double begin = 0;   ///< u, from the start of its curve
+    double length = 0;  ///< in u, above 0
     Point start = {};
     Point tangent = {};
     Point curvature = {};
     Point curvature_rate = {};
-    std::int32_t line = 0;  ///< of the move on which the piece lies; of merged chords, the first one's
-    double feed = 0;  ///< greatest du/dt, 1/s, at which XYZ nowhere on it exceed the programmed feed; infinity: as fast
-                      ///< as the axes can
-    double jerk_share = 1;  ///< of the axes' jerk, which the motion along it takes
+    std::int32_t line = 0;  ///< line of its move; of merged chords, the first one's
+    double feed = 0;  ///< the highest du/dt (1/s) at which the XYZ velocity stays within the programmed feed rate;
+                      ///< infinity for rapids
+    double jerk_share = 1;  ///< share of the axes' jerk for the motion along it
 };
 
 Point position_on(const CubicSegment& piece, double x);
@@ -48,19 +47,19 @@ Point tangent_on(const CubicSegment& piece, double x);
 Point bend_on(const CubicSegment& piece, double x);
 bool is_straight(const CubicSegment& piece);
 
-/// What comes out: a piece of a curve, or the rest that ends a curve.
+/// Output of the builder: a segment of a curve, or the standstill that ends a curve.
 struct PathElement {
     bool rest = false;
     CubicSegment piece;              ///< if not rest
-    double seconds = 0;              ///< rest: the dwell; 0 for a stop
-    double corner_tolerance_mm = 0;  ///< rest: how far XYZ may be here from the corner's sides, if the next curve
-                                     ///< begins a little before this one ends
-    std::int32_t line = 0;           ///< rest: of the move that ends here, or of the dwell
-    Point at = {};                   ///< rest: where
+    double seconds = 0;              ///< rest: duration of the dwell; 0 for a stop
+    double corner_tolerance_mm = 0;  ///< rest: largest distance of XYZ from the sides of the corner if the next curve
+                                     ///< starts before this one ends
+    std::int32_t line = 0;           ///< rest: line of the move that ends here, or of the dwell
+    Point at = {};                   ///< rest: position
 };
 
-/// Makes curves of moves. Allocates nothing after it is made. What comes out depends on the moves and flushes only, not
-/// on when it is pulled.
+/// Builds curves from moves. Allocates nothing after construction. The output depends only on the moves and flushes,
+/// not on when it is pulled.
 ///
 ///     for (const Move& move : program) {
 ///         while (!builder.has_room() && builder.pull(item)) use(item);
@@ -69,29 +68,28 @@ struct PathElement {
 ///     builder.flush();
 ///     while (builder.pull(item)) use(item);
 ///
-/// How far XYZ may be from the programmed path: a move's tolerance_mm, at least half a pulse of the finest axis; half a
-/// pulse on moves with exact_path or exact_stop. Rotary axes: as many degrees as turn a point 100 mm from the axis by
-/// this tolerance, at least half a pulse.
+/// Tolerance of XYZ to the programmed path: the tolerance_mm of the move, but at least half a pulse of the finest axis.
+/// On moves with exact_path or exact_stop it is half a pulse. Rotary axes: the angle that moves a point 100 mm from the
+/// axis by this tolerance, at least half a pulse.
 ///
-/// Rests: at exact_stop, at dwells, between moves of XYZ and of ABC alone, where exact_path does not meet its next move
-/// in the same direction (see tangent_angle_rad), where the path turns by more than 120 degrees, and where a turn would
-/// have no width to speak of.
+/// The path stops at exact_stop, at dwells, and between moves of XYZ and of ABC only. It stops where exact_path changes
+/// direction (see tangent_angle_rad), where the path turns by more than 120 degrees, and where a blend would be too
+/// short.
 class PathBuilder {
   public:
     PathBuilder(const MachineLimits& limits, const Point& start);
 
-    /// False until enough is pulled: at the latest when pull() gives nothing more.
+    /// Returns false until enough is pulled, at the latest until pull() returns false.
     bool has_room() const { return spans_.has_room(); }
 
-    /// Adds a move that begins where the last one ended; all its numbers are finite, and feeds above 0. Needs
-    /// has_room(). A move that is shorter than a thousandth of a pulse is left out, and what it moved is added to what
-    /// follows.
+    /// Adds a move that starts where the last one ended; all its numbers are finite, and feed rates above 0. Requires
+    /// has_room(). Skips moves shorter than a thousandth of a pulse and adds their distance to the next one.
     void push(const Move& move);
 
-    /// The path ends here at rest, for now. Needs has_room().
+    /// Ends the path here with a standstill. Requires has_room().
     void flush();
 
-    /// The next item; false if none can be told yet.
+    /// Returns the next element; false if none is final yet.
     bool pull(PathElement& item);
 
   private:
@@ -112,23 +110,23 @@ class PathBuilder {
 
     SegmentMerger spans_;
     CornerBlends turns_;
-    bool begun_ = false;                ///< there is a curve, of which this is known:
-    MergedSegment last_;                ///< the span whose turns were made last
-    double u_end_ = 0;                  ///< where it ends
-    JerkReduction ease_in_, ease_out_;  ///< of its first and of its last line
-    double eased_from_ = 0;             ///< where this one begins
-    bool in_arc_ = false;               ///< of the last span there are more turns
+    bool begun_ = false;                ///< there is a curve, with the known data below
+    MergedSegment last_;                ///< segment whose corners were added last
+    double u_end_ = 0;                  ///< its end
+    JerkReduction ease_in_, ease_out_;  ///< jerk reduction of its first and its last line
+    double eased_from_ = 0;             ///< start of the latter
+    bool in_arc_ = false;               ///< the last segment has more corners
     ArcControlPolygon arc_;
-    ArcControlPoint corner_ = {};  ///< the next of arc_
+    ArcControlPoint corner_ = {};  ///< next corner of arc_
     double arc_begin_ = 0;
 
-    // pieces
+    // output of segments
     static constexpr std::size_t max_events = 512;
-    std::array<double, max_events> events_ = {};  ///< where pieces end, rising
+    std::array<double, max_events> events_ = {};  ///< ends of segments, ascending
     std::size_t first_event_ = 0, past_event_ = 0;
-    std::int64_t placed_ = 0;  ///< turns whose knots are in events_
-    std::int64_t alive_ = 0;   ///< first turn whose width reaches beyond the cursor
-    std::int64_t edge_ = 0;    ///< the turn after which the cursor is
+    std::int64_t placed_ = 0;  ///< blends whose knots are in events_
+    std::int64_t alive_ = 0;   ///< first blend that ends behind the cursor
+    std::int64_t edge_ = 0;    ///< last corner before the cursor
     double cursor_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Greedy merging: a chord grows while the ends of the moves in it lie along it, in order, and close enough.
+// Greedy merging: a chord grows while the ends of its moves lie along it, in order, and within the tolerance.
 
 #include <algorithm>
 #include <cmath>
@@ -10,23 +10,23 @@
 namespace motionrack::control {
 namespace {
 
-/// Tolerances above this (mm) say no more than this.
+/// Upper bound on tolerances (mm).
 constexpr double widest_tolerance = 10;
 
-/// Distance from the axis (mm) at which a rotary axis may be off by the tolerance.
+/// Distance from the axis (mm) at which the tolerance applies to a rotary axis.
 constexpr double rotary_radius = 100;
 constexpr double degrees_per_radian = 57.295779513082320877;
 
-/// Where an axis has no pulses: mm or degrees.
+/// Default pulse for axes without pulses: mm or degrees.
 constexpr double no_pulse = 1e-4;
 
-/// Paths that turn by more than 120 degrees rest.
+/// The path stops where it turns by more than 120 degrees.
 constexpr double sharpest_turn = -0.5;
 
-/// Turns whose own width would be less than this (mm or degrees) are rests.
+/// The path stops at corners with a shorter blend (mm or degrees).
 constexpr double min_width = 1e-6;
 
-/// Arcs that turn by less (rad) are shallow.
+/// Arcs with a smaller sweep (rad) are shallow.
 constexpr double shallow = 0.1;
 
 double dot_from(const Point& a, const Point& b, int first) {
@@ -60,8 +60,8 @@ Tolerance SegmentMerger::path_tolerance(const Move& move) const {
             std::max(linear / rotary_radius * degrees_per_radian, half_pulse_.rotary)};
 }
 
-/// The move's shape; an arc that no one can tell from a line is a line, which has the arc's tangents if it is a shallow
-/// one.
+/// Returns the geometry of the move. An arc within tolerance of a line becomes a line, with the tangents of the arc if
+/// it is shallow.
 Geometry SegmentMerger::shape_of(const Move& move) const {
     const Geometry path = geometry_of(move, position_);
     if (path.shape != PathShape::arc) return path;
@@ -93,7 +93,7 @@ bool SegmentMerger::is_left_out(const Geometry& path) const {
     return linear < half_pulse_.linear * left_out_share && rotary < half_pulse_.rotary * left_out_share;
 }
 
-/// Length and tangents of a line from `start` to `end`.
+/// Computes length and tangents of a line from `start` to `end`.
 void SegmentMerger::make_line(MergedSegment& span) const {
     Point change;
     for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
@@ -132,7 +132,7 @@ MergedSegment SegmentMerger::span_of(const Move& move, const Geometry& path) con
     return span;
 }
 
-/// Does the path stand still between the last move and this one?
+/// Returns true if the path stops between the last move and this one.
 bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& span) const {
     if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || span.rotary != last_.rotary)
         return true;
@@ -146,7 +146,7 @@ bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& spa
     return !has_width(span, in, out);
 }
 
-/// Whether the turn between the last span and this one can be spread over a width to speak of.
+/// Returns true if the blend between the last segment and this one is long enough.
 bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const Point& out) const {
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
@@ -158,8 +158,8 @@ bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const 
     return room.linear >= min_width * linear && room.rotary >= min_width * rotary;
 }
 
-/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
-/// Rotary axes go along.
+/// Returns the largest distance of the path from the sides of the corner at a stop between these segments. Rotary axes
+/// move in proportion.
 double SegmentMerger::corner_tolerance(const MergedSegment& before, const MergedSegment& after) const {
     if (before.rotary || after.rotary) return 0;
     double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
@@ -172,7 +172,7 @@ double SegmentMerger::corner_tolerance(const MergedSegment& before, const Merged
     return std::max(0.0, room);
 }
 
-/// Of the turn: as wide as its tolerance allows, but within its moves.
+/// Returns the blend length of the corner: as long as its tolerance allows, but within its moves.
 double SegmentMerger::width_between(const MergedSegment& before, const MergedSegment& after) const {
     double linear = 0, rotary = 0;
     for (std::size_t i = 0; i < before.tangent_out.size(); ++i) {
@@ -260,7 +260,7 @@ void SegmentMerger::push(const Move& move) {
     position_ = move.end;
 }
 
-/// Makes the last span longer by a line, if all that is in it then lies along it.
+/// Extends the last segment by a line if everything in it then lies along the result.
 bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
     const bool alike = last_.kind == MergedSegmentKind::line && next.kind == MergedSegmentKind::line &&
                        move.kind != MoveKind::arc && move.kind == last_move_.kind && move.path == last_move_.path &&
@@ -300,7 +300,7 @@ bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) cons
     return true;
 }
 
-/// Before a rest: what was left out becomes part of the last line, or a line of its own.
+/// Before a stop: adds the skipped moves to the last line, or as a line of their own.
 void SegmentMerger::add_left_out() {
     any_left_out_ = stop_left_out_ = false;
     Move move = skipped_move_;
@@ -322,7 +322,7 @@ void SegmentMerger::add_left_out() {
     inner_count_ = 0;
 }
 
-/// The last span is whole: it waits until it is known whether the path rests at its end.
+/// Completes the last segment: it waits until it is known whether the path stops at its end.
 void SegmentMerger::close() {
     if (!open_) return;
     open_ = false;

@@ -1,4 +1,4 @@
-// From moves to spans: chords are merged, joints are told apart into rests, tangent joins and corners.
+// Merges moves into segments: merges chords, and classifies junctions as stops, tangent junctions and corners.
 #pragma once
 
 #include <array>
@@ -13,20 +13,19 @@
 
 namespace motionrack::control {
 
-/// Parts of the tolerance. Merging chords takes an eighth, or as much as a pulse if this is no more than a quarter:
-/// roundings of the program's coordinates are of this size. An arc's ends take more at a tangent joint than at a
-/// corner, where the corner needs it; two arcs' ends may meet. Moves that are left out take a 500th. What is left is
-/// for spreading turns.
+/// Shares of the tolerance. Merging chords takes an eighth, or a whole pulse if that is at most a quarter, because
+/// program coordinates are rounded by about a pulse. The ends of an arc take more at a tangent junction than at a
+/// corner, which needs it; the ends of two arcs may meet. Skipped moves use 1/500. The rest is for corner blends.
 inline constexpr double min_merge_share = 0.125;
 inline constexpr double max_merge_share = 0.25;
 inline constexpr double arc_tangent_share = 0.37;
 inline constexpr double arc_corner_share = 0.12;
 inline constexpr double inner_share = 0.1;
-/// Of a corner, by which its width is judged.
+/// Share of a corner's tolerance that decides whether its blend is long enough.
 inline constexpr double corner_share = 0.75;
 inline constexpr double left_out_share = 0.002;
 
-/// How far the curve may be from the program, by all or by some of its reasons.
+/// Deviation of the curve from the program, in total or from some causes.
 struct Tolerance {
     double linear = 0;  ///< mm
     double rotary = 0;  ///< degrees
@@ -34,28 +33,28 @@ struct Tolerance {
 
 enum class MergedSegmentKind : std::uint8_t { line, arc, rest };
 
-/// A straight line, an arc, or a rest.
+/// A straight line, an arc, or a stop.
 struct MergedSegment {
     MergedSegmentKind kind = MergedSegmentKind::rest;
-    bool rotary = false;   ///< only ABC move; lengths are degrees
-    bool tangent = false;  ///< meets the span before it in the same direction
+    bool rotary = false;   ///< only ABC move; lengths are in degrees
+    bool tangent = false;  ///< same direction as the end of the segment before
     std::int32_t line = 0;
-    double length = 0;  ///< of u
+    double length = 0;  ///< in u
     Point start = {};
     Point end = {};
     Point tangent_in = {};
     Point tangent_out = {};
-    Tolerance tolerance;  ///< in all
-    Tolerance merged;     ///< of this, by merging chords
-    double feed = 0;      ///< greatest du/dt by the program
-    double speed = 0;     ///< the lesser of this and of what the axes can do
+    Tolerance tolerance;  ///< total tolerance
+    Tolerance merged;     ///< share used by merging chords
+    double feed = 0;      ///< maximum du/dt by the programmed feed rate
+    double speed = 0;     ///< the lower of this and the limits of the axes
     JerkReduction ease_in, ease_out;
     double seconds = 0;              ///< rest
-    double corner_tolerance_mm = 0;  ///< rest: how far the path may be from the sides of the corner here
+    double corner_tolerance_mm = 0;  ///< rest: largest distance of the path from the sides of the corner here
     ArcCurve bow;                    ///< arc
 };
 
-/// Takes moves, gives spans in order.
+/// Merges moves into segments, in program order.
 class SegmentMerger {
   public:
     SegmentMerger(const MachineLimits& limits, const Point& start);
@@ -66,9 +65,9 @@ class SegmentMerger {
     void push(const Move& move);
     void flush();
 
-    /// How many spans are complete.
+    /// Returns the number of complete segments.
     std::size_t size() const { return made_ - taken_; }
-    /// Of these the i-th, from 0.
+    /// Returns the i-th of them, from 0.
     const MergedSegment& at(std::size_t i) const { return spans_[(taken_ + i) % capacity]; }
     void pop() { ++taken_; }
 
@@ -97,12 +96,12 @@ class SegmentMerger {
     void make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at);
     void rest(double seconds, std::int32_t line);
 
-    /// A span whose end is not decided yet.
+    /// A segment whose end is not decided yet.
     struct PendingSegment {
         MergedSegment span;
-        std::int32_t last_line = 0;      ///< of the last move in it
+        std::int32_t last_line = 0;      ///< line of its last move
         double corner_tolerance_mm = 0;  ///< at its end
-        CornerStop stop;                 ///< there, if it is one
+        CornerStop stop;                 ///< stop at its end, if chosen
     };
     Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
     static constexpr std::size_t max_waiting = JunctionPlanner::most + 2;
@@ -116,15 +115,15 @@ class SegmentMerger {
     std::array<MergedSegment, capacity> spans_;
     std::size_t made_ = 0;
     std::size_t taken_ = 0;
-    Point position_;  ///< where the last move that was not left out ends
+    Point position_;  ///< end of the last move that was not skipped
     bool any_left_out_ = false;
-    Move skipped_move_;           ///< the last move that was left out; the program is where it ends
-    bool stop_left_out_ = false;  ///< of the moves that were left out, one ends at rest
-    bool open_ = false;           ///< there is a last span that may still grow
+    Move skipped_move_;           ///< the last skipped move; the programmed position is its end
+    bool stop_left_out_ = false;  ///< one of the skipped moves ends with a stop
+    bool open_ = false;           ///< last_ exists and may still grow
     MergedSegment last_;
     Move last_move_;
     Point last_tangent_ = {};              ///< at the end of the last move
-    std::array<Point, max_merged> inner_;  ///< ends of the moves in last_, but its own
+    std::array<Point, max_merged> inner_;  ///< ends of the moves merged in last_, except its own end
     std::size_t inner_count_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Power series instead of hyperbolic and circular functions: cells are short, so a few terms do, and every compiler
-// finds the same sums.
+// Power series instead of hyperbolic and circular functions: cells are short, so a few terms suffice, and every
+// compiler computes the same sums.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,14 +9,14 @@ namespace motionrack::control {
 
 namespace {
 
-/// What is off falls to about its square in a step, so after one of this part of the time nothing is left.
+/// Each step squares the relative error, so no error is left after a step of this relative size.
 constexpr double settled_part = 1e-10;
 constexpr double feed_rounding = 4e-16;
-/// Beside a rest the square of the speed may be rounded to 0. Its last digit is worth this part of the speed.
+/// Beside a standstill velocity2 may be rounded to 0. Its last digit is this share of the velocity.
 constexpr double as_good_as_rest = 1e-8;
 
 constexpr int max_terms = 60;
-/// What makes the k-th term of a series out of the one before it.
+/// Factors from one term of a series to the next.
 struct Factors {
     std::array<double, max_terms> sine = {}, cosine = {};
 };
@@ -42,12 +42,12 @@ Series series_of(double square) {
         cosine *= square * factors.cosine[k];
         out.sine += sine;
         out.cosine += cosine;
-        if (std::fabs(sine) < 1e-18) break;  // the other is less
+        if (std::fabs(sine) < 1e-18) break;  // the other one is smaller
     }
     return out;
 }
 
-/// Place on a cell after `time`.
+/// Returns the position on a cell after `time`.
 double moved(const ProfileSegment& cell, double speed, double time) {
     const Series series = series_of(0.5 * cell.velocity2_curvature * time * time);
     return speed * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
@@ -75,7 +75,7 @@ void settle(ProfileSegment& cell) {
     if (cell.phase != ProfileSegmentKind::cell) return;
     const double length = cell.length, slope = cell.velocity2_slope, bend = cell.velocity2_curvature;
     const double speed = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
-    // Slower than at the ends it is only where it has slowed down and speeds up again.
+    // It is slower than at both ends only if it decelerates first and accelerates again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
     double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)),

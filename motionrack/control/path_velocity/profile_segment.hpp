@@ -1,21 +1,21 @@
-// A part of a feed profile, over the path and over time.
+// Segment of a velocity profile, over the path and over time.
 //
-//   speed^2 w over the path u                         launch: constant jerk from rest, w ~ u^(4/3)
-//       │   ╭───────╮                                 cell:   w is a parabola, w = w0 + slope x + bend x^2/2
-//       │  ╱         ╲                                landing: constant jerk into rest
-//       │╭╯           ╰╮                               ramp:   constant jerk between two speeds
-//       └┴─┴──┴───┴──┴─┴──► u                         acceleration = w'/2, jerk = speed w''/2
+//   velocity^2 w over the path u                      launch: constant jerk from standstill, w ~ u^(4/3)
+//       │   ╭───────╮                                 cell:   w is a parabola, w = w0 + slope x + curvature x^2/2
+//       │  ╱         ╲                                landing: constant jerk to standstill
+//       │╭╯           ╰╮                               ramp:   constant jerk between two velocities
+//       └┴─┴──┴───┴──┴─┴──► u                         acceleration = w'/2, jerk = velocity w''/2
 //
-// On a cell the motion in time is the solution of x'' = (slope + bend x)/2, so it is known in closed form.
+// On a cell the motion in time solves x'' = (slope + curvature x)/2, so it has a closed form.
 #pragma once
 
 #include <cstdint>
 
 namespace motionrack::control {
 
-/// The motion along the path at one instant.
+/// The motion along the path at an instant.
 struct PathMotion {
-    double u = 0;  ///< u
+    double u = 0;  ///< position on the path
     double speed = 0;
     double accel = 0;
     double jerk = 0;
@@ -28,27 +28,27 @@ struct ProfileSegment {
     double begin = 0;  ///< u
     double length = 0;
     double seconds = 0;
-    double velocity2 = 0;            ///< cell, ramp: of the speed at its begin
-    double velocity2_slope = 0;      ///< cell, ramp: of the square over the path, at its begin
-    double velocity2_curvature = 0;  ///< cell: change of the slope over the path
-    double jerk = 0;                 ///< all but a cell
+    double velocity2 = 0;            ///< cell, ramp: at its beginning
+    double velocity2_slope = 0;      ///< cell, ramp: derivative of velocity2 over the path, at its beginning
+    double velocity2_curvature = 0;  ///< cell: second derivative of velocity2 over the path
+    double jerk = 0;                 ///< all kinds except cell
 
-    /// `time` from the piece's begin, 0 .. seconds.
+    /// Returns the motion `time` s after the start of the segment, 0 .. seconds.
     PathMotion at(double time) const;
-    /// at(seconds), quicker.
+    /// Returns at(seconds), faster.
     PathMotion last() const;
 };
 
-/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it, but at an end beside a rest
-/// it may be rounded to 0.
+/// Makes a cell with an approximate duration (exact without curvature). `square` must be above 0 on all of it; at an
+/// end beside a standstill it may be rounded to 0.
 ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend);
-/// Gives a cell its exact time.
+/// Computes the exact duration of a cell.
 void settle(ProfileSegment& piece);
-/// A cell with its exact time.
+/// Makes a cell with its exact duration.
 ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend);
-/// Constant jerk from a speed and an acceleration; both and the jerk may be of any sign as long as the place rises.
+/// Makes a segment of constant jerk from a velocity and an acceleration. All may have any sign as long as u increases.
 ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk);
-/// Rest at `begin`, and the square of the speed at the other end; or the other way round.
+/// Make a segment from standstill at `begin` to velocity2 at the end, and the reverse.
 ProfileSegment feed_launch(double begin, double length, double square);
 ProfileSegment feed_landing(double begin, double length, double square);
 

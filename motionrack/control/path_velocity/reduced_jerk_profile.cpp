@@ -11,15 +11,15 @@ namespace {
 constexpr int max_steps = 60;
 constexpr double settled_part_of_ease = 1e-14;
 
-/// From rest to a greatest speed, phase by phase; lengths and s.
+/// Motion from standstill to a maximum velocity, phase by phase; lengths and s.
 struct Rise {
-    double accel = 0;                      ///< greatest
-    double even_from = 0, even_until = 0;  ///< speeds at which it is reached, and left
+    double accel = 0;                      ///< maximum
+    double even_from = 0, even_until = 0;  ///< velocities at which it is reached, and left
     double steeper = 0, even = 0, flatter = 0;
     double steeper_way = 0, even_way = 0, flatter_way = 0;
 };
 
-/// One end of the line, seen from its rest.
+/// One end of the line, seen from its standstill.
 class End {
   public:
     End(double eased_way, double eased_jerk, const LimitInterval& limits)
@@ -31,10 +31,10 @@ class End {
           speed_(0.5 * accel_ * first_) {}
 
     double eased_way() const { return way_; }
-    double speed() const { return speed_; }  ///< where the ease ends
+    double speed() const { return speed_; }  ///< velocity at the end of the reduced-jerk part
     double accel() const { return accel_; }
     bool is_possible() const { return accel_ <= max_accel_; }
-    /// The least that can be the greatest one: the acceleration falls as soon as the ease ends.
+    /// Returns the minimum peak velocity: the acceleration falls as soon as the reduced-jerk part ends.
     double min_speed() const { return speed_ + 0.5 * accel_ * accel_ / jerk_; }
 
     Rise to(double speed) const {
@@ -60,7 +60,7 @@ class End {
     double way_, jerk_, max_accel_, first_, accel_, speed_;
 };
 
-/// The greatest speed that leaves no less than nothing of the line: between false positions.
+/// Finds the highest velocity for which the remaining length is not negative, by false position.
 std::optional<double> max_reachable_velocity(const End& begin, const End& end, double length, double most) {
     const auto over = [&](double speed) { return begin.way_to(speed) + end.way_to(speed) - length; };
     double low = std::max(begin.min_speed(), end.min_speed()), high = most;
@@ -85,7 +85,7 @@ std::optional<double> max_reachable_velocity(const End& begin, const End& end, d
     return low;
 }
 
-/// Less jerk at one or both ends, all else alike.
+/// Returns true if only the jerk at one or both ends differs.
 bool is_eased_line(std::span<const LimitInterval> spans, const LimitInterval& full) {
     return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
         return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel &&
@@ -117,7 +117,7 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vecto
         out.push_back(feed_ramp(at, way, seconds, speed, accel, change));
         at += way;
     };
-    // Without an ease the first phase is the launch.
+    // Without reduced jerk the first phase is the launch.
     const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;
     at = eased_begin ? begin.eased_way() : up.steeper_way;
     out.push_back(feed_launch(0, at, eased_begin ? begin.speed() * begin.speed() : up.even_from * up.even_from));

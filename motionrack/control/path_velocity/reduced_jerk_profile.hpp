@@ -1,9 +1,10 @@
-// The speed over a line whose ends take less jerk: the quickest of all profiles that speed up and slow down once.
+// Velocity profile over a line whose ends have a reduced jerk: the fastest profile with one acceleration and one
+// deceleration.
 //
-//   jerk    J ┌──┐        ┌─┐            speed      ╱▔▔╲         the eased ends are launched over and
-//           s J │ │       │ │ s J                  ╱    ╲        landed on with their own jerk,
-//         ────┴──┴─┐   ┌──┴─┴────             __╱        ╲__     between them it is an S-curve
-//          -J      └───┘                    eased       eased
+//   jerk    J ┌──┐        ┌─┐            velocity   ╱▔▔╲         a launch over one reduced end and a landing over
+//           s J │ │       │ │ s J                  ╱    ╲        the other, with their own jerk; between them a
+//         ────┴──┴─┐   ┌──┴─┴────             __╱        ╲__     double-S profile
+//          -J      └───┘                   reduced      reduced
 #pragma once
 
 #include <motionrack/control/path_velocity/limit_interval.hpp>
@@ -13,8 +14,8 @@
 
 namespace motionrack::control {
 
-/// From rest to rest. False, and nothing is written, where the spans are not such a line, or the ends too long for it
-/// to be the quickest.
+/// Writes the profile from standstill to standstill. Returns false, and writes nothing, if the intervals are not such a
+/// line or its ends are too long for this profile to be the fastest.
 bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out);
 
 }  // namespace motionrack::control

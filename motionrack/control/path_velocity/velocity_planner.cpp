@@ -1,4 +1,4 @@
-// Two passes and a hull over the cells.
+// Two passes and a convex hull over the cells.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/path_velocity/reduced_jerk_profile.hpp>
@@ -9,10 +9,10 @@ namespace motionrack::control {
 
 namespace {
 
-/// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
+/// Assumed bound on velocity2 relative to the previous solution: at first, and the factor by which its excess falls.
 constexpr double first_guess = 2, guess_falls = 0.3;
 
-/// Of the square that a motion goes on with.
+/// Relative to the initial velocity2.
 constexpr double min_square = 1e-6;
 
 bool all_alike(std::span<const LimitInterval> spans) {
@@ -73,7 +73,7 @@ void VelocityPlanner::measure_length(std::span<const LimitInterval> spans) {
     for (const LimitInterval& span : spans) ends_.push_back(length_ += span.length);
 }
 
-/// The limits first, then nearer and nearer to what they allow.
+/// Starts from the limits and iterates towards the velocities that they allow.
 void VelocityPlanner::solve_from_limits() {
     found_ = can_start_ = true;
     compute_bounds();
@@ -83,13 +83,13 @@ void VelocityPlanner::solve_from_limits() {
     refine();
 }
 
-/// At once near to what was found before.
+/// Starts the iteration from the previous solution.
 void VelocityPlanner::solve_from_previous() {
     found_ = can_start_ = true;
     compute_bounds();
     compute_slope_limits();
     left_.assign(cells_.size() + 2, 0);
-    std::size_t k = 0, known = before_.size();  // the piece whose speeds these are
+    std::size_t k = 0, known = before_.size();  // the profile segment with the velocity at this point
     double begin = 0, end = 0;
     const auto square_at = [&](double place) {
         while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
@@ -111,7 +111,7 @@ void VelocityPlanner::solve_from_previous() {
     refine();
 }
 
-/// From a first idea in left_.
+/// Iterates from the estimate in left_.
 void VelocityPlanner::refine() {
     tighten_limits(left_, first_guess);
     solve();
@@ -123,7 +123,7 @@ void VelocityPlanner::refine() {
         }
 }
 
-/// Bounds of control points, and the ways between them.
+/// Computes the bounds of the control points and their distances.
 void VelocityPlanner::compute_bounds() {
     const std::size_t n = cells_.size();
     way_.assign(n + 1, 0);
@@ -135,7 +135,7 @@ void VelocityPlanner::compute_bounds() {
         way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) +
                          (k == n ? 1.5 * landing_.length : cells_[k].length));
     if (!moving()) return;
-    // As if a cell like the first were before it: the two points about the start are what is going on.
+    // As if a cell like the first came before it: the two points around the start describe the current motion.
     way_[0] = cells_[0].length;
     const double most = bound_[1];
     bound_[1] = start_.velocity2 + 0.5 * start_.velocity2_slope * cells_[0].length;
@@ -145,7 +145,7 @@ void VelocityPlanner::compute_bounds() {
                  -start_.velocity2_slope <= cells_[0].down * (1 + rounding);
 }
 
-/// Whether a tighter bound would be news: where points could bend more, or slopes change more.
+/// Returns true if a tighter bound would change the result: higher curvature or faster slope changes.
 bool VelocityPlanner::is_loose(double guess) const {
     for (std::size_t i = 1; i <= cells_.size(); ++i) {
         const Cell& cell = cells_[i - 1];
@@ -155,7 +155,7 @@ bool VelocityPlanner::is_loose(double guess) const {
     return false;
 }
 
-/// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
+/// Assumes at most `guess` times the previous solution. A lower velocity allows more curvature for the same jerk.
 void VelocityPlanner::tighten_limits(const std::vector<double>& found, double guess) {
     for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
     for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -170,12 +170,12 @@ void VelocityPlanner::solve() {
     found_ = !moving() || (can_start_ && !stalls_ && left_[1] >= bound_[1]);
     restore_start();
     limit_deceleration_jerk();
-    // What goes on bends into what follows as the jerk allows: then the second point is a corner of the hull.
+    // The initial motion must continue within the jerk limit: then the second point is a corner of the hull.
     if (moving()) found_ = found_ && edges_.size() > 1 && edges_[1].from == 1;
     restore_start();
 }
 
-/// The start's points stand, whatever follows.
+/// Restores the two control points of the start.
 void VelocityPlanner::restore_start() {
     if (!moving()) return;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -190,8 +190,8 @@ void VelocityPlanner::forward_backward_pass() {
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = std::min(left_[i], right_[i]);
 }
 
-/// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's
-/// end is what constant jerk makes of w there, whatever jerk it is.
+/// Computes the maximum slope at each knot. At a standstill it is the slope of the line from (a quarter of the launch,
+/// 0) through the end of the launch. Constant jerk of any size gives that w.
 void VelocityPlanner::compute_slope_limits() {
     const std::size_t n = cells_.size();
     up_.assign(n + 1, 0);
@@ -207,8 +207,8 @@ void VelocityPlanner::compute_slope_limits() {
     down_.back() = std::min(down_.back(), end_slope(landing_));
 }
 
-/// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed
-/// would reach over.
+/// Limits the change of the maximum slope to what the jerk allows. Otherwise a curve that begins where more is allowed
+/// would exceed the limit further on.
 void VelocityPlanner::limit_slope_rates() {
     limit_slope_rate(up_);
     limit_slope_rate(down_);
@@ -225,7 +225,7 @@ void VelocityPlanner::limit_slope_rate(std::vector<double>& slopes) const {
 
 // ---- passes
 
-/// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
+/// Takes the steepest slope from one end, without looking ahead: a lower bound applies at once.
 void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     const std::size_t n = cells_.size();
     const std::vector<double>& slopes = back ? down_ : up_;
@@ -245,8 +245,8 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
         if (i == 0) {
             slope = steepest;
         } else {
-            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than
-            // will be; on the way down from a motion that goes on, at the speed before.
+            // Evaluates the jerk limit at an upper bound of the next velocity; in deceleration from an initial motion,
+            // at the previous velocity.
             const Cell& cell = cells_[back ? n - i : i - 1];
             const double more = cell.velocity2_curvature * cell.length;
             const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
@@ -260,8 +260,9 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     }
 }
 
-/// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex
-/// hull. All sums are of what lies between two corners, so that small speeds near a rest keep their digits.
+/// Computes the greatest points below left_ whose downward curvature respects the jerk limit at the velocity of left_:
+/// a convex hull. Sums cover only the range between two corners, so that low velocities near a standstill keep their
+/// digits.
 void VelocityPlanner::limit_deceleration_jerk() {
     const std::size_t n = cells_.size();
     square_.resize(n + 2);
@@ -272,7 +273,7 @@ void VelocityPlanner::limit_deceleration_jerk() {
     edges_.clear();
     for (std::size_t i = 1; i < n + 2; ++i) {
         Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
-        // The corner between two edges is on the hull if the slope falls there by less than it may.
+        // The corner between two edges is on the hull if the slope decreases there by less than allowed.
         while (!edges_.empty() && edges_.back().slope_out() - fall_[edge.from] >= edge.slope_in()) {
             const Edge& before = edges_.back();
             const double fall = before.fall + fall_[edge.from];
@@ -286,7 +287,7 @@ void VelocityPlanner::limit_deceleration_jerk() {
         evaluate_hull_edge(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
 }
 
-/// From its lower end, where digits count.
+/// Evaluates the edge from its lower end, where digits count.
 void VelocityPlanner::evaluate_hull_edge(const Edge& edge, std::size_t to) {
     square_[edge.from] = left_[edge.from];
     square_[to] = left_[to];

@@ -1,19 +1,20 @@
-// The speed along a path from rest to rest: as fast as speed, acceleration and jerk allow, place by place.
+// Time-optimal velocity profile along a path from standstill to standstill, within the velocity, acceleration and jerk
+// limits of each interval.
 //
-//   w, the square of the speed, over the path u. Acceleration is w'/2, jerk is sqrt(w) w''/2:
-//   conditions on w, its slope and its bend.
+//   w, the square of the velocity, over the path u. Acceleration is w'/2, jerk is sqrt(w) w''/2:
+//   conditions on w, its slope and its curvature.
 //
-//      ┌──────────┐    ┌───────┐        1. limits of the spans, cut into cells
-//      │          │    │       │        2. from the left: as steep as can be, its slope growing as the jerk allows (╱)
-//     ╱│╲        ╱│╲__╱│╲     ╱│╲       3. from the right: the same (╲)
-//    ╱   ╲______╱   valleys     ╲       4. the lesser of both bends upwards no more than the jerk allows; what bends
-//                                          downwards too much is cut off below: the greatest function under it that
-//                                          bends no more is a convex hull (w + C is convex, where C'' is the bend
-//                                          that the jerk allows)
+//      ┌──────────┐    ┌───────┐        1. limits of the intervals, divided into cells
+//      │          │    │       │        2. forward: the steepest slope, growing as the jerk allows (╱)
+//     ╱│╲        ╱│╲__╱│╲     ╱│╲       3. backward: the same (╲)
+//    ╱   ╲______╱   valleys     ╲       4. the minimum of both curves upwards no more than the jerk allows; where it
+//                                          curves downwards too much it is lowered: the greatest function below it
+//                                          with less curvature is a convex hull (w + C is convex, where C'' is the
+//                                          curvature that the jerk allows)
 //
-// All is done with the control points of a parabola in each cell (a quadratic B-spline): slopes are between neighbours,
-// bends are their differences, and the curve lies between the points. What holds for the points holds at every place.
-// See docs/decisions/0011-feed-profile.md.
+// The computation uses the control points of a parabola in each cell (a quadratic B-spline). Slopes are between
+// neighbours, curvatures are their differences, and the curve lies between the points. A bound on the points holds
+// everywhere. See docs/decisions/0011-feed-profile.md.
 #pragma once
 
 #include <motionrack/control/path_velocity/limit_interval.hpp>
@@ -23,54 +24,57 @@
 
 namespace motionrack::control {
 
-/// The motion where a path begins.
+/// The motion at the start of a path.
 struct InitialPathState {
-    double velocity2 = 0;        ///< of the speed; 0: rest
-    double velocity2_slope = 0;  ///< of the square over the path: twice the acceleration
+    double velocity2 = 0;        ///< square of the velocity; 0: standstill
+    double velocity2_slope = 0;  ///< derivative of velocity2 over the path: twice the acceleration
 };
 
 struct VelocityPlannerSettings {
-    double cell_seconds = 0.004;  ///< a cell takes about so long at its limit
-    int refinements = 3;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
+    double cell_seconds = 0.004;  ///< approximate duration of a cell at its limit
+    int refinements = 3;          ///< iterations from a safe to a tight estimate of the velocity, which determines the
+                                  ///< curvature limit from the jerk
 };
 
-/// Allocates only when a path is longer than all before it.
+/// Allocates only when a path is longer than all previous ones.
 class VelocityPlanner {
   public:
     explicit VelocityPlanner(VelocityPlannerSettings settings = {}) : settings_(settings) {}
 
-    /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty
-    /// without spans.
+    /// Plans from standstill to standstill over intervals whose limits are above 0. The result is valid until the next
+    /// call; empty without intervals.
     std::span<const ProfileSegment> plan(std::span<const LimitInterval> spans);
 
-    /// The same from a motion that goes on. Empty if none was found that keeps the limits: perhaps there is none.
+    /// Plans from a motion in progress. Returns an empty span if no feasible plan was found; one may still exist.
     std::span<const ProfileSegment> plan_from(const InitialPathState& start, std::span<const LimitInterval> spans);
 
-    /// The same, but the times of its cells are only about right until settle() is called for them.
+    /// As plan_from(), but the durations of its cells are approximate until settle() is called for them.
     std::span<const ProfileSegment> plan_approximate(const InitialPathState& start,
                                                      std::span<const LimitInterval> spans);
 
-    /// Over the same way, where limits have changed a little: sought near what was found last.
+    /// Replans over the same intervals after a small change of limits; starts the iteration from the previous solution.
     std::span<const ProfileSegment> replan_approximate(std::span<const LimitInterval> spans);
 
   private:
-    static constexpr double rounding = 1e-7;  ///< of a limit: so much beyond it a motion may begin
-    /// What a cell asks, and its control point.
+    static constexpr double rounding =
+        1e-7;  ///< relative violation of a limit that is accepted at the start of a motion
+    /// Limits of a cell, and its control point.
     struct Cell {
         double begin = 0, length = 0;
-        double velocity2 = 0;            ///< greatest
-        double up = 0;                   ///< greatest slope of speeding up
-        double down = 0;                 ///< and of slowing down
-        double velocity2_curvature = 0;  ///< greatest, times the speed
+        double velocity2 = 0;            ///< maximum
+        double up = 0;                   ///< maximum slope of acceleration
+        double down = 0;                 ///< maximum slope of deceleration
+        double velocity2_curvature = 0;  ///< maximum, times the velocity
     };
-    /// Of the hull, from control point `from`: what the slope falls between its ends, and what the square loses by it.
+    /// Edge of the hull, from control point `from`: decrease of the slope between its ends, and the resulting loss of
+    /// velocity2.
     struct Edge {
         std::size_t from = 0;
         double length = 0, fall = 0, moment = 0, rise = 0;
         double slope_in() const { return (rise + moment) / length; }
         double slope_out() const { return slope_in() - fall; }
     };
-    /// A stretch of constant jerk from or into rest.
+    /// Interval of constant jerk from or to standstill.
     struct End {
         double length = 0, jerk = 0;
     };
@@ -106,19 +110,19 @@ class VelocityPlanner {
     VelocityPlannerSettings settings_;
     InitialPathState start_;
     bool can_start_ = true;  ///< start_ is within the limits of the first cells
-    bool stalls_ = false;    ///< it slows down so hard that it comes to a stand before its end
-    bool found_ = true;      ///< what was sought last goes on from start_
+    bool stalls_ = false;    ///< decelerates so hard that it would stop before its end
+    bool found_ = true;      ///< the last solution continues from start_
     double length_ = 0;
     End launch_, landing_;
-    std::vector<double> ends_;   ///< of the spans
-    std::vector<double> sizes_;  ///< greatest cell at each end of a span
+    std::vector<double> ends_;   ///< ends of the intervals
+    std::vector<double> sizes_;  ///< largest cell size at each end of an interval
     std::vector<Cell> cells_;
-    // by knot: 0 the launch's end, cells().size() the landing's begin
+    // one entry per knot: 0 the end of the launch, cells().size() the start of the landing
     std::vector<double> up_, down_;  ///< steepest slopes
-    std::vector<double> way_;        ///< between the control points beside it
-    // by control point: 0 and cells().size() + 1 are the rests
+    std::vector<double> way_;        ///< distance between the control points on either side
+    // one entry per control point: 0 and cells().size() + 1 are the standstills
     std::vector<double> bound_, left_, right_, square_;
-    std::vector<double> fall_;  ///< the most that the slope may fall there
+    std::vector<double> fall_;  ///< largest decrease of the slope at the point
     std::vector<Edge> edges_;
     std::vector<ProfileSegment> pieces_, before_;
 };

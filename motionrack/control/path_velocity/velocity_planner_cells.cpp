@@ -1,4 +1,4 @@
-// The cells of a plan: how long a launch and a landing are, and how long cells may be from place to place.
+// Cells of a plan: lengths of launch and landing, and cell lengths along the path.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/path_velocity/velocity_planner.hpp>
@@ -7,21 +7,21 @@ namespace motionrack::control {
 
 namespace {
 
-/// Cells grow away from a rest or a narrow place by this much of the way.
+/// Growth of cells away from a standstill or a slow passage, relative to the distance.
 constexpr double radius_growth = 0.25;
-/// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
+/// Cell duration beside a slow passage, relative to the time that the jerk needs to leave it.
 constexpr double unlike_part = 0.25;
-/// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this
-/// part of their time.
+/// If full acceleration is reached faster than one cell duration, cells last as long as that, but at least this share
+/// of it.
 constexpr double min_cell_s = 0.1;
-/// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
+/// Minimum number of cells between two standstills, and maximum number of the target size in an interval.
 constexpr double min_feed_cells = 48, max_cells_of_a_span = 256;
-/// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
+/// Maximum share of a launch or a landing in the path: on a short path constant jerk ends after a twelfth.
 constexpr double max_launch = 1.0 / 14;
 constexpr double alike_jerk = 1.5;
-/// Of the size that its span asks for is the first cell of a motion that goes on.
+/// Size of the first cell of a continued motion, relative to the target of its interval.
 constexpr double first_part = 0.1;
-/// No cell is shorter than this part of the path: places have no more digits.
+/// Minimum relative size of a cell: positions have no more digits.
 constexpr double min_part = 1e-13;
 
 LimitInterval min_of(const LimitInterval& a, const LimitInterval& b) {
@@ -29,16 +29,16 @@ LimitInterval min_of(const LimitInterval& a, const LimitInterval& b) {
             std::min(a.brake, b.brake)};
 }
 
-/// With constant jerk from rest.
+/// Returns the length of a launch with constant jerk from standstill.
 double launch_length(double jerk, double seconds) {
     return jerk * seconds * seconds * seconds / 6;
 }
 
 }  // namespace
 
-/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that
-/// the speed cannot come back to what a span ahead allows: one that ends at half of that speed needs no braking, and
-/// one of a fourteenth of the way has the room.
+/// Returns the launch or landing: as long as acceleration and velocity allow at full jerk, over intervals with equal
+/// jerk. The velocity must still be able to return to the limit of an interval ahead. Up to half of that limit this
+/// needs no braking, and a launch of a fourteenth of the distance leaves room for it.
 VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> spans, bool back) const {
     End end{length_ * max_launch, 0};
     LimitInterval least = spans[back ? spans.size() - 1 : 0];
@@ -69,30 +69,30 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> span
     return end;
 }
 
-/// How long cells should be for a span's own sake.
+/// Returns the cell length for the limits of one interval.
 double VelocityPlanner::target_cell_length(const LimitInterval& span) const {
     const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk, min_cell_s * settings_.cell_seconds,
                                       settings_.cell_seconds);
     return std::min(std::max(span.speed * seconds, span.length / max_cells_of_a_span), length_ / min_feed_cells);
 }
 
-/// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than
-/// its speed and its acceleration last.
+/// Returns the first cell size of a continued motion. It is short, because the initial state is assumed for the whole
+/// cell, and at most as long as its velocity and acceleration last.
 double VelocityPlanner::first_size(double wanted) const {
     const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.velocity2),
                  slope = std::fabs(start_.velocity2_slope);
     return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.velocity2 / slope : wanted});
 }
 
-/// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the
-/// narrow ones.
+/// Computes the largest cell sizes at the ends of the intervals: the target size there, growing with the distance from
+/// small ones.
 void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> spans) {
     sizes_.assign(spans.size() + 1, 0);
     sizes_.front() = moving() ? first_size(target_cell_length(spans.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < spans.size(); ++k) {
         const LimitInterval least = min_of(spans[k - 1], spans[k]);
-        // Between unlike speeds the jerk needs about this time to reach or leave the lesser one.
+        // Between different velocities the jerk needs about this time to reach or leave the lower one.
         const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
         const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
         const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
@@ -127,7 +127,7 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
     }
 }
 
-/// `at`: the span in which it begins.
+/// `at`: the interval in which it starts.
 void VelocityPlanner::add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end) {
     LimitInterval least = spans[at];
     for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = min_of(least, spans[at + 1]);

@@ -1,4 +1,4 @@
-// What was found, as pieces; and where no limit changes the quickest, which is known.
+// Writes the solution as profile segments; with constant limits, the exact time-optimal profile.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/axis_profile/axis_profile.hpp>
@@ -7,10 +7,10 @@
 
 namespace motionrack::control {
 
-/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a
-/// short one has no digits.
+/// Writes the time-optimal profile for constant limits. Lengths come from durations and velocities of the phases,
+/// because differences of positions have too few digits for short phases.
 ///
-///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
+///   velocity v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
 void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
     const SCurveProfile curve(length_, limits.speed, limits.accel, limits.jerk);
     const auto ends = curve.phase_ends();
@@ -36,7 +36,7 @@ void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
     pieces_.push_back(landing);
 }
 
-/// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.
+/// Writes the profile from a motion in progress. Writes nothing if it is too fast, or would reverse behind its end.
 void VelocityPlanner::write_travel(const LimitInterval& limits) {
     const double speed = std::sqrt(start_.velocity2), accel = 0.5 * start_.velocity2_slope;
     if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
@@ -49,8 +49,7 @@ void VelocityPlanner::write_travel(const LimitInterval& limits) {
         const double seconds = std::fabs(phases[i].seconds);
         const ProfileSample at = phases[i].at(phases[i].end - seconds), then = phases[i].at(phases[i].end);
         const bool lands = i + 1 == phases.size();
-        const double turn =
-            !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // where the speed is greatest or least in it
+        const double turn = !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // extremum of the velocity in the phase
         const double within = turn > 0 && turn < seconds ? at.speed + 0.5 * at.accel * turn : at.speed;
         if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 ||
             std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||

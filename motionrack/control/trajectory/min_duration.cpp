@@ -1,5 +1,6 @@
-// What two neighbouring squares of speed may be is a convex polygon with the corner (0, 0): no axis minds being slower.
-// So the squares from which one can go on are an interval from 0, and taking the greatest each time is the quickest.
+// The feasible pairs of neighbouring squares of velocity form a convex polygon with the corner (0, 0), because a lower
+// velocity is always allowed. So the squares that can be continued are an interval from 0, and taking the maximum each
+// time is fastest.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,15 +13,15 @@ namespace motionrack::control {
 namespace {
 
 constexpr double no_cap = 1e200;
-/// Cells of a piece that bends, and about so many of a whole curve that does.
+/// Cells of a curved segment, and their approximate number for a whole curve.
 constexpr double min_cells = 16, max_cells = 256, cells_of_curve = 2000;
 constexpr double much = 0.2;
 
-/// A part of a piece. In its middle an axis' acceleration is from * (w at its begin) + to * (w at its end).
+/// A part of a segment. In its middle an axis' acceleration is from * (w at its start) + to * (w at its end).
 struct Cell {
     double length = 0;
-    double cap = no_cap;    ///< of w in its middle; straight: all over it
-    double accel = no_cap;  ///< along u, where no axis minds the curvature
+    double cap = no_cap;    ///< maximum of w in its middle; straight: everywhere on it
+    double accel = no_cap;  ///< along u, where the curvature affects no axis
     bool straight = false;
     Point from = {}, to = {};
 };
@@ -30,7 +31,7 @@ double cap_of(const Point& tangent, const MachineLimits& limits, double feed) {
     return speed < 1e100 ? speed * speed : no_cap;
 }
 
-/// Cells, and the greatest w at each of their ends.
+/// Cells, and the maximum of w at each of their ends.
 struct Grid {
     Grid(std::span<const CubicSegment> curve, const MachineLimits& limits) {
         const double length = curve.back().begin + curve.back().length;
@@ -74,12 +75,12 @@ struct Corner {
     double from = 0, to = 0;
 };
 
-/// A rectangle from (0, 0), cut by the axes' accelerations.
+/// A rectangle from (0, 0), clipped by the accelerations of the axes.
 class Polygon {
   public:
     Polygon(double from, double to) : corners_{Corner{0, 0}, {from, 0}, {from, to}, {0, to}}, count_(4) {}
 
-    /// Leaves what has a * from + b * to <= most; most > 0, so (0, 0) stays.
+    /// Keeps the part with a * from + b * to <= most; most > 0, so (0, 0) stays.
     void cut(double a, double b, double most) {
         std::array<Corner, max_corners> kept = {};
         std::size_t count = 0;
@@ -89,7 +90,7 @@ class Polygon {
             const double here_room = room(here), next_room = room(next);
             if (here_room >= 0) kept[count++] = here;
             if ((here_room >= 0) == (next_room >= 0)) continue;
-            // From the inner one, so that the digits of small squares beside large ones are kept.
+            // From the inner point, which keeps the digits of small squares beside large ones.
             const bool leaves = here_room >= 0;
             const Corner &in = leaves ? here : next, &out = leaves ? next : here;
             const double part = (leaves ? here_room : next_room) / std::fabs(here_room - next_room);
@@ -105,13 +106,13 @@ class Polygon {
     }
 
   private:
-    /// A cut adds one, or by roundings two.
+    /// A cut adds one corner, or two by rounding.
     static constexpr std::size_t max_corners = 4 + 4 * axis_count;
     std::array<Corner, max_corners> corners_;
     std::size_t count_;
 };
 
-/// The greatest w at a cell's begin, up to `cap`, from which one can go on to at most `next` at its end.
+/// Returns the maximum w at the start of a cell, up to `cap`, from which at most `next` is reachable at its end.
 double back_over(const Cell& cell, double cap, double next, const MachineLimits& limits) {
     if (cell.straight) return std::min(cap, next + 2 * cell.accel * cell.length);
     Polygon polygon(cap, next);
@@ -123,7 +124,7 @@ double back_over(const Cell& cell, double cap, double next, const MachineLimits&
     return polygon.max_from();
 }
 
-/// The greatest w at a cell's end, up to `cap`, after `square` at its begin.
+/// Returns the maximum w at the end of a cell, up to `cap`, after `square` at its start.
 double ahead_over(const Cell& cell, double square, double cap, const MachineLimits& limits) {
     if (cell.straight) return std::min(cap, square + 2 * cell.accel * cell.length);
     for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -134,8 +135,8 @@ double ahead_over(const Cell& cell, double square, double cap, const MachineLimi
     return std::max(cap, 0.0);
 }
 
-/// Within a straight cell one may speed up and brake. So it is taken, too, where a bent cell is so long that speeds
-/// change much in it.
+/// Within a straight cell the velocity may rise and fall. The same model applies to a curved cell in which the velocity
+/// changes much.
 double seconds_over(const Cell& cell, double from, double to) {
     const double begin = std::sqrt(from), end = std::sqrt(to);
     if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);

@@ -1,10 +1,10 @@
-// How fast a curve could be driven if acceleration could change at once.
+// Lower bound on the duration of a curve: acceleration may change at once.
 //
-//   w, the square of the speed, over u                back:  from the end, how fast one may be here and still go on
-//      ╭──╲        ╱──╮       caps: feed and axis     ahead: from the begin, as fast as can be below that
-//     ╱    ╲______╱    ╲      speeds                  ╱ ╲:   |p' w'/2 + p'' w| <= the axis' acceleration
+//   w, the square of the velocity, over u             back:  from the end, the highest w that can still be braked
+//      ╭──╲        ╱──╮       caps: feed and axis     ahead: from the beginning, the highest w below that
+//     ╱    ╲______╱    ╲      velocities              ╱ ╲:   |p' w'/2 + p'' w| <= the axis' acceleration
 //
-// On each cell w is a straight line, which is constant acceleration along u.
+// On each cell w is linear, which is constant acceleration along u.
 #pragma once
 
 #include <motionrack/control/limits.hpp>
@@ -13,9 +13,9 @@
 
 namespace motionrack::control {
 
-/// Seconds from rest to rest along a curve, as quick as each axis' speed and acceleration and the pieces' feeds allow;
-/// jerk is not limited. No motion along this curve with a limited jerk is quicker. Of curves with bends it is found to
-/// about a thousandth; 0: no pieces.
+/// Returns the minimum duration in s from standstill to standstill along a curve, within the axes' velocity and
+/// acceleration limits and the feed rates. Jerk is not limited. No jerk-limited motion along this curve is faster. On
+/// curved segments the relative error is about 0.001. Returns 0 without segments.
 double min_duration_s(std::span<const CubicSegment> curve, const MachineLimits& limits);
 
 }  // namespace motionrack::control

@@ -1,10 +1,10 @@
-// A program driven along its curve: moves go in, stretches from rest to rest come out, each with its place and its
-// time.
+// Trajectory of a whole program: moves are pushed; path sections from standstill to standstill come out with their
+// timing.
 //
-//   moves ──PathBuilder──► cubic pieces ──SectionPlanner──► feed profile        place(t) = curve(u(t))
+//   moves ──PathBuilder──► cubic segments ──SectionPlanner──► velocity profile        position(t) = curve(u(t))
 //
-// Along a stretch each axis keeps its speed, acceleration and jerk at every instant, the path stays within its
-// tolerance, and the programmed feed is not exceeded.
+// Within a section each axis observes its velocity, acceleration and jerk limits at every instant. The path stays
+// within its tolerance, and the velocity within the programmed feed rate.
 #pragma once
 
 #include <functional>
@@ -18,24 +18,24 @@
 
 namespace motionrack::control {
 
-/// From rest to rest; valid while the ride's callback runs.
+/// A path section from standstill to standstill; valid while the callback runs.
 struct PathSection {
     std::span<const CubicSegment> curve;  ///< empty: a dwell
     std::span<const ProfileSegment> feed;
-    double seconds = 0;       ///< of the motion
-    double overlap = 0;       ///< s by which it begins before the stretch before it has ended
-    SectionRamp before;       ///< where there is an overlap: how that one ends
-    double rest_seconds = 0;  ///< of the dwell behind it
-    std::int32_t line = 0;    ///< of the move that ends here
+    double seconds = 0;       ///< duration of the motion
+    double overlap = 0;       ///< time by which it starts before the end of the previous section, s
+    SectionRamp before;       ///< with an overlap: the final deceleration of the previous section
+    double rest_seconds = 0;  ///< duration of the dwell behind it
+    std::int32_t line = 0;    ///< line of the move that ends here
     Point end = {};
 };
 
-/// Looks at a stretch at rising times.
+/// Samples a section; times must not decrease.
 class SectionSampler {
   public:
     explicit SectionSampler(const PathSection& stretch) : stretch_(stretch) {}
-    /// `seconds` from the stretch's begin, not before the last ones; from 0 to its end. With what is left of the
-    /// stretch before.
+    /// Returns the point at `seconds` from the start of the section, from 0 to its end; not before the previous call.
+    /// Includes the remaining motion of the previous section.
     TrajectoryPoint at(double seconds);
 
   private:
@@ -47,12 +47,12 @@ class SectionSampler {
 class OfflineTrajectory {
   public:
     using OnSection = std::function<void(const PathSection&)>;
-    /// The axes stand at `start`.
+    /// `start`: the current position, at standstill.
     OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_stretch);
 
-    /// Begins where the last move ended. All its numbers are finite, and feeds above 0.
+    /// Adds a move that starts where the last one ended. All its numbers are finite, and feed rates above 0.
     void push(const Move& move);
-    /// The program rests here.
+    /// Ends the path with a standstill.
     void flush();
 
   private:
@@ -64,9 +64,9 @@ class OfflineTrajectory {
     SectionPlanner planner_;
     std::vector<CubicSegment> curve_;
     std::vector<SegmentTuning> use_;
-    StoredRamp before_;   ///< how the stretch before ends
-    double alone_ = 0;    ///< s of it in which the one before it has ended
-    double room_mm_ = 0;  ///< at its end
+    StoredRamp before_;   ///< final deceleration of the previous section
+    double alone_ = 0;    ///< s of the previous section without overlap
+    double room_mm_ = 0;  ///< corner tolerance at its end
 };
 
 }  // namespace motionrack::control

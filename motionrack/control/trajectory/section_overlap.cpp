@@ -8,18 +8,18 @@ namespace motionrack::control {
 
 namespace {
 
-/// Of a limit.
+/// Relative to a limit.
 constexpr double overlap_rounding = 1e-7;
-/// Of a piece's time.
+/// Relative to the duration of a segment.
 constexpr double hair = 1e-12;
-/// A time on a piece is found to a part of 2 to this power.
+/// Number of bisections for a time on a segment.
 constexpr int overlap_halvings = 14;
-/// Where an axis of both gets too much, the overlap is sought this much shorter, so often.
+/// Factor on the overlap, and number of attempts, if the sum exceeds an axis limit.
 constexpr double shorter_overlap = 0.96;
 constexpr int overlap_tries = 12;
-/// So often in a time in which both go on is looked at how fast the speed along the path changes.
+/// Number of samples of the path acceleration while both motions run.
 constexpr int looks = 4;
-/// Of a limit: what a card that draws the path as lines makes up for.
+/// Relative excess over a limit for which a card that draws the path as lines compensates.
 constexpr double along_reserve = 0.02;
 
 bool is_constant_jerk(const ProfileSegment& piece) {
@@ -38,7 +38,7 @@ bool are_one_line(const CubicSegment& a, const CubicSegment& b) {
 struct Times {
     double before = 0, after = 0;
 };
-/// On a piece, just before and just after it is at `place`.
+/// Returns the times on a segment just before and just after the position `place`.
 Times times_about(const ProfileSegment& piece, double place) {
     Times out{0, piece.seconds};
     for (int i = 0; i < overlap_halvings; ++i) {
@@ -48,7 +48,7 @@ Times times_about(const ProfileSegment& piece, double place) {
     return out;
 }
 
-/// s before the end, from which on no more than `room` is to go.
+/// Returns the time before the end from which at most `room` remains, s.
 double seconds_to_go(std::span<const ProfileSegment> feed, double room) {
     const double place = feed.back().begin + feed.back().length - room;
     double seconds = 0;
@@ -57,7 +57,7 @@ double seconds_to_go(std::span<const ProfileSegment> feed, double room) {
     return seconds;
 }
 
-/// s from the begin, until which no more than `room` is gone.
+/// Returns the time from the start until which at most `room` is covered, s.
 double seconds_gone(std::span<const ProfileSegment> feed, double room) {
     const double place = feed.front().begin + room;
     double seconds = 0;
@@ -68,14 +68,14 @@ double seconds_gone(std::span<const ProfileSegment> feed, double room) {
     return seconds;
 }
 
-// From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one
-// has gone no more than that. The path is no farther from one side than it has gone along the other.
+// At any instant of the overlap, either the previous motion has at most the tolerance left, or the next one has covered
+// at most the tolerance. The distance from one side is at most the distance covered along the other.
 double max_length_within(std::span<const ProfileSegment> in, std::span<const ProfileSegment> out,
                          double corner_tolerance_mm) {
     return seconds_to_go(in, corner_tolerance_mm) + seconds_gone(out, corner_tolerance_mm);
 }
 
-/// A stretch end, piece by piece.
+/// A ramp, segment by segment.
 class ProgramFlow {
   public:
     ProgramFlow(std::span<const ProfileSegment> feed, double seconds) : feed_(feed), time_(seconds) {
@@ -95,20 +95,20 @@ class ProgramFlow {
     double time_ = 0;
 };
 
-/// A time in which one stretch ends and the other begins: the motions along both at its begin and at its end.
+/// An interval in which one section ends and the other starts: both motions at its start and at its end.
 struct Moment {
     std::array<PathMotion, 2> in, out;
-    bool is_linear = false;  ///< accelerations change evenly
+    bool is_linear = false;  ///< accelerations change linearly
 };
 
-/// The greatest of |a x + b y|, each of x and y between its two values.
+/// Returns the maximum of |a x + b y|, with x and y each between its two values.
 double max_sum(double a, double x0, double x1, double b, double y0, double y1) {
     const double ax0 = std::min(a * x0, a * x1), ax1 = std::max(a * x0, a * x1), by0 = std::min(b * y0, b * y1),
                  by1 = std::max(b * y0, b * y1);
     return std::max(std::fabs(ax0 + by0), std::fabs(ax1 + by1));
 }
 
-/// Speeds, accelerations and jerks rise or fall all along a moment.
+/// Returns true if the sum is within the limits. Velocities, accelerations and jerks are monotonic in the interval.
 bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits) {
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
@@ -129,8 +129,8 @@ bool keeps_feed(const Moment& moment, double feed, double cosine) {
     return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * overlap_rounding);
 }
 
-/// A card draws the path as straight pieces, on which each axis has its share of the acceleration along the path; what
-/// the path's turn takes from that comes only at the joints. So this share alone has to be within the limits too.
+/// Checks the tangential shares alone. A card draws the path as straight lines, on which each axis has its share of the
+/// path acceleration. The corner reduces that sum only at the junctions.
 bool keeps_along(const PathMotion& in, const Point& a, const PathMotion& out, const Point& b,
                  const MachineLimits& limits) {
     Point speed;
@@ -214,7 +214,7 @@ double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double max_s
         std::min({max_seconds, in.seconds(), out.seconds(), max_length_within(in.feed, out.feed, corner_tolerance_mm)});
     for (int i = 0; i < overlap_tries; ++i, seconds *= shorter_overlap)
         if (is_within(in, out, seconds, limits)) return seconds;
-    // Where both go on with constant jerk an axis that turns back gets no more of both than of one.
+    // With constant jerk in both, an axis that reverses never has a higher sum than from one motion alone.
     const auto landing = in.feed.last(1), launch = out.feed.first(1);
     seconds = std::min(
         {max_seconds, landing[0].seconds, launch[0].seconds, max_length_within(landing, launch, corner_tolerance_mm)});

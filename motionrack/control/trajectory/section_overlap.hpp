@@ -1,9 +1,8 @@
-// A corner where one stretch ends and the next begins: within a tolerance the next one may begin a little before the
-// one before it has ended.
+// Overlap of two path sections at a corner: within a tolerance the next section may start before the previous one ends.
 //
-//   speed  ╲               ╱            each axis' speed, acceleration and jerk is the sum of both
-//     in    ╲▁           ▁╱  out        ──►  ╲▁╱▔   the corner is cut by at most the tolerance
-//             ▔▔─────────▔▔
+//   velocity  ╲               ╱         velocity, acceleration and jerk of each axis are the sums of both sections
+//      in      ╲▁           ▁╱  out     ──►  ╲▁╱▔   the corner is cut by at most the tolerance
+//                ▔▔─────────▔▔
 #pragma once
 
 #include <motionrack/control/limits.hpp>
@@ -14,19 +13,19 @@
 
 namespace motionrack::control {
 
-/// How a stretch ends or begins: the part of its feed in which it only slows down, or only speeds up, on one line; a
-/// piece of this line. Without feed where the curve is bent there.
+/// Straight end or beginning of a section with monotonic velocity, as one segment: final deceleration or initial
+/// acceleration. Without feed if the curve is not straight there.
 struct SectionRamp {
     CubicSegment curve;
     std::span<const ProfileSegment> feed;
     double seconds() const;
 };
-/// All along it.
+/// Returns true if the velocity decreases along the whole segment.
 bool slows(const ProfileSegment& piece);
 SectionRamp final_deceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed);
 SectionRamp initial_acceleration(std::span<const CubicSegment> curve, std::span<const ProfileSegment> feed);
 
-/// An end that stays when its stretch is gone.
+/// Copy of a ramp that outlives its section.
 class StoredRamp {
   public:
     void keep(const SectionRamp& end);
@@ -37,8 +36,9 @@ class StoredRamp {
     std::vector<ProfileSegment> feed_;
 };
 
-/// Seconds by which the next one may begin earlier, 0 .. `max_seconds`; 0: none, as on curved ends, or where an axis
-/// of both would get too much. `corner_tolerance_mm`: how far the path may be from the corner's sides.
+/// Returns the time by which the next section may start earlier, 0 .. `max_seconds`. Returns 0 if no overlap is
+/// possible: on curved ends, or where the sum would exceed an axis limit. `corner_tolerance_mm`: largest distance of
+/// the path from the sides of the corner.
 double max_overlap_s(const SectionRamp& in, const SectionRamp& out, double max_seconds, double corner_tolerance_mm,
                      const MachineLimits& limits);
 

@@ -6,14 +6,14 @@ namespace motionrack::control {
 
 namespace {
 
-/// Rounds of planning, and the part of the time that must be won for another one.
+/// Maximum number of planning rounds, and the relative gain that justifies another one.
 constexpr int max_rounds = 3;
 constexpr double worth_another = 0.995;
-/// So much faster than found last it may become.
+/// Allowed relative increase over the last velocity found.
 constexpr double first_slack = 0.35, slack_falls = 0.3;
-/// What comes so near to a limit is held by it; so much more a limit must become to be worth it.
+/// A limit is active within this factor; a change below it is not worth replanning.
 constexpr double nearly = 1.01;
-/// What a piece needed for changing the speed becomes more where neighbours become quicker.
+/// Margin on the acceleration that a segment needed, because it needs more if its neighbours become faster.
 constexpr double reserve = 1.3;
 
 }  // namespace
@@ -61,7 +61,7 @@ void SectionPlanner::measure(std::span<const CubicSegment> curve, std::span<cons
     }
 }
 
-/// How fast each piece can be, and what is left for changing the speed then.
+/// Computes the highest velocity of each segment, and the acceleration that remains for changing it.
 void SectionPlanner::compute_reachable_velocities(const InitialPathState& start) {
     const std::size_t n = pieces_.size();
     squares_.assign(n + 1, 0);
@@ -81,14 +81,14 @@ void SectionPlanner::compute_reachable_velocities(const InitialPathState& start)
     }
 }
 
-/// The square where speeding up from the piece's begin, `up` at its end, meets slowing down to its end.
+/// Returns the velocity2 where acceleration from the start, reaching `up` at the end, meets deceleration to the end.
 double SectionPlanner::max_segment_velocity(std::size_t i, double up) const {
     const double begin = squares_[i], end = squares_[i + 1], down = pieces_[i].velocity2_before(end, spans_[i].length);
     const double rise = up - begin, fall = down - end;
     return rise + fall > 0 ? begin + rise * std::clamp((down - begin) / (rise + fall), 0.0, 1.0) : std::max(begin, end);
 }
 
-/// The greatest that was found up to there; `k`: the first part of the feed that is looked at, then the last.
+/// Returns the maximum found up to `end`; `k`: the first profile segment to inspect, then the last one.
 PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
     PathMotion most;
     for (;; ++k) {
@@ -99,8 +99,8 @@ PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
     }
 }
 
-/// No piece much faster than it was found to be; more of the jerk for the bends that are held back by it. False: that
-/// is no news.
+/// Limits each segment to a little above the velocity found, and gives curves that the jerk limits a larger share of
+/// it. Returns false if no limit changed.
 bool SectionPlanner::tighten_limits(double slack) {
     bool news = false;
     std::size_t k = 0;

@@ -1,15 +1,14 @@
-// The quickest speed along a part of a curve that ends at rest.
+// Time-optimal velocity along a part of a curve that ends at standstill.
 //
-//   w, the square of the speed, over the path u. On a curvature an axis' acceleration is shared: what keeps it on the
-//   curve grows with w, the rest changes the speed, p' w'/2 + p'' w. So first it is found how fast each piece can be,
-//   from both ends, with no jerk in mind,
+//   w, the square of the velocity, over the path u. On a curve two terms share an axis' acceleration, p' w'/2 + p'' w:
+//   following the curve takes more of it as w grows, the rest changes the velocity. The first step finds the highest
+//   velocity of each segment from both ends, without jerk limits:
 //
-//      ╭──╮    ╱╲___╱╲     ╭──╮        what bends and feeds allow (cut off above), and what can be reached from there
+//      ╭──╮    ╱╲___╱╲     ╭──╮        cut off by curvature and feed rates, and the velocities reachable from there
 //     ╱    ╲__╱       ╲___╱    ╲
 //
-//   and with that speed as its limit a piece leaves the acceleration that it takes to be so fast. The feed planner
-//   keeps both, and the jerk. Where that turns out to be slower, there is more left to change the speed, and it is
-//   planned again.
+//   With that velocity as its limit, a segment has the remaining acceleration for changing it. The velocity planner
+//   observes both, and the jerk. Where the result is slower, more acceleration remains, and the planner runs again.
 #pragma once
 
 #include <motionrack/control/limits.hpp>
@@ -23,23 +22,23 @@ namespace motionrack::control {
 
 inline constexpr double no_speed_limit = 1e300;
 
-/// What plans have found out about a piece.
+/// Findings of previous plans about a segment.
 struct SegmentTuning {
-    double speed = no_speed_limit;            ///< more would leave less for changing it than it can be changed
-    double jerk_share = max_curvature_share;  ///< of the axes' jerk, that the curvature may take
+    double speed =
+        no_speed_limit;  ///< velocity limit; a higher one would leave too little acceleration for changing it
+    double jerk_share = max_curvature_share;  ///< share of the axes' jerk for the curvature
 };
 
 class SectionPlanner {
   public:
     explicit SectionPlanner(const MachineLimits& limits) : limits_(limits) {}
 
-    /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `use`: what is known of the
-    /// pieces, and then what this plan is by. False if nothing was found that goes on from `start`; then it is as it
-    /// was.
+    /// Plans from `from`, a position on the first segment, to standstill at `to`, on the last. `use`: findings about
+    /// the segments, updated by this plan. Returns false, without any change, if no plan continues from `start`.
     bool plan(const InitialPathState& start, std::span<const CubicSegment> curve, std::span<SegmentTuning> use,
               double from, double to);
 
-    /// What was found, by places on the curve; valid until the next plan.
+    /// Returns the profile over positions on the curve; valid until the next plan.
     std::span<const ProfileSegment> feed() const { return feed_; }
     double seconds() const { return seconds_; }
 
@@ -52,14 +51,14 @@ class SectionPlanner {
 
     MachineLimits limits_;
     VelocityPlanner planner_;
-    std::vector<ProfileSegment> feed_;  ///< the quickest found
-    double seconds_ = 0;                ///< of it
-    // by piece
+    std::vector<ProfileSegment> feed_;  ///< the fastest profile found
+    double seconds_ = 0;                ///< its duration
+    // one entry per segment
     std::vector<SegmentLimits> pieces_;
     std::vector<SegmentTuning> use_;
-    std::vector<double> most_;  ///< speeds
+    std::vector<double> most_;  ///< maximum velocities
     std::vector<LimitInterval> spans_;
-    // between pieces
+    // one entry per junction of segments
     std::vector<double> squares_;
 };
 

@@ -8,9 +8,9 @@ namespace motionrack::control {
 
 namespace {
 
-/// Of an axis' acceleration and of its jerk a curvature takes this much at most; the rest changes the speed.
+/// Maximum share of an axis' acceleration and jerk for the curvature; the rest changes the velocity.
 constexpr double accel_of_bend = 0.995, max_jerk_of_bend = 0.97;
-/// Of what jerk is left, changing the speed on a curvature takes so much; the rest changes the acceleration.
+/// Share of the remaining jerk for changing the velocity on a curve; the rest changes the acceleration.
 constexpr double share_of_bend = 0.7;
 constexpr double no_limit = 1e300;
 
@@ -19,7 +19,7 @@ struct Range {
     double max() const { return std::max(-min, most); }
 };
 
-/// Of a tangent over the piece: a parabola, whose ends or whose summit it is.
+/// Returns the range of a tangent over the segment: a parabola, with its extremes at the ends or the vertex.
 Range tangents_of(double tangent, double curvature, double curvature_rate, double length) {
     const double end = tangent + length * (curvature + 0.5 * curvature_rate * length);
     Range out{std::min(tangent, end), std::max(tangent, end)};
@@ -34,7 +34,8 @@ Range tangents_of(double tangent, double curvature, double curvature_rate, doubl
 AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, std::size_t i, const Range& tangents) {
     const double end = piece.curvature[i] + piece.curvature_rate[i] * piece.length;
     const Range bends{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
-    // With the tangent's sign a curvature takes from speeding up; against it from slowing down.
+    // Curvature with the sign of the tangent reduces the available acceleration; with the opposite sign the
+    // deceleration.
     const bool with = (tangents.most > 0 && bends.most > 0) || (tangents.min < 0 && bends.min < 0);
     const bool against = (tangents.most > 0 && bends.min < 0) || (tangents.min < 0 && bends.most > 0);
     const double tangent = tangents.max(), curvature = bends.max(), jerk = piece.jerk_share * effective_jerk(limits);
@@ -97,7 +98,7 @@ LimitInterval SegmentLimits::up_to(double top, double length) const {
     return out;
 }
 
-/// From w0 to w1, the greater one: w1 - w0 = 2 length (1 - curvature w1) / tangent, for the axis that has least.
+/// From w0 to w1, the larger one: w1 - w0 = 2 length (1 - curvature w1) / tangent, for the most limited axis.
 double SegmentLimits::compute_reachable_velocities(double square, double length,
                                                    double AxisSegmentLimits::*curvature) const {
     double most = no_limit;

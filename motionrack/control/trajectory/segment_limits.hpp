@@ -1,4 +1,4 @@
-// What the axes' limits mean for the speed along a piece of a curve.
+// Axis limits expressed along a segment of a curve.
 #pragma once
 
 #include <array>
@@ -9,34 +9,35 @@
 
 namespace motionrack::control {
 
-/// What an axis does on a piece, at most, as parts of its greatest acceleration or of its jerk: with speed v,
-/// acceleration a and jerk j along the piece it has
+/// Largest demands on an axis within a segment, as shares of its maximum acceleration or jerk. With velocity v,
+/// acceleration a and jerk j along the segment the axis has
 ///     p' v,   p' a + p'' v^2,   p' j + 3 p'' v a + p''' v^3.
 struct AxisSegmentLimits {
-    double tangent = 0, curvature = 0;  ///< |p'| and |p''|, of its acceleration
-    double bend_up = 0, bend_down = 0;  ///< |p''| where it takes from speeding up, and where from slowing down
-    double jerk_tangent = 0, jerk_bend = 0, jerk_twist = 0;  ///< |p'|, |p''| and |p'''|, of its jerk
+    double tangent = 0, curvature = 0;  ///< |p'| and |p''|, relative to its acceleration
+    double bend_up = 0,
+           bend_down = 0;  ///< |p''| where it reduces the available acceleration, and where the deceleration
+    double jerk_tangent = 0, jerk_bend = 0, jerk_twist = 0;  ///< |p'|, |p''| and |p'''|, relative to its jerk
 };
 
 struct SegmentLimits {
     SegmentLimits(const CubicSegment& piece, const MachineLimits& limits);
 
     std::array<AxisSegmentLimits, axis_count> axes;
-    std::size_t count = 0;  ///< of the axes that move
+    std::size_t count = 0;  ///< number of moving axes
     double speed =
-        0;  ///< that keeps the feed, the axes' speeds, and leaves something of their accelerations beside the curvature
-    double curvature_rate = 0;  ///< greatest jerk_twist
-    bool straight = true;       ///< nothing depends on the speed
+        0;  ///< within the feed rate and the axes' velocities; leaves some of their acceleration beside the curvature
+    double curvature_rate = 0;  ///< largest jerk_twist
+    bool straight = true;       ///< nothing depends on the velocity
 
-    /// And what the curvature alone takes of the axes' jerks is no more than this share of them.
+    /// Returns the velocity at which, in addition, the curvature takes at most this share of the axes' jerk.
     double max_velocity_for(double jerk_share) const;
-    /// The share that leaves what these take, no less than max_curvature_share.
+    /// Returns the share that leaves enough for this motion, at least max_curvature_share.
     double jerk_share_beside(double at_speed, double accel, double jerk) const;
-    /// Up to this speed, no more than max_velocity_for(): acceleration and jerk along the piece with which no axis has
-    /// more than its own.
+    /// Returns the acceleration and jerk along the segment that keep every axis within its limits at any velocity up to
+    /// `top` (at most max_velocity_for()).
     LimitInterval up_to(double top, double length) const;
-    /// The greatest square of the speed `length` after `square`, with no more acceleration than is left there; and
-    /// before it.
+    /// Return the largest velocity2 that is reachable at a distance `length` after (before) `square`, with the
+    /// acceleration that remains there.
     double velocity2_after(double square, double length) const {
         return compute_reachable_velocities(square, length, &AxisSegmentLimits::bend_up);
     }

@@ -7,9 +7,9 @@ namespace motionrack::control {
 
 namespace {
 
-/// So much of an axis' acceleration the curvature's share may change within a part.
+/// Largest change of the curvature's share of an axis' acceleration within a part.
 constexpr double much_of_a_part = 0.1;
-/// No part is shorter than this part of the time in which acceleration is reached, nor than these seconds allow.
+/// Minimum duration of a part: a share of the time to reach the acceleration, and these seconds.
 constexpr double part_of_rise = 0.5;
 constexpr double min_seconds = 0.0002, max_seconds = 0.004;
 constexpr double max_parts = 64;

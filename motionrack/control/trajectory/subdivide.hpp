@@ -1,4 +1,4 @@
-// Pieces of a curve, cut where limits change along them.
+// Subdivision of segments along which the limits vary.
 #pragma once
 
 #include <motionrack/control/limits.hpp>
@@ -6,11 +6,11 @@
 
 namespace motionrack::control {
 
-/// The piece from x = `from` to `to`.
+/// Returns the part of a segment from x = `from` to `to`.
 CubicSegment sub_move(const CubicSegment& piece, double from, double to);
 
-/// Into how many parts a piece is cut, so that the limits on each are nearly the same all over it: where a curvature
-/// takes a good part of an axis' acceleration, and the motion on it lasts long enough for the speed to change.
+/// Returns the number of parts that keep the limits nearly constant on each. More than one if the curvature takes much
+/// of an axis' acceleration and the motion lasts long enough to change its velocity.
 int subdivision_count(const CubicSegment& piece, const MachineLimits& limits);
 
 /// Calls `use` with each part.

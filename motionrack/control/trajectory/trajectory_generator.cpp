@@ -1,4 +1,4 @@
-// Moves to pieces to plans, and the way along them.
+// Moves to segments to plans, and the motion along them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,13 +10,13 @@ namespace motionrack::control {
 
 namespace {
 
-/// s before it has to slow down at which a path is planned further: more than anybody passes at once.
+/// s before deceleration starts at which a plan is extended: more than a caller advances at once.
 constexpr double margin = 0.15;
-/// s until another plan is sought where none was found.
+/// Delay before planning is retried, s.
 constexpr double patience = 0.008;
-/// Passed pieces are dropped by so many.
+/// Passed segments are removed in batches of this size.
 constexpr std::size_t min_drop = 1'024;
-/// Curves carry the number of the move in the place of its line, and numbers come round.
+/// Segments carry a move number modulo this instead of a line.
 constexpr std::int64_t tags = std::int64_t{1} << 30;
 
 double max_axis_velocity(const CubicSegment& piece, const MachineLimits& limits) {
@@ -41,7 +41,7 @@ TrajectoryGenerator::TrajectoryGenerator(const MachineLimits& limits, const Poin
                                          TrajectoryGeneratorSettings settings)
     : limits_(limits), settings_(settings), builder_(limits, start), planner_(limits) {}
 
-// ---- moves and pieces
+// ---- moves and segments
 
 void TrajectoryGenerator::push(const TrajectoryMove& move) {
     Move tagged = move.move;
@@ -59,7 +59,7 @@ void TrajectoryGenerator::flush() {
     fetch_segments(settings_.window);
 }
 
-/// A flush and a push may come together: then a few pieces more are known than the window has.
+/// A flush and a push may coincide: then a few more segments are known than the window allows.
 void TrajectoryGenerator::make_room() {
     if (!builder_.has_room()) fetch_segments(std::numeric_limits<std::size_t>::max());
 }
@@ -98,7 +98,7 @@ void TrajectoryGenerator::append(KnownSection& part, const CubicSegment& piece) 
     set_feed(part, part.curve.size() - 1);
 }
 
-/// Of a piece, with the overrides.
+/// Returns the feed rate of a segment with the overrides.
 double TrajectoryGenerator::feed_of(const KnownSection& part, std::size_t i) const {
     const double programmed = part.programmed[i];
     if (!moves_[static_cast<std::size_t>(move_of(part.curve[i].line) - first_move_)].overridable) return programmed;
@@ -106,7 +106,7 @@ double TrajectoryGenerator::feed_of(const KnownSection& part, std::size_t i) con
     return rapid_override_ < 1 ? rapid_override_ * max_axis_velocity(part.curve[i], limits_) : programmed;
 }
 
-/// Without what an earlier plan knew.
+/// Sets the feed rate of a segment and drops the findings of earlier plans.
 void TrajectoryGenerator::set_feed(KnownSection& part, std::size_t i, double at_least) const {
     part.curve[i].feed = std::max(feed_of(part, i), at_least);
     part.use[i] = {};
@@ -151,7 +151,7 @@ void TrajectoryGenerator::set_overrides(double feed, double rapid) {
     for (std::size_t i = 0; i < then_.curve.size(); ++i) set_feed(then_, i);
 }
 
-// ---- what comes next
+// ---- next action
 
 NextMotion TrajectoryGenerator::next(bool early) {
     for (fetch_segments(settings_.window);;) {
@@ -175,7 +175,7 @@ bool TrajectoryGenerator::is_ready(const KnownSection& part, std::size_t from, b
     return part.whole || early || part.curve.size() - from >= settings_.window;
 }
 
-/// From rest, wherever on its stretch it stands.
+/// Starts from standstill, anywhere on the section.
 void TrajectoryGenerator::begin() {
     piece_ = piece_at(place_, piece_);
     drop_passed();
@@ -194,7 +194,7 @@ void TrajectoryGenerator::update_plan(bool early) {
         bool tried = true, found = true;
         if (held_) {
             tried = !holding_, found = !tried || slow_down();
-            if (!found) cancel_overlap();  // so near its end it stands there
+            if (!found) cancel_overlap();  // close to its end the motion stops there
         } else if (new_feeds_)
             found = apply_overrides();
         else if (holding_ || (now_.planned_to < now_.known() && left_ - braking_ <= margin))
@@ -206,7 +206,7 @@ void TrajectoryGenerator::update_plan(bool early) {
     plan_overlap(early);
 }
 
-/// The next stretch may begin before this one has ended.
+/// Plans an overlap: the next section may start before this one ends.
 void TrajectoryGenerator::plan_overlap(bool early) {
     if (met_ || held_ || !now_.whole || now_.planned_to < now_.known() || left_ > braking_ + margin) return;
     if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
@@ -218,14 +218,14 @@ void TrajectoryGenerator::plan_overlap(bool early) {
                            left_ - before_left_, now_.rest.corner_tolerance_mm, limits_);
 }
 
-/// It does not after all.
+/// Cancels the planned overlap with the next section.
 void TrajectoryGenerator::cancel_overlap() {
     met_ = false;
     reach_ = 0;
     then_.feed.clear();
 }
 
-// ---- along the plan
+// ---- motion along the plan
 
 TrajectoryGenerator::PlanCursor TrajectoryGenerator::spot_at(double seconds) const {
     PlanCursor out{feed_, piece_, on_feed_ + seconds, {}};
@@ -237,7 +237,7 @@ TrajectoryGenerator::PlanCursor TrajectoryGenerator::spot_at(double seconds) con
     return out;
 }
 
-/// Between two pieces it is the second, so that something of it is left.
+/// At a boundary, returns the following segment, so that some of it remains.
 std::size_t TrajectoryGenerator::piece_at(double place, std::size_t piece) const {
     while (piece + 1 < now_.curve.size() && place >= now_.curve[piece].begin + now_.curve[piece].length) ++piece;
     return piece;

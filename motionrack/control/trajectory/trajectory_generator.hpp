@@ -1,13 +1,13 @@
-// A program driven along its curve while it still comes: moves go in, the motion comes out bit by bit, and can be held,
-// slowed and let go.
+// Online trajectory generator: moves are pushed while the motion is sampled. It can hold, override and stop at any
+// time.
 //
-//   push ──► | known, without speeds | planned, to a rest | passed ──► at(), pass()
-//                                    ^ planned anew from where the motion is: when more is known, on hold,
-//                                      on other overrides
+//   push ──► | known, without velocities | planned, to standstill | executed ──► at(), advance()
+//                                         ^ replanned from the current point: when more moves are known, on hold,
+//                                           on other overrides
 //
-// What is planned always ends at rest, so that whatever happens next the motion can stop on its path. It is planned
-// further before it has to slow down for that end. Each plan goes on from the speed and the acceleration of the one
-// before; where none is found that keeps the limits, the one before goes on for a little, and another is sought.
+// Every plan ends at standstill, so the motion can always stop on its path. The plan is extended before it has to
+// decelerate for that end. Each plan continues from the velocity and the acceleration of the previous one. If no
+// feasible plan exists, keeps the current plan and retries a little later.
 #pragma once
 
 #include <deque>
@@ -21,95 +21,95 @@
 
 namespace motionrack::control {
 
-/// A move, and what its driver wants to know of it later.
+/// A move with data for the caller.
 struct TrajectoryMove {
     Move move;
-    bool overridable = true;  ///< otherwise it goes at its own feed
-    std::uint8_t axes = 0;    ///< that move, a bit each
+    bool overridable = true;  ///< false: ignores the feed override
+    std::uint8_t axes = 0;    ///< axes that move, one bit each
 };
 
 struct TrajectoryGeneratorSettings {
     std::size_t window =
-        32'768;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
+        32'768;  ///< number of known segments before a motion starts, unless its end is known; 1 or more
 };
 
 enum class NextMotion : std::uint8_t {
-    nothing,  ///< all is driven, or held, or more has to be known first
+    nothing,  ///< everything is executed, or feed hold, or more segments must be known first
     motion,
     dwell
 };
 
-/// Allocates only when more is known at once than ever before.
+/// Allocates only when more segments are known at once than ever before.
 class TrajectoryGenerator {
   public:
-    /// The axes stand at `start`.
+    /// `start`: the current position, at standstill.
     TrajectoryGenerator(const MachineLimits& limits, const Point& start, TrajectoryGeneratorSettings settings = {});
 
     bool has_room() const { return builder_.has_room(); }
-    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above
-    /// 0.
+    /// Adds a move that starts where the last one ended. Requires has_room(). All its numbers are finite, and feed
+    /// rates above 0.
     void push(const TrajectoryMove& move);
-    /// The path ends here at rest, for now.
+    /// Ends the path here with a standstill, unless more moves are pushed in time.
     void flush();
 
-    /// What comes next. `early`: what is known is driven although there may be more.
+    /// Returns the next action. `early`: start with the known segments although more may follow.
     NextMotion next(bool early);
 
-    // ---- a motion, from here on
-    /// s that can be told and passed before next() is asked again.
+    // ---- motion
+    /// Returns the time that can be sampled and advanced before the next call of next(), s.
     double left() const { return left_ - reach_; }
-    /// s until it stands, if nothing more comes.
+    /// Returns the time to standstill if no more moves are pushed, s.
     double seconds_to_standstill() const { return left_; }
-    /// `seconds` from now, 0 .. left().
+    /// Returns the trajectory point at `seconds` from now, 0 .. left().
     TrajectoryPoint at(double seconds) const;
-    /// The motion has gone on for so long, 0 .. left().
+    /// Advances the motion by `seconds`, 0 .. left().
     void advance(double seconds);
 
-    // ---- a dwell
-    /// What is left of it.
+    // ---- dwell
+    /// Returns the remaining time of the dwell, s.
     double dwell_seconds() const { return now_.rest.seconds - dwelt_; }
-    /// So much of it was waited, 0 .. dwell_seconds().
+    /// Advances the dwell by `seconds`, 0 .. dwell_seconds().
     void advance_dwell(double seconds) { dwelt_ += seconds; }
 
-    // ---- wishes
-    /// Parts of the programmed feed, and of the axes' greatest speed in rapids: above 0. Felt as soon as the limits
-    /// allow.
+    // ---- overrides and feed hold
+    /// Sets the feed override and the rapid override (share of the axes' maximum velocities): above 0. They take effect
+    /// as soon as the limits allow.
     void set_overrides(double feed, double rapid);
-    /// Slows down and stands on the path as soon as the limits allow; then next() tells nothing until resume().
+    /// Decelerates to a stop on the path as soon as the limits allow; next() then returns nothing until resume().
     void hold() { held_ = true; }
     void resume() { held_ = false; }
     bool stands() const { return !(left_ > 0); }
-    /// s until it has to slow down for the end of what is known.
+    /// Returns the time until deceleration to the end of the known path begins, s.
     double seconds_to_braking() const { return left_ - braking_; }
 
-    // ---- which move
-    /// How many were pushed.
+    // ---- moves
+    /// Returns the number of pushed moves.
     std::int64_t pushed() const { return pushed_; }
-    /// The move, in the order of push from 0, on which this state is; of several that became one line, the first.
+    /// Returns the number of the move of this point, in the order of push from 0; of merged moves, the first.
     std::int64_t move_of(const TrajectoryPoint& state) const { return move_of(state.line); }
-    /// The first that is not passed; pushed() if all are.
+    /// Returns the first move that is not fully executed; pushed() if all are.
     std::int64_t first_pending_move() const;
-    /// Of the dwell.
+    /// Returns the move of the dwell.
     std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
-    /// One that has not been passed, as it was pushed.
+    /// Returns a pending move as it was pushed.
     const TrajectoryMove& move(std::int64_t number) const {
         return moves_[static_cast<std::size_t>(number - first_move_)];
     }
 
   private:
-    /// A stretch from rest to rest, or as much of it as is known: in the columns a row for each piece.
+    /// A path section from standstill to standstill, or its known part: one row per segment in each vector.
     struct KnownSection {
         std::vector<CubicSegment> curve;
-        std::vector<double> programmed;  ///< feeds without overrides
+        std::vector<double> programmed;  ///< feed rates without overrides
         std::vector<SegmentTuning> use;
         std::vector<ProfileSegment> feed;  ///< the plan
-        double planned_to = 0;             ///< u, how far it goes
-        bool whole = false;                ///< its rest is known
+        double planned_to = 0;             ///< u of the end of the plan
+        bool whole = false;                ///< the stop that ends the section is known
         PathElement rest;
         double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
         void clear();
     };
-    /// A place in now_, and the motion there.
+    /// A position in now_ and the motion there.
     struct PlanCursor {
         std::size_t feed = 0, piece = 0;
         double on_feed = 0;  ///< s
@@ -148,27 +148,27 @@ class TrajectoryGenerator {
     SectionPlanner planner_;
     KnownSection now_, then_;
 
-    std::size_t piece_ = 0, feed_ = 0;  ///< of now_, where the motion is
+    std::size_t piece_ = 0, feed_ = 0;  ///< current position in now_
     double place_ = 0;                  ///< u
     double on_feed_ = 0;                ///< s
-    double left_ = 0;                   ///< s to the planned end
-    double braking_ = 0;                ///< of these the last, in which it slows down for that end
-    double reach_ = 0;                  ///< s before the end of now_ when then_ begins
-    StoredRamp before_;                 ///< how the stretch before ends
-    double before_left_ = 0;            ///< s that it has still to go
-    double dwelt_ = 0;                  ///< s of the dwell at the end of now_
-    double retry_delay_s_ = 0;          ///< s until another plan is sought
+    double left_ = 0;                   ///< s to the end of the plan
+    double braking_ = 0;                ///< the last of these s, in which it decelerates to that end
+    double reach_ = 0;                  ///< s before the end of now_ at which then_ starts
+    StoredRamp before_;                 ///< final deceleration of the previous section
+    double before_left_ = 0;            ///< remaining time of it, s
+    double dwelt_ = 0;                  ///< elapsed time of the dwell at the end of now_, s
+    double retry_delay_s_ = 0;          ///< delay before planning is retried, s
     bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
     static constexpr double min_ease = 1.2;
-    double ease_ = min_ease;  ///< how much longer than a stop a way into lower feeds may be
+    double ease_ = min_ease;  ///< allowed duration of a change to lower feed rates, relative to a stop
     double feed_override_ = 1, rapid_override_ = 1;
 
     std::vector<CubicSegment> stop_curve_;
     std::vector<SegmentTuning> stop_use_;
     std::deque<TrajectoryMove> moves_;
-    std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_
-    std::int64_t flushed_ = 0;                  ///< all before this one are known to their end
-    std::int64_t told_ = 0;                     ///< of which the builder has told something last
+    std::int64_t pushed_ = 0, first_move_ = 0;  ///< first_move_: number of the first of moves_
+    std::int64_t flushed_ = 0;                  ///< all moves before this one are known to their end
+    std::int64_t told_ = 0;                     ///< move of the last element that the builder has returned
 };
 
 }  // namespace motionrack::control

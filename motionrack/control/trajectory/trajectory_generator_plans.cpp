@@ -1,4 +1,4 @@
-// Plans that go on from a motion: further, slower, to a stand.
+// Plans that continue a motion: longer, slower, to a stop.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,26 +9,26 @@ namespace motionrack::control {
 
 namespace {
 
-/// A stop is sought this much nearer and nearer.
+/// Number of bisections, and of steps outwards, in the search for a stop.
 constexpr int halvings = 5, steps_out = 40;
-/// The first try is about as hard as one may brake at this part of the speed.
+/// Share of the velocity at which the first try evaluates the deceleration limit.
 constexpr double part_of_speed = 0.7;
-/// On the way of a stop a curvature need hardly be driven faster than it would be without: what is not needed for its
-/// speed is left to slow down.
+/// Velocity limit on curves during a stop, relative to the current plan: acceleration that a higher velocity does not
+/// need remains for deceleration.
 constexpr double above_plan = 1.003;
-/// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by
-/// this much more.
+/// A change to lower feed rates may exceed the velocity of a stop by the factor `faster` and its duration by
+/// `max_ease`. After a failure the allowed duration grows by `ease_grows`.
 constexpr double faster = 1.01, max_ease = 16, ease_grows = 1.3;
-/// A speed below this part of another is slower, and not only rounded.
+/// A velocity below this share of another one is lower, not only rounded.
 constexpr double clearly_slower = 0.99;
 
 InitialPathState start_of(const PathMotion& along) {
     return {along.speed * along.speed, 2 * along.accel};
 }
 
-/// Whether it becomes faster once it has slowed down.
+/// Returns true if it accelerates after it has decelerated.
 bool speeds_up_again(std::span<const ProfileSegment> feed) {
-    double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since it slows down
+    double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since deceleration began
     for (const ProfileSegment& piece : feed) {
         const double speed = piece.last().speed;
         greatest = std::max({greatest, piece.at(0).speed, speed});
@@ -40,8 +40,8 @@ bool speeds_up_again(std::span<const ProfileSegment> feed) {
 
 }  // namespace
 
-/// The plan just found is driven, from a spot that is reached in `seconds`; until then the one before, which launches
-/// there.
+/// Takes over the plan just found from a point that is reached in `seconds`. Until then the previous plan applies,
+/// which launches there.
 void TrajectoryGenerator::take(const PlanCursor& from, double seconds, double to) {
     if (seconds > 0) {
         now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));
@@ -60,7 +60,7 @@ void TrajectoryGenerator::take(const PlanCursor& from, double seconds, double to
     measure();
 }
 
-/// How long the plan lasts, and from when on it only slows down.
+/// Computes the duration of the plan and the start of its final deceleration.
 void TrajectoryGenerator::measure() {
     left_ = -on_feed_;
     braking_ = 0;
@@ -70,15 +70,15 @@ void TrajectoryGenerator::measure() {
     }
 }
 
-/// From a motion on this piece to rest at the end of what is known.
+/// Plans from a motion on this segment to standstill at the end of the known path.
 bool TrajectoryGenerator::plan_to_end(std::size_t piece, const PathMotion& along) {
     const auto first = static_cast<std::ptrdiff_t>(piece);
     return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()},
                          {now_.use.begin() + first, now_.use.end()}, along.u, now_.known());
 }
 
-/// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not
-/// known how fast they are.
+/// Extends the plan to the end of the known path. Keeps the findings for segments before the old deceleration; those of
+/// the other segments are unknown.
 bool TrajectoryGenerator::extend_plan() {
     const PlanCursor from = spot_at(before_left_);
     const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.u;
@@ -99,8 +99,8 @@ bool TrajectoryGenerator::slow_down() {
     return true;
 }
 
-/// What is known of a piece, for a stop on it, that is driven as fast as is planned, or as fast as `planned`; `k`: the
-/// first part of the feed that is looked at, then the first that reaches there.
+/// Returns the tuning of a segment for a stop on it, driven as fast as planned or as `planned`. `k`: the first profile
+/// segment to inspect, then the first one that reaches it.
 SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& k, double planned) const {
     const CubicSegment& on = now_.curve[piece];
     SegmentTuning use = now_.use[piece];
@@ -112,14 +112,14 @@ SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& 
     return use;
 }
 
-/// The nearest place to stand at that is found: a plan to it is the planner's last.
+/// Finds the nearest possible stop; the plan to it is the planner's last one.
 std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     const InitialPathState start = start_of(from.along);
     const double begin = from.along.u, most = now_.planned_to - begin;
-    double planned = -1;  // how far the planner's last plan goes; below 0: it found none
+    double planned = -1;  // end of the planner's last plan; below 0: no plan
     std::vector<SegmentTuning> use;
     std::size_t k = feed_;
-    // Where it slows down for lower feeds, it slows down more for a stop: they need not be kept on its way.
+    // A stop overrules a deceleration to lower feed rates, so those need not be observed on its way.
     const double feed = now_.curve[from.piece].feed, eases_from = feed > feed_of(now_, from.piece) ? feed : 0;
     stop_curve_.clear();
     const auto add_piece = [&](std::size_t i) {
@@ -150,12 +150,12 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
         (plan_to(nearer) ? distance : too_near) = nearer;
     }
     if (planned != distance && !plan_to(distance)) return std::nullopt;
-    // Behind a narrow place that it passes as slowly anyway a stop is found when it is nearer.
+    // Behind a slow passage a stop is found when the motion is nearer to it.
     if (speeds_up_again(planner_.feed())) return std::nullopt;
     return begin + distance;
 }
 
-/// With other feeds. Where the motion is faster than they allow, it may be as fast as if it slowed down to stand.
+/// Applies new feed rates. Where the motion exceeds them, allows the velocities of a stop.
 bool TrajectoryGenerator::apply_overrides() {
     const PlanCursor from = spot_at(before_left_);
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
@@ -184,8 +184,9 @@ bool TrajectoryGenerator::apply_overrides() {
     return true;
 }
 
-/// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut
-/// where it changes, and each may be as fast as it is there; up to where the stop is fastest, as fast as that.
+/// Returns the known path from a point on, with the current feed rates. Divides the segments on the way of a stop,
+/// stretched by ease_, where its velocity changes. Each may have the velocity there; up to the fastest point, the
+/// maximum.
 TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCursor& from,
                                                                   std::span<const ProfileSegment> stop) const {
     KnownSection out;

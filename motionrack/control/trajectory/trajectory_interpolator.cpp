@@ -8,26 +8,25 @@ namespace motionrack::control {
 
 namespace {
 
-/// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is
-/// nothing.
+/// Share of the velocity step limit of an axis at each end of a move; below min_noise a step from rounding to pulses is
+/// ignored.
 constexpr double jump_share = 0.3, min_noise = 0.1;
-/// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be
-/// beside its path.
+/// Largest error in pulses along a move, from its constant acceleration, and across it.
 constexpr double off_pulses = 0.4;
 constexpr double shortest = 0.0002;
-/// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near
+/// A move may be shorter by this share to end nearer to whole pulses; the search stops at a position that is near
 /// enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
 constexpr int tries = 16;
-/// So much of half a pulse is left then.
+/// Share of half a pulse that remains then.
 constexpr double noise_left = 0.25;
-/// From one length that is tried to the next.
+/// Factor between tried lengths.
 constexpr double shorter = 0.7;
 constexpr double min_accel = 1e-6;
-/// mm, degrees: no move at all.
+/// mm, degrees: shorter moves are skipped.
 constexpr double min_move_length = 1e-6;
 
-/// Along the path: of XYZ, or of the fastest rotary axis where only these move.
+/// Returns the length along the path: of XYZ, or of the fastest rotary axis if only rotary axes move.
 double size_of(const Point& way) {
     const double linear = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
     return linear > min_length_mm ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
@@ -39,7 +38,7 @@ Point between(const Point& from, const Point& to) {
     return way;
 }
 
-/// How far an axis' speed is from what it would be on the straight way.
+/// Returns the difference between the velocity of an axis and its velocity on the chord.
 double turn_of(const TrajectoryPoint& state, const Point& way, double length, std::size_t axis) {
     const double along = length > 0 ? size_of(state.speed) / length * way[axis] : 0;
     return std::fabs(state.speed[axis] - along);
@@ -80,7 +79,8 @@ std::uint8_t TrajectoryInterpolator::axes_of(const Geometry& path) const {
     return static_cast<std::uint8_t>(axes);
 }
 
-/// Where the card has to stand between two moves: also before a corner is cut with more axes than it draws.
+/// Returns true if the card must stop between two moves: also before a blend that involves more axes than it
+/// interpolates.
 bool TrajectoryInterpolator::has_to_rest(const Geometry& path, std::uint8_t axes) const {
     if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
     const bool alike = axes == last_axes_ && axes == run_axes_;
@@ -88,7 +88,7 @@ bool TrajectoryInterpolator::has_to_rest(const Geometry& path, std::uint8_t axes
            settings_.drive->max_junction_velocity(last_, path) <= 0;
 }
 
-/// More axes than the card draws together.
+/// Returns true if more axes move than the card interpolates together.
 bool TrajectoryInterpolator::uses_auxiliary_axis(std::uint8_t axes) const {
     return settings_.drive && std::popcount(axes) > settings_.drive->max_interpolated_axes();
 }
@@ -111,7 +111,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     const double seconds = last_seconds_ = seconds_of_next();
     const TrajectoryPoint end = rider_.at(seconds);
     const double length = size_of(between(place_, end.place));
-    if (length < min_move_length && size_of(end.speed) > 0) {  // where it turns round
+    if (length < min_move_length && size_of(end.speed) > 0) {  // at a reversal
         rider_.advance(seconds);
         return pull(planned, early);
     }
@@ -135,8 +135,8 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     return true;
 }
 
-/// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move:
-/// no shorter than this matters.
+/// Returns the longest duration with small errors. The ends are rounded to whole pulses, so its velocities are wrong by
+/// half a pulse per move; a shorter move would not be better.
 double TrajectoryInterpolator::seconds_of_next() const {
     const TrajectoryPoint begin = rider_.at(0);
     const double least = uses_auxiliary_axis(rider_.move(rider_.move_of(begin)).axes)
@@ -148,13 +148,13 @@ double TrajectoryInterpolator::seconds_of_next() const {
         if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
         if (noise_left * is.quantisation > std::max(is.velocity_step, min_noise)) break;
     }
-    // No crumb before the end.
+    // Avoids a tiny remainder before the end.
     const double left = rider_.left();
     if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
     return left < 2 * shortest || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
 }
 
-/// A little earlier the path may pass nearer to a place on whole pulses.
+/// Shortens the move so that it ends nearer to whole pulses.
 double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, double seconds) const {
     if (roughness_of(begin, seconds).quantisation <= min_noise) return seconds;
     double best = seconds, min_off = 1;
@@ -168,8 +168,8 @@ double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, doub
     return best;
 }
 
-/// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more
-/// or less is a jump.
+/// The velocity sets the pulse spacing of the longest axis. The other axes share its duration: half a pulse more or
+/// less is a velocity step.
 double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point& end) const {
     std::array<double, axis_count> way = {};
     for (std::size_t i = 0; i < way.size(); ++i)
@@ -183,7 +183,7 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
     return off;
 }
 
-/// On a short way corners may lie on both sides of its middle.
+/// On a short distance corners may lie on both sides of the middle.
 TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
                                                                                 double seconds) const {
     const TrajectoryPoint middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
@@ -192,7 +192,7 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     for (std::size_t i = 0; i < way.size(); ++i) {
         square += way[i] * way[i];
         along += way[i] * gone[i];
-        even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with an even change of the speed
+        even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with constant acceleration
     }
     ApproximationError out;
     const double length = size_of(way);
@@ -213,7 +213,7 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     return out;
 }
 
-/// Pulses of an axis, at most, by which what is `gone` is beside the straight way.
+/// Returns the largest distance of a motion from the chord, in pulses of an axis.
 double TrajectoryInterpolator::beside(const Point& way, double per_square, const Point& gone) const {
     double along = 0, most = 0;
     for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];

@@ -1,8 +1,8 @@
-// A ride as straight moves whose speed changes evenly, for cards that draw lines and are told a speed for each.
+// Divides a trajectory into straight moves of constant acceleration, for cards that draw lines at a velocity each.
 //
-//   speed     ╭───╮            each move from one instant of the ride to another: as long as the path
-//           ╱╱     ╲╲          hardly bends and the acceleration hardly changes on it, but not so short
-//          ╱│ │   │ │╲         that its ends on whole pulses matter
+//   velocity  ╭───╮            each move spans an interval of the trajectory: as long as path and acceleration are
+//           ╱╱     ╲╲          nearly constant on it, but long enough that rounding its ends to whole pulses does not
+//          ╱│ │   │ │╲         matter
 #pragma once
 
 #include <motionrack/control/path_limits.hpp>
@@ -13,18 +13,19 @@ namespace motionrack::control {
 
 struct InterpolatorSettings {
     TrajectoryGeneratorSettings rider;
-    double max_seconds = 0.1;                 ///< of a move, so that wishes are felt soon; above 0, at most 0.1
-    bool cut_dwells = false;                  ///< dwells too
+    double max_seconds =
+        0.1;  ///< maximum duration of a move, which bounds the delay of a hold or an override; above 0, at most 0.1
+    bool cut_dwells = false;                  ///< divides dwells, too
     const DriveConstraints* drive = nullptr;  ///< may be null; must outlive the planner
 };
 
 class TrajectoryInterpolator final : public TrajectoryPlanner {
   public:
-    /// `start`: where the machine stands, at rest.
+    /// `start`: the current position, at standstill.
     TrajectoryInterpolator(const MachineLimits& limits, const Point& start, InterpolatorSettings settings = {});
 
     Result<void> push(const Move& move) override { return push(move, true); }
-    /// One that is not `overridable` goes at its own feed, whatever the overrides are.
+    /// Adds a move; one that is not `overridable` ignores the feed override.
     Result<void> push(const Move& move, bool overridable);
     bool has_room() const override { return rider_.has_room(); }
     void flush() override { rider_.flush(); }
@@ -33,19 +34,19 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
         rider_.hold();
         return true;
     }
-    /// `early`: what is known is driven although there may be more.
+    /// `early`: start with the known segments although more may follow.
     bool pull(PlannedMove& planned, bool early);
 
-    /// To hold, resume and override.
+    /// Access to hold, resume and overrides.
     TrajectoryGenerator& rider() { return rider_; }
     const TrajectoryGenerator& rider() const { return rider_; }
 
   private:
-    /// What a move from one instant to another costs.
+    /// Errors of a move that replaces an interval of the trajectory.
     struct ApproximationError {
-        double chord_error = 0;    ///< pulses beside its path, or early or late on it
-        double velocity_step = 0;  ///< jump at its joint with the next, in start speeds
-        double quantisation = 0;   ///< the jump of a speed that is half a pulse wrong
+        double chord_error = 0;    ///< largest error across or along the path, pulses
+        double velocity_step = 0;  ///< velocity step at its junction with the next move, relative to the limit
+        double quantisation = 0;   ///< velocity step that half a pulse of rounding causes
     };
 
     bool has_to_rest(const Geometry& path, std::uint8_t axes) const;
@@ -61,11 +62,11 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     PathLimits path_limits_;
     InterpolatorSettings settings_;
     TrajectoryGenerator rider_;
-    Geometry last_;                              ///< of the moves that were pushed
-    std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< of the last one, and of all since the path was to rest
+    Geometry last_;                              ///< geometry of the last pushed move
+    std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< axes of the last move, and of all moves since the last standstill
     Point position_;
     double last_seconds_ = 0.005;
-    Point place_;  ///< where the last planned move ends
+    Point place_;  ///< end of the last planned move
 };
 
 }  // namespace motionrack::control

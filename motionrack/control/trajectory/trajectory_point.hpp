@@ -1,4 +1,4 @@
-// All axes at one instant of a ride.
+// State of all axes at one instant of a trajectory.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,18 @@
 
 namespace motionrack::control {
 
-/// Per s, s^2, s^3.
+/// Position and its derivatives per s, s^2, s^3.
 struct TrajectoryPoint {
     double u = 0;
     Point place = {}, speed = {}, accel = {}, jerk = {};
     std::int32_t line = 0;
 };
 
-/// Where the motion along a piece has the axes; a place beside the piece counts as its end.
+/// Returns the state of the axes for a motion along a segment; clamps positions outside the segment.
 TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& along);
 
-/// Adds a stretch that has still `seconds` to its end, which is straight there: what it has still to go is missing.
+/// Adds the remaining motion of a section that ends in `seconds` s and is straight there, by subtracting its remaining
+/// distance.
 void add_overlap(TrajectoryPoint& state, const SectionRamp& end, double seconds);
 
 }  // namespace motionrack::control
