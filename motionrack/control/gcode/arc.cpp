@@ -7,7 +7,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Whether `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` comes first of all.
+/// Returns true if `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` is always first.
 bool comes_before(PlanePoint from, PlanePoint v, PlanePoint w) {
     const auto second_half = [&](PlanePoint p) {
         return !(cross(from, p) > 0 || (cross(from, p) == 0 && dot(from, p) > 0));

@@ -1,4 +1,4 @@
-// Bezier curves, and pairs of arcs beside them. Only + - * / and square roots, so the same everywhere.
+// Bezier curves and their biarcs. Uses only + - * / and square roots, so the result is the same on every platform.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/gcode/biarc_approximator.hpp>
@@ -8,18 +8,18 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Steps of the parameter: a piece is never shorter.
+/// Steps of the parameter: the minimum length of a part.
 constexpr std::uint32_t finest = 1u << 30;
 
-/// What samples of the curve may be off. Between them it is off by hardly more, so that the promise has room.
+/// Tolerance at the samples of the curve. Between them the deviation is hardly larger, so half of the promise suffices.
 constexpr double tolerance = spline_tolerance_mm / 2;
 constexpr int samples = 16;
 
-/// Flatter arcs are lines (mm: height over the chord), and so are those of greater radius.
+/// Flatter arcs (mm: height over the chord) and arcs with a larger radius become lines.
 constexpr double flat_mm = 1e-6;
 constexpr double largest_radius_mm = 1e6;
 
-/// Part of the control polygon's length below which a vector has no direction.
+/// A vector shorter than this share of the control polygon has no direction.
 constexpr double no_direction = 1e-12;
 
 PlanePoint interpolated(PlanePoint a, PlanePoint b, double t) {
@@ -29,8 +29,8 @@ double polygon_length(const std::array<PlanePoint, 4>& p) {
     return length(p[1] - p[0]) + length(p[2] - p[1]) + length(p[3] - p[2]);
 }
 
-/// Radius (> 0 to the left of `tangent`) and centre of the arc that leaves `at` along `tangent` and passes through
-/// `at + chord`; 0: a line.
+/// Computes radius and centre of the arc that starts at `at` along `tangent` and passes through `at + chord`. The
+/// radius is > 0 to the left of `tangent`, and 0 for a line.
 double arc_through(PlanePoint at, PlanePoint tangent, PlanePoint chord, PlanePoint& centre) {
     const PlanePoint normal = left_of(tangent);
     const double height = dot(normal, chord);
@@ -107,7 +107,7 @@ bool BiarcApproximator::next(Move& move) {
     return true;
 }
 
-/// The next piece of the curve: as long as it can be, beginning with twice the length of the last one.
+/// Computes the next part of the curve: as long as possible, starting with twice the length of the last one.
 bool BiarcApproximator::piece() {
     if (at_ == finest) return false;
     width_ = std::min(width_, finest / 2) * 2;
@@ -119,7 +119,7 @@ bool BiarcApproximator::piece() {
     return true;
 }
 
-/// False: the piece must be shorter.
+/// Returns false if the part must be shorter.
 bool BiarcApproximator::fit(double from, double to, Biarc& biarc) const {
     biarc.from = curve_.at(from);
     biarc.to = curve_.at(to);
@@ -128,14 +128,14 @@ bool BiarcApproximator::fit(double from, double to, Biarc& biarc) const {
     biarc.radius = {0, 0};
     const PlanePoint chord = biarc.to - biarc.from;
     const double size = (to - from) * polygon_length(curve_.points) * 3;
-    if (size <= tolerance || to - from <= 1.0 / finest) {  // a straight line is near enough
+    if (size <= tolerance || to - from <= 1.0 / finest) {  // a straight line is within tolerance
         biarc.joint = biarc.to;
         return true;
     }
     const double cosine = dot(biarc.tangent_in, biarc.tangent_out);
     const bool gentle = cosine > 0.5 && dot(chord, biarc.tangent_in) > 0 && dot(chord, biarc.tangent_out) > 0;
     if (!gentle) return false;
-    // Both tangents as long: the joint lies in the middle of what connects their tips.
+    // With tangents of equal length the joint is in the middle between their tips.
     const double along = dot(chord, biarc.tangent_in + biarc.tangent_out);
     const double square = dot(chord, chord);
     const double reach = square / (along + std::sqrt(along * along + 2 * (1 - cosine) * square));
@@ -169,8 +169,8 @@ Move BiarcApproximator::half(std::size_t which) const {
     if (move.kind == MoveKind::arc) {
         move.first = 0;
         move.second = 1;
-        // Both radii have the sign of the sense in which the arc turns: seen from `to`, the chord and so the height are
-        // reversed, and their quotient is not.
+        // The sign of both radii is the direction of the arc: seen from `to`, the chord and so the height are reversed,
+        // but their quotient is not.
         move.turns = biarc_.radius[which] > 0 ? 1 : -1;
         move.centre_first = biarc_.centre[which].first;
         move.centre_second = biarc_.centre[which].second;

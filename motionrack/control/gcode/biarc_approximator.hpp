@@ -1,9 +1,8 @@
-// CubicBezier splines (G5, G5.1) as arcs: pairs of arcs that pass tangentially into each other, made one after the
-// other in constant memory.
+// Approximates cubic Bezier splines (G5, G5.1) by biarcs: pairs of tangent arcs, made one by one in constant memory.
 //
-//      start ──► control ─ ─ ─ ─ ─ control ◄── end        the curve; each piece of it, from t to t':
+//      start ──► control ─ ─ ─ ─ ─ control ◄── end        the curve; each part of it, from t to t':
 //
-//      at(t), tangent(t) ──arc──► joint ──arc──► at(t'), tangent(t')        halved until it is near enough
+//      at(t), tangent(t) ──arc──► joint ──arc──► at(t'), tangent(t')        halved until it is within tolerance
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace motionrack::control::gcode {
 
-/// The arcs are nowhere farther from the curve than this, nor the curve from the arcs; mm.
+/// Maximum distance between the arcs and the curve, in both directions; mm.
 inline constexpr double spline_tolerance_mm = 0.001;
 
 /// Start, two control points, end; mm.
@@ -21,22 +20,21 @@ struct CubicBezier {
     std::array<PlanePoint, 4> points;
 
     PlanePoint at(double t) const;  ///< 0 .. 1
-    /// Unit vector along the curve as it comes to t (`before`) or leaves it; they differ in a cusp. Not for four points
-    /// in one place.
+    /// Returns the unit tangent before or after t, which differ at a cusp. Requires at least two different points.
     PlanePoint tangent(double t, bool before) const;
-    /// Least and greatest of one coordinate anywhere on the curve.
+    /// Computes the range of one coordinate over the whole curve.
     void range(double PlanePoint::*coordinate, double& least, double& greatest) const;
-    bool is_point() const;  ///< all four in one place
+    bool is_point() const;  ///< all four points are equal
 };
 
-/// With a control point in common: the same curve as a cubic.
+/// Returns the quadratic curve with this control point as a cubic one.
 CubicBezier quadratic(PlanePoint start, PlanePoint control, PlanePoint end);
 
 class BiarcApproximator {
   public:
-    /// `pattern` gives all but kind, plane, turns, centre and the end in the plane of X and Y.
+    /// `pattern` provides all fields except kind, plane, turns, centre and the end in the XY plane.
     void begin(const CubicBezier& curve, const Move& pattern);
-    /// The next arc or line; false: no more. The last one ends at the pattern's end.
+    /// Returns the next arc or line; false after the last one, which ends at the end of the pattern.
     bool next(Move& move);
 
   private:
@@ -53,9 +51,9 @@ class BiarcApproximator {
 
     CubicBezier curve_;
     Move pattern_;
-    std::uint32_t at_ = 0;     ///< how much of the curve is done, in steps of the finest division
-    std::uint32_t width_ = 0;  ///< of the piece tried last
-    std::size_t given_ = 2;    ///< halves of biarc_
+    std::uint32_t at_ = 0;     ///< completed part of the curve, in steps of the finest division
+    std::uint32_t width_ = 0;  ///< width of the part tried last
+    std::size_t given_ = 2;    ///< emitted halves of biarc_
     Biarc biarc_;
 };
 

@@ -1,4 +1,4 @@
-// One line of G-code taken apart into words; no meaning yet.
+// One line of G-code divided into words, before interpretation.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace motionrack::control::gcode {
 
-/// A line may have this many characters, not counting its end.
+/// Maximum number of characters in a line, without its end.
 inline constexpr std::size_t max_line_length = 1024;
 
-/// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
+/// G codes are stored in tenths: G1 = 10, G38.2 = 382; M codes as they are.
 enum GroupG : std::uint8_t {
     g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
     g_motion,        ///< G0 G1 G2 G3 G5 G5.1 G38.2 .. G38.5 G70 .. G72.2, G73 G74 G80 G81 .. G86 G89
@@ -29,7 +29,7 @@ enum GroupG : std::uint8_t {
     g_path,          ///< G61 G61.1 G64
     g_spindle,       ///< G97
     g_group_count,
-    g_refused = 254,  ///< known, but not for this machine
+    g_refused = 254,  ///< known, but not supported by this machine
     g_unknown = 255
 };
 
@@ -61,17 +61,17 @@ inline constexpr std::uint32_t axis_words = linear_words | rotary_words;
 inline constexpr std::uint32_t offset_words = letter_bit('I') | letter_bit('J') | letter_bit('K');
 
 struct Comment {
-    std::string_view text;      ///< without its marks
-    bool message = false;       ///< (MSG,text), (DEBUG,text), (PRINT,text): `text` is what follows the comma
-    bool values = false;        ///< of DEBUG and PRINT: parameters in it are shown with their values
+    std::string_view text;      ///< without the delimiters
+    bool message = false;       ///< (MSG,text), (DEBUG,text), (PRINT,text): `text` follows the comma
+    bool values = false;        ///< DEBUG and PRINT: parameters in it are replaced by their values
     bool rest_of_line = false;  ///< written with ';'
 };
 
-/// How much of the language a line may use.
+/// The part of the language that a line may use.
 enum class Language : std::uint8_t {
     words,        ///< words with numbers, as Grbl 1.1
-    expressions,  ///< parameters and expressions too: what a line can do without the others of its program
-    program       ///< O words too
+    expressions,  ///< also parameters and expressions: everything that needs no other line of the program
+    program       ///< also O words
 };
 
 struct Assignment {
@@ -81,21 +81,21 @@ struct Assignment {
 
 struct Block {
     std::string_view text;       ///< the line
-    std::uint32_t words = 0;     ///< which of the letters but G and M are there; A = bit 0
-    std::uint32_t g_groups = 0;  ///< which groups have a code
+    std::uint32_t words = 0;     ///< letters that are present, except G and M; A = bit 0
+    std::uint32_t g_groups = 0;  ///< groups that have a code
     std::uint32_t m_groups = 0;
     bool percent = false;  ///< the line is a lone %
-    bool deleted = false;  ///< a line with '/' that was left out
-    bool flow = false;     ///< an O word begins at `flow_column`; the rest of the line was not read
+    bool deleted = false;  ///< a line with '/' that was skipped
+    bool flow = false;     ///< an O word starts at `flow_column`; the rest of the line was not read
     std::uint16_t flow_column = 0;
-    std::array<double, 26> value;          ///< valid where `words` says so
+    std::array<double, 26> value;          ///< valid for the letters in `words`
     std::array<std::uint16_t, 26> column;  ///< from 0
     std::array<std::int16_t, g_group_count> g;
     std::array<std::uint16_t, g_group_count> g_column;
     std::array<std::int16_t, m_group_count> m;
     std::array<std::uint16_t, m_group_count> m_column;
     std::vector<Comment> comments;
-    std::vector<Assignment> assignments;  ///< in their order
+    std::vector<Assignment> assignments;  ///< in order
 
     bool has(char letter) const { return (words & letter_bit(letter)) != 0; }
     double operator[](char letter) const { return value[letter_index(letter)]; }
@@ -106,14 +106,14 @@ struct Block {
 struct ScanOptions {
     bool block_delete = false;
     Language language = Language::words;
-    const ParameterSource* parameters = nullptr;  ///< not null but for Language::words
+    const ParameterSource* parameters = nullptr;  ///< required except for Language::words
 };
 
-/// Takes a line apart. Checks the letters, the numbers, which codes exist, modal groups and repeated words.
-/// False: `problem` says what is wrong (its line number is left to the caller), `block` is of no use.
+/// Divides a line into words. Checks the letters, the numbers, the codes, modal groups and repeated words. Returns
+/// false with the error in `problem` (without the line number) and an unusable `block`.
 bool scan_line(std::string_view text, const ScanOptions& options, Block& block, Problem& problem);
 
-/// The word that begins at `column` (from 0), as written with its number or first bracket, without blanks at its end.
+/// Returns the word that starts at `column` (from 0), with its number or first bracket, without trailing blanks.
 std::string_view word_at(std::string_view text, std::size_t column);
 
 /// Fills `problem`; `column` counts from 0.

@@ -1,4 +1,4 @@
-// Canonical calls as text.
+// Prints canonical calls as text.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Four decimals hide it: print 0.0000 and not -0.0000.
+/// Avoids -0.0000: prints 0.0000 for values that four decimals hide.
 double tidy(double value) {
     return std::fabs(value) < 0.00005 ? 0.0 : value;
 }
@@ -18,14 +18,14 @@ std::string six(const std::array<double, axis_count>& v) {
                        tidy(v[4]), tidy(v[5]));
 }
 
-/// mm and degrees in the program's units.
+/// Converts mm and degrees to the units of the program.
 Point in_units(const Point& point, bool inch) {
     Point out = point;
     for (int axis = 0; inch && axis < 3; ++axis) out[axis] /= 25.4;
     return out;
 }
 
-/// G28 or G30 without axis words: rs274 prints a traverse to where the machine is before the one home.
+/// Returns true for G28 or G30 without axis words: rs274 prints a traverse to the current position before the one home.
 bool straight_home(const Block& block) {
     return block.has_g(g_nonmodal) && (block.g[g_nonmodal] == 280 || block.g[g_nonmodal] == 300) &&
            (block.words & axis_words) == 0;
@@ -69,7 +69,7 @@ void CanonPrinter::line(Interpreter& interpreter) {
     };
     std::size_t comments = 0;
     while (const CanonCall* step = interpreter.pull()) {
-        if (step->kind == CanonCallKind::input || step->awaits_input) continue;  // rs274 tells of neither
+        if (step->kind == CanonCallKind::input || step->awaits_input) continue;  // rs274 prints neither
         late_ = interpreter.was_held();
         if (late_) {
             event(*step, interpreter);
@@ -106,7 +106,7 @@ void CanonPrinter::note(const Interpreter& interpreter) {
     modes_ = interpreter.modes();
 }
 
-/// No word of the line says what M72 brings back on it, or M73 at the end of a call.
+/// Prints the modes that M72 restores on the line, or M73 at the end of a call: the line has no words for them.
 void CanonPrinter::print_restored_modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const bool ends_call = block.flow || block.has_m(m_program);
@@ -238,7 +238,7 @@ void CanonPrinter::event(const CanonCall& step, const Interpreter& interpreter) 
     }
 }
 
-/// Of M48 .. M53.
+/// M48 .. M53
 void CanonPrinter::overrides(std::int32_t code, bool on) {
     const char* able = on ? "ENABLE" : "DISABLE";
     if (code <= 50) call(fmt::format("{}_FEED_OVERRIDE()", able));

@@ -1,10 +1,8 @@
-// Prints what a program does as canonical calls, in the format of LinuxCNC's `rs274 -g`, so that the two can be
-// compared.
+// Prints a program as canonical calls, in the format of LinuxCNC's `rs274 -g`, so that the two can be compared.
 //
-// The motion lines (STRAIGHT_TRAVERSE, STRAIGHT_FEED, ARC_FEED, DWELL) are those of rs274 for the same program, to the
-// last digit, where both take it. The other lines have rs274's format, but: modal changes are not told in COMMENT
-// lines, no SET_NAIVECAM_TOLERANCE, and no calls for what this reader does not have (ON_RESET, SET_FEED_REFERENCE,
-// SET_SPINDLE_MODE).
+// The motion lines (STRAIGHT_TRAVERSE, STRAIGHT_FEED, ARC_FEED, DWELL) equal those of rs274 to the last digit for every
+// program that both accept. The other lines have the rs274 format with three exceptions: no modal changes in COMMENT
+// lines, no SET_NAIVECAM_TOLERANCE, and no calls for missing features (ON_RESET, SET_FEED_REFERENCE, SET_SPINDLE_MODE).
 #pragma once
 
 #include <functional>
@@ -15,25 +13,25 @@
 namespace motionrack::control::gcode {
 
 enum class Coordinates : std::uint8_t {
-    program,  ///< as rs274: in the program's length units, less the offsets
+    program,  ///< as rs274: in the length units of the program, without the offsets
     machine   ///< mm and degrees, machine coordinates
 };
 
 struct CanonOptions {
     Coordinates coordinates = Coordinates::program;
-    bool numbered = true;  ///< with rs274's first two columns: a running number and the line's N word
+    bool numbered = true;  ///< with the first two columns of rs274: a running number and the N word of the line
 };
 
-/// Prints line by line. For each line: `interpreter.line(...)`, then `line(interpreter)`, which pulls the steps.
+/// Prints line by line. For each line call `interpreter.line(...)`, then `line(interpreter)`, which pulls the calls.
 class CanonPrinter {
   public:
-    using Put = std::function<void(std::string_view line)>;  ///< gets each line with its '\n'
+    using Put = std::function<void(std::string_view line)>;  ///< receives each line with its '\n'
 
     CanonPrinter(CanonOptions options, Put put) : options_(options), put_(std::move(put)) {}
 
     void begin(const Interpreter& interpreter);
     void line(Interpreter& interpreter);
-    /// After the last line and Interpreter::finish().
+    /// Prints the remaining calls after the last line and Interpreter::finish().
     void rest(Interpreter& interpreter);
 
   private:
@@ -62,14 +60,14 @@ class CanonPrinter {
     std::int64_t count_ = 0;
     std::int64_t n_word_ = -1;
     PathControl path_ = PathControl::continuous;
-    // After the line before; steps that waited are shown in the frame and the unit of their own line.
+    // State after the previous line; calls that waited are printed in the frame and unit of their own line.
     Point position_ = {};
     WorkFrame frame_;
     ModalState modes_;
-    bool late_ = false;  ///< the step being printed is of a line before
+    bool late_ = false;  ///< the current call belongs to an earlier line
 };
 
-/// Prints a whole program; stops at the first problem.
+/// Prints a whole program; stops at the first error.
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
                           const CanonPrinter::Put& put, const std::string& file = {});
 

@@ -1,4 +1,4 @@
-// Which G and M codes there are, their modal groups, and what to say of those that this reader refuses.
+// The supported G and M codes, their modal groups, and explanations for the refused ones.
 #pragma once
 
 #include <motionrack/control/gcode/block.hpp>
@@ -6,26 +6,26 @@
 
 namespace motionrack::control::gcode {
 
-/// Group of a G code in tenths (0 .. 999); g_refused, g_unknown.
+/// Returns the group of a G code in tenths (0 .. 999), or g_refused, g_unknown.
 GroupG group_of_g(int tenths);
 
-/// Group of an M code (0 .. 99); m_unknown.
+/// Returns the group of an M code (0 .. 99), or m_unknown.
 GroupM group_of_m(int code);
 
 /// "G38.2", "G1".
 std::string name_of_g(int tenths);
 
-/// "G0, G1, G2, G3, ..." of one group.
+/// Returns "G0, G1, G2, G3, ..." for one group.
 std::string members_of_g(GroupG group);
 std::string members_of_m(GroupM group);
 
 /// "M0 M1 .."
 std::string known_m_codes();
 
-/// Whether a line from a sender may have the code, as Grbl 1.1 takes it.
+/// Returns true if a line from a sender may have the code, as in Grbl 1.1.
 bool is_for_senders(GroupG group, int tenths);
 
-/// Why a refused or unknown code is not done, and what to do instead.
+/// Explains why a refused or unknown code is not supported, with a remedy.
 std::string why_not_g(int tenths);
 std::string why_not_m(int code);
 

@@ -1,4 +1,4 @@
-// The ends of steps that waited.
+// Sets the ends of waiting calls.
 #include <motionrack/control/gcode/compensation_queue.hpp>
 
 namespace motionrack::control::gcode {

@@ -1,4 +1,4 @@
-// Parallels of lines and arcs, and where two of them meet.
+// Offset paths of lines and arcs, and their intersections.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -13,7 +13,7 @@ namespace {
 /// Directions whose sine is below this are parallel.
 constexpr double parallel = 1e-9;
 
-/// A move that comes back along itself within this sine, with an arc that bends towards the cutter, leaves it no room.
+/// A move that returns along itself within this sine, with an arc that bends towards the cutter, has no free path.
 constexpr double cusp = 0.05;
 
 double distance(PlanePoint a, PlanePoint b) {
@@ -23,12 +23,12 @@ PlanePoint unit(PlanePoint v) {
     return v * (1 / length(v));
 }
 
-/// From `a` to `b`, in (-pi, pi].
+/// Returns the angle from `a` to `b`, in (-pi, pi].
 double angle_between(PlanePoint a, PlanePoint b) {
     return motionrack::atan2(cross(a, b), dot(a, b));
 }
 
-/// From `a` to `b` in the sense of `turns`, with its sign, above 0 to a whole turn.
+/// Returns the angle from `a` to `b` in the direction and with the sign of `turns`, above 0 to a full turn.
 double part_of_turn(PlanePoint a, PlanePoint b, std::int32_t turns) {
     const double whole = turns > 0 ? 2 * pi : -2 * pi;
     const double angle = angle_between(a, b);
@@ -42,7 +42,7 @@ double sweep_of(const CutterPath& path) {
            whole * (std::abs(path.turns) - 1);
 }
 
-/// Where two paths are wanted to meet: near the corner, on the side to which `towards` points.
+/// Selects the intersection of two paths: near the corner, on the side to which `towards` points.
 struct Near {
     PlanePoint corner;
     PlanePoint towards;
@@ -55,7 +55,7 @@ struct Near {
     }
 };
 
-/// A circle that is missed by less than the tolerance is touched.
+/// Intersects a line with a circle; a distance below the tolerance counts as contact.
 bool meet_line_circle(PlanePoint on, PlanePoint direction, PlanePoint centre, double radius, const Near& near,
                       PlanePoint& at) {
     const PlanePoint foot = on + direction * dot(centre - on, direction);
@@ -87,7 +87,7 @@ bool meet(const CutterPath& before, const CutterPath& after, const Near& near, P
     return true;
 }
 
-/// Whether the contour turns away from the cutter.
+/// Returns true if the contour turns away from the cutter.
 bool is_convex(const CutterPath& before, const CutterPath& after, double offset) {
     const double sine = cross(before.direction_out, after.direction_in);
     const double towards = offset > 0 ? sine : -sine;
@@ -139,7 +139,7 @@ CutterPath lead_in_line(PlanePoint from, PlanePoint to, double offset) {
 bool lead_in_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset,
                  CutterPath& path) {
     if (!offset_arc(from, to, centre, turns, offset, path)) return false;
-    // The centre lies on the line through the end towards the contour's centre, as far from the start as from the end.
+    // The centre lies on the line through the end and the contour's centre, equally far from the start and the end.
     const PlanePoint towards = unit(centre - path.end);
     const PlanePoint chord = from - path.end;
     const double along = dot(chord, towards);

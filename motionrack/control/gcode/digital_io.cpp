@@ -1,5 +1,4 @@
-// M62 .. M68: outputs and inputs by number. Nothing is connected to them here: inputs are 0 and stay so, as LinuxCNC's
-// do.
+// M62 .. M68: numbered outputs and inputs. They are not connected here: inputs are always 0, as in LinuxCNC.
 #include <fmt/format.h>
 
 #include <bit>
@@ -9,7 +8,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Of each kind.
+/// Maximum number of each kind.
 constexpr int max_ports = 64;
 
 /// M66 L.
@@ -23,7 +22,7 @@ bool is_analog_output(int code) {
 
 }  // namespace
 
-/// After everything else of the line: what words are theirs must be nobody else's.
+/// Runs after all other words of the line, so that remaining words belong to these codes.
 bool Interpreter::ports() {
     const int code = block_.m[m_io];
     if (code == wait_on_input) return read_input();
@@ -41,7 +40,7 @@ bool Interpreter::ports() {
     return true;
 }
 
-/// M66 P or E, L how to wait, Q for how long.
+/// Interprets M66: P or E, wait mode L, timeout Q.
 bool Interpreter::read_input() {
     if (!claim_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
         return false;
@@ -67,7 +66,7 @@ bool Interpreter::read_input() {
     return true;
 }
 
-/// Exactly one of the two words, with a number of a port.
+/// Requires exactly one of the two words, with the number of an input or output.
 bool Interpreter::port_number(char letter, char other) {
     const int code = block_.m[m_io];
     const bool second = other != '\0' && block_.has(other);
@@ -86,7 +85,7 @@ bool Interpreter::port_number(char letter, char other) {
                         code == wait_on_input ? "the number of an input" : "the number of an output");
 }
 
-/// Words that are the port's, and that nothing else on the line has taken.
+/// Claims words for M62 .. M68 if no other code of the line uses them.
 bool Interpreter::claim_words(std::uint32_t words) {
     const std::uint32_t taken = words & block_.words & used_;
     used_ |= words;

@@ -1,11 +1,11 @@
-// The moves of a cycle: down to the bottom, and a list of acts for each code from there.
+// Moves of a cycle: down to the bottom, then a list of acts for each code.
 #include <algorithm>
 #include <motionrack/control/gcode/drill_cycle.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
-/// A last peck thinner than this (mm) is no peck.
+/// A thinner last peck (mm) is skipped.
 constexpr double thinnest_peck = 1e-9;
 }  // namespace
 

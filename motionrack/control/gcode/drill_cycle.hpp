@@ -1,5 +1,5 @@
-// Drilling, tapping and boring cycles G73, G74, G81 .. G86, G89: what one line does, made one after the other in
-// constant memory.
+// Drilling, tapping and boring cycles G73, G74, G81 .. G86, G89: the moves of one line, made one by one in constant
+// memory.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Whether a G code in tenths is a cycle, and one that pecks.
+/// Returns true if a G code in tenths is a cycle (a pecking cycle).
 inline bool is_cycle(std::int16_t code) {
     return code >= 810 || code == 730 || code == 740;
 }
@@ -16,7 +16,7 @@ inline bool is_pecking(std::int16_t code) {
     return code == 830 || code == 730;
 }
 
-/// A cycle, all in machine coordinates. Per hole (third axis drawn downwards, T rapid, F feed):
+/// A cycle in machine coordinates. Moves of a hole (third axis drawn downwards, T rapid, F feed):
 ///
 ///     level --T--> over the hole
 ///       |T                                   G83: after every `peck`
@@ -24,35 +24,35 @@ inline bool is_pecking(std::int16_t code) {
 ///       |F                |T       |
 ///     bottom  ---------------- clear (r or the level before the first hole)
 ///
-/// At the bottom: G73 G81 G83 T to clear (G73 has no way back to r, only up by the clearance); G82 waits, T to clear;
-/// G85 F to r, T to clear; G86 waits, stops the spindle, T to clear, starts it; G89 waits, F to clear; G74 G84 stop the
-/// spindle, turn it the other way, wait, F to clear, stop it, turn it as before.
+/// At the bottom: G73 G81 G83 T to clear (G73 retracts only by the clearance between pecks, not to r); G82 dwells, T to
+/// clear; G85 F to r, T to clear; G86 dwells, stops the spindle, T to clear, starts it; G89 dwells, F to clear; G74 G84
+/// stop the spindle, reverse it, dwell, F to clear, stop it, restart it as before.
 struct DrillCycle {
     std::int16_t code = 810;         ///< in tenths
-    Spindle spindle = Spindle::off;  ///< as it turns before the cycle
+    Spindle spindle = Spindle::off;  ///< state before the cycle
     double speed_rpm = 0;
     std::uint8_t first = 0;  ///< axes of the plane
     std::uint8_t second = 1;
-    std::uint8_t third = 2;    ///< axis that drills
+    std::uint8_t third = 2;    ///< drilling axis
     std::int32_t repeats = 1;  ///< holes, >= 1
-    double step_first = 0;     ///< from hole to hole, mm; also before the first
+    double step_first = 0;     ///< distance between holes, also before the first one, mm
     double step_second = 0;
-    double level = 0;  ///< of the third axis before the first hole
+    double level = 0;  ///< third axis before the first hole
     double r = 0;
     double clear = 0;
     double bottom = 0;
     double peck = 0;  ///< depth of one peck, > 0 for G73 and G83
     double clearance = 0;
-    double seconds = 0;  ///< wait at the bottom
-    Move pattern = {};   ///< feed, path control, line; end: where the first hole is, less the steps
-    Point from = {};     ///< where the machine is
+    double seconds = 0;  ///< dwell at the bottom
+    Move pattern = {};   ///< feed rate, path control, line; end: first hole less one step
+    Point from = {};     ///< current position
 };
 
 class DrillCycleMoves {
   public:
     void begin(const DrillCycle& plan);
 
-    /// The next move or event of the spindle; false: there is none.
+    /// Returns the next move or spindle event; false after the last one.
     bool next(CanonCall& step);
 
   private:
@@ -70,7 +70,7 @@ class DrillCycleMoves {
     double level_ = 0;
     std::int32_t hole_ = 0;
     std::int32_t pecks_ = 0;
-    std::size_t acts_ = 0;  ///< done at the bottom of the hole
+    std::size_t acts_ = 0;  ///< completed acts at the bottom of the hole
 };
 
 }  // namespace motionrack::control::gcode

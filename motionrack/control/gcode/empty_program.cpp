@@ -13,7 +13,7 @@ bool is_empty_program(std::string_view text) {
     for (std::string_view line; lines.next(line);) {
         if (end.is_at(line)) return true;
         if (is_rest_empty(line, 0)) continue;
-        const std::size_t first = line.find('%');  // with which a program begins
+        const std::size_t first = line.find('%');  // optional '%' at the start of the program
         if (first == std::string_view::npos || !is_rest_empty(line.substr(0, first), 0) ||
             !is_rest_empty(line, first + 1))
             return false;

@@ -1,4 +1,4 @@
-// A program in which nothing is written: a copy that went wrong, or the wrong file.
+// Detects empty programs: an incomplete copy, or the wrong file.
 #pragma once
 
 #include <motionrack/control/gcode/problem.hpp>
@@ -7,10 +7,10 @@
 
 namespace motionrack::control::gcode {
 
-/// Whether a text has nothing but comments and blanks up to its closing '%'.
+/// Returns true if a text has only comments and blanks up to its closing '%'.
 bool is_empty_program(std::string_view text);
 
-/// What is wrong with such a program: to run it and call it done would be taken for success.
+/// Returns the error for such a program: completing it without an error could be mistaken for success.
 Problem empty_program_problem(std::string_view text, const std::string& file);
 
 }  // namespace motionrack::control::gcode

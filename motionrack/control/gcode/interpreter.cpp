@@ -1,4 +1,4 @@
-// One line of G-code from words to steps: modal state, the order in which things take effect, and what is left to pull.
+// Converts one line of G-code from words to canonical calls: modal state, order of execution, pending calls.
 #include <fmt/format.h>
 
 #include <bit>
@@ -13,7 +13,7 @@ namespace motionrack::control::gcode {
 namespace {
 
 constexpr double largest_line_number = 9'999'999;
-/// What M66 has found.
+/// Result of M66.
 constexpr int input_parameter = 5399;
 
 }  // namespace
@@ -88,7 +88,7 @@ bool Interpreter::evaluate() {
     return true;
 }
 
-/// All of them or, where there is no room for a name, none.
+/// Executes all assignments, or none if a name does not fit.
 bool Interpreter::assign() {
     std::size_t global = 0, local = 0;
     for (const auto& [parameter, value] : block_.assignments) {
@@ -351,7 +351,7 @@ std::size_t Interpreter::error_column() const {
     return first;
 }
 
-/// X1e3: the E would be a word of its own.
+/// Detects X1e3: the E would be a separate word.
 bool Interpreter::unused_exponent() {
     const std::string_view text = block_.text;
     const std::size_t column = block_.column[letter_index('E')];

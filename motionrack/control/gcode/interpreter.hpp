@@ -1,31 +1,31 @@
-// The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
+// The G-code interpreter: converts each line (words and modal state) to moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters.
-// Where the two differ, or neither is followed:
+// The dialect is Grbl 1.1 with extensions of LinuxCNC: paths, cycles, tool tables, rotated work systems, parameters.
+// Differences between the two, and deviations from both:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
-// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
-// (both).
-// - Arcs: offsets without axis words make full turns, P turns them several times, a third-axis word alone makes a helix
-//   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
-//   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
-// - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
-// - G53 reaches machine coordinates without the tool length (both). G43.1 of a sender takes Z alone (Grbl).
-// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where
-//   LinuxCNC takes any. G64's Q (naive cam) is refused.
-// - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl
-//   refuses it.
-// - G53 ignores G91 (Grbl); LinuxCNC refuses the two together.
-// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first
-// hole
-//   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
-//   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
-//   clearance never rapids above R.
-// - With cutter compensation a move waits for the next one, on which its end depends (motion_cutter.cpp, held.hpp); G40
-//   and the program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
-// - A probing move of any length is taken (LinuxCNC: 0.254 mm); the line after it begins where the machine stands.
-// - M56 is refused with a sentence. M0, M1, M2 and M30 are events.
-// - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
-// - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
+// - F0 or no F on a feed move is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 clears the
+//   feed rate (both).
+// - Arcs: offsets without axis words make full turns, P repeats them, a third-axis word alone makes a helix
+//   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R together with I J K, are errors
+//   (LinuxCNC; Grbl ignores them silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
+// - M7 and M8 may share a line (Grbl); LinuxCNC refuses it.
+// - G53 targets machine coordinates without the tool length (both). G43.1 of a sender accepts Z only (Grbl).
+// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P uses the tolerance of the settings
+//   (LinuxCNC: no limit). Q of G64 (naive cam) is refused.
+// - G80 may share a line with another motion word, which then applies (LinuxCNC; CAM programs begin with G0 G40 G80);
+//   Grbl refuses it.
+// - G53 ignores G91 (Grbl); LinuxCNC refuses the combination.
+// - Cycles start in G98 (LinuxCNC's interpreter starts in G99). In G91, R is relative to the level before the
+//   first hole (LinuxCNC). Between holes the drill stays at the height where it left the last one, after a retract
+//   to R if that is higher; after a change from G99 to G98, LinuxCNC rises to the first level on a slant. A peck
+//   thinner than the clearance never makes a rapid above R.
+// - With cutter compensation a move waits for the next one, which determines its end (motion_compensation.cpp,
+//   compensation_queue.hpp); G40 and the end of the program release it. A junction that is tangent within 0.001 mm
+//   gets no arc; LinuxCNC: within 2.9 degrees.
+// - A probing move of any length is accepted (LinuxCNC: 0.254 mm); the next line starts at the final position.
+// - M56 is refused with an explanation. M0, M1, M2 and M30 are events.
+// - A program may end without M2 (Grbl); LinuxCNC requires M2 or %.
+// - Targets and arc bulges outside the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once
 
 #include <motionrack/control/gcode/arc.hpp>
@@ -41,15 +41,15 @@
 
 namespace motionrack::control::gcode {
 
-/// Positions may pass a limit by this much (mm or degrees): what sums of rounded numbers can be off.
+/// Positions may exceed a limit by this much (mm or degrees): the rounding error of sums.
 inline constexpr double limit_slack = 1e-6;
 
 inline constexpr std::int16_t no_motion = -1;
 
-/// Of the contour, seen along it from the positive third axis.
+/// Side of the contour, seen along it from the positive third axis.
 enum class CutterSide : std::uint8_t { off, left, right };
 
-/// Modal state that is only numbers.
+/// Numeric modal state.
 struct ModalState {
     std::int16_t motion =
         no_motion;             ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
@@ -71,26 +71,26 @@ struct ModalState {
     bool feed_stop = true;            ///< M53
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
     std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
-    double cutter_radius_mm = 0;      ///< where `cutter` is not off
+    double cutter_radius_mm = 0;      ///< if `cutter` is not off
     double tolerance_mm = 0;
-    double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
-    double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
+    double feed = 0;         ///< feed rate, G94: mm/s, G93: 1/s; 0: none yet
+    double feed_rotary = 0;  ///< feed rate in G94 if no linear axis moves, degrees/s
     double speed_rpm = 0;
-    std::uint32_t cycle_words = 0;  ///< which of the next four the current cycle has had
+    std::uint32_t cycle_words = 0;  ///< bits of the next four words that were given since the cycle's G word
     double cycle_r = 0;             ///< as written, mm
-    double cycle_z = 0;             ///< the drilling axis' word, as written, mm
+    double cycle_z = 0;             ///< word of the drilling axis, as written, mm
     double cycle_q = 0;             ///< mm
     double cycle_p = 0;             ///< seconds
-    PlanePoint spline_end;          ///< of the last G5: P and Q, mm
-    PlanePoint spline_at;           ///< and where it ended
+    PlanePoint spline_end;          ///< last G5: P and Q, mm
+    PlanePoint spline_at;           ///< end of the last G5
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
-/// What a line does to the move that waits before it, and the move that waits after it.
+/// Effect of a line on the move that waits before it, and the move that waits after it.
 struct CompensationPlan {
-    bool joins = false;   ///< the move that waits goes along `last`
-    bool around = false;  ///< then along `arc`
-    bool begins = false;  ///< a move begins at `from` and waits along `path`
+    bool joins = false;   ///< the waiting move follows `last`
+    bool around = false;  ///< followed by `arc`
+    bool begins = false;  ///< a move starts at `from` and waits along `path`
     CutterPath last;
     CutterPath path;
     PlanePoint from;
@@ -99,65 +99,65 @@ struct CompensationPlan {
     void clear() { joins = around = begins = false; }
 };
 
-/// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
+/// Give it lines and pull the calls of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
 /// interpreter.pull()) ...`
 class Interpreter {
   public:
     /// `settings` must pass check_settings.
     explicit Interpreter(const Settings& settings);
 
-    /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not
-    /// pulled are dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
-    /// A line with an O word (block().flow) has no steps: what it means is for who walks through the program.
+    /// Checks one line (without its line end) and prepares its calls; drops calls of the previous line that were not
+    /// pulled. On an error the line has no effect. Texts of the calls point into `text`. A line with an O word
+    /// (block().flow) has no calls; ProgramFlow interprets it.
     Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
-    /// The next step of the last line, valid until the next call; null: no more.
+    /// Returns the next call of the last line, valid until the next pull(); null if there is none.
     const CanonCall* pull() {
         if (todo_ == 0) return nullptr;
         return pull_next();
     }
 
-    /// After the last line: with cutter compensation a move may wait for the next one, on which its end depends. This
-    /// makes it and what is behind it final; take the steps as after a line. Compensation is off then. A problem is
-    /// that of the line that waited.
+    /// Completes a move that cutter compensation holds back at the end of the program, and the calls behind it; pull
+    /// them as after a line. Compensation is off afterwards. An error belongs to the line that waited.
     Outcome<void> finish();
-    /// Whether the step that was pulled last is one of a line before, which has waited.
+    /// Returns true if the last pulled call belongs to an earlier line and was held back.
     bool was_held() const { return has_waited_; }
 
-    /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
-    /// further.
+    /// Returns the machine coordinates after the last line; with cutter compensation, the cutter centre if it stops
+    /// here.
     const Point& position() const { return off_path_ ? at_ : position_; }
-    Point program_position() const;                     ///< the same in the active work system, mm and degrees
-    std::int32_t line_number() const { return line_; }  ///< of the last line
-    /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine
-    /// stands at `stands`, where the next line begins. Without this call the move counts as gone to its end, where the
-    /// probe did as it was meant to. #5061 .. #5070 tell of it.
+    Point program_position() const;                     ///< in the active work system, mm and degrees
+    std::int32_t line_number() const { return line_; }  ///< number of the last line
+    /// Stores the result of the probing move of the last line (CanonCall::probe): the edge `at`, valid if `hit`, and
+    /// the final position `stands`. The next line starts there. Without this call the move counts as complete and
+    /// successful. #5061 .. #5070 return the result.
     void set_probe_result(bool hit, const Point& at, const Point& stands);
-    /// The machine was moved otherwise: the next line begins there, without cutter compensation.
+    /// Continues from a position after other motion of the machine; the next line starts there without cutter
+    /// compensation.
     void resync_position(const Point& position);
-    /// The operator has switched the coolant.
+    /// Sets the coolant state after manual switching.
     void set_coolant(bool mist, bool flood) {
         modes_.mist = mist;
         modes_.flood = flood;
     }
     const ModalState& modes() const { return modes_; }
     const WorkFrame& frame() const { return frame_; }
-    const Block& block() const { return block_; }  ///< the words of the last line
+    const Block& block() const { return block_; }  ///< words of the last line
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
     const ToolTable& tools() const { return tools_; }
-    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they
-    /// are, since cutter compensation is on and would not go with them.
+    /// Ends a subprogram: drops its parameters and restores the modes that M73 saved. Returns false, with unchanged
+    /// modes, if active cutter compensation prevents it.
     bool end_call(std::optional<double> returned);
-    /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which
-    /// draws_contour() reads. Until turn() has it, the line has no steps but its comments and events.
+    /// Returns true if the last line is a lathe cycle (G70 .. G72.2). It needs its contour: the moves of the sub
+    /// `label`, which contour_interpreter() reads. Until turn() gets it, the line has only its comments and events.
     bool is_lathe_cycle() const { return turning_.has_value(); }
     const std::string& contour_label() const { return contour_label_; }
-    /// One that reads a contour: as this one, but without limits and with a feed, from where the cycle starts.
+    /// Returns an interpreter for a contour: a copy without limits and with a feed rate, at the start of the cycle.
     Interpreter contour_interpreter() const;
-    /// Gives the line its moves. Errors: with nothing of them.
+    /// Makes the moves of the lathe cycle. On an error it has none.
     Outcome<void> turn(std::vector<ContourSegment> contour);
-    /// No work system is turned from now on, and overrides count.
+    /// Resets the rotation of all work systems and enables the overrides.
     void reset_after_program();
 
   private:
@@ -195,7 +195,7 @@ class Interpreter {
     void fill_overrides();
     void apply_end();
     void commit();
-    /// M2 or M30 on the line.
+    /// Returns true if M2 or M30 is on the line.
     bool ends_program() const { return (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30); }
     bool nonmodal();
     bool dwell();
@@ -306,14 +306,14 @@ class Interpreter {
     Point position_ = {};
     Parameters parameters_;
     ToolTable tools_;
-    /// What M70 and M73 have kept, by the depth of calls.
+    /// Modes saved by M70 and M73, by call depth.
     struct SavedModes {
         std::optional<ModalState> modes;
-        bool comes_back = false;  ///< when the call ends (M73)
+        bool comes_back = false;  ///< restored at the end of the call (M73)
     };
     std::vector<SavedModes> kept_;
 
-    // What the line being read will have changed when it is found good.
+    // Changes by the current line, applied when it is valid.
     ModalState next_;
     WorkFrame next_frame_;
     bool frame_edited_ = false;
@@ -324,11 +324,11 @@ class Interpreter {
     Language language_ = Language::words;
     std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
-    // Cutter compensation: the move that waits, and what the line being read makes of it.
+    // Cutter compensation: the waiting move, and the effect of the current line on it.
     CompensationQueue held_;
     bool has_waited_ = false;
-    bool compensating_ = false;  // a move waits in held_; from the first one beside the contour to G40
-    bool off_path_ = false;      // the machine is not at position_, but at at_
+    bool compensating_ = false;  // a move waits in held_; from the first compensated move to G40
+    bool off_path_ = false;      // the machine is at at_, not at position_
     Point at_ = {};
     CutterPath cutter_path_;
     PlanePoint cutter_from_;
@@ -339,15 +339,15 @@ class Interpreter {
     Problem problem_;
     std::int32_t line_ = 0;
 
-    // What is left to pull.
+    // Remaining calls.
     std::uint32_t todo_ = 0;
     Motion motion_ = Motion::single;
     bool via_point_pending_ = false;
     std::size_t comments_pulled_ = 0;
-    std::vector<std::string> shown_;  ///< of the comments with values: what they show
+    std::vector<std::string> shown_;  ///< output of the comments with values
     double dwell_seconds_ = 0;
-    double wait_seconds_ = 0;  ///< of M66
-    double port_value_ = 0;    ///< of M62 .. M68
+    double wait_seconds_ = 0;  ///< M66
+    double port_value_ = 0;    ///< M62 .. M68
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;
     bool end_pending_ = false;
@@ -356,7 +356,7 @@ class Interpreter {
     CanonCall moving_;
     DrillCycleMoves cycle_;
     BiarcApproximator spline_;
-    std::optional<LatheCycle> turning_;  ///< of the last line
+    std::optional<LatheCycle> turning_;  ///< lathe cycle of the last line
     std::string contour_label_;
     std::vector<LatheMove> turned_;
     std::size_t turned_pulled_ = 0;

@@ -1,4 +1,4 @@
-// The contour of a turning cycle: its corners, its direction, its parallel.
+// The contour of a lathe cycle: corners, direction, offset.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Places nearer to each other are one, mm.
+/// Maximum distance between equal points, mm.
 constexpr double same_place = 1e-6;
-/// Sine of an angle below which there is no corner.
+/// Sine of the smallest angle that counts as a corner.
 constexpr double no_corner = 1e-6;
 
 CutterPath path_of(const ContourSegment& piece, double distance, bool& fits) {
@@ -36,7 +36,8 @@ ContourSegment piece_of(const CutterPath& path, std::int32_t line) {
     return piece;
 }
 
-/// The fillet between two pieces: it touches both. Its centre lies on the parallels of both at its radius.
+/// Inserts the fillet between two segments: tangent to both. Its centre is the intersection of both offsets by its
+/// radius.
 std::string round_corner(ContourSegment& before, ContourSegment& after, ContourSegment& fillet) {
     std::string too_large =
         fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,

@@ -1,4 +1,4 @@
-// Levels and pockets of a turning cycle.
+// Levels and pockets of a lathe cycle.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,14 +10,14 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Heights and places that differ by less are the same, mm.
+/// Heights and positions with a smaller difference are equal, mm.
 constexpr double same_mm = 1e-7;
 constexpr double lowest_ever = -1e300;
 
-/// Which pockets a roughing cycle cuts.
+/// Pockets that a roughing cycle cuts.
 enum class Part : std::uint8_t { whole, without_pockets, pockets };
 
-/// The moves, in the plane as it is; what leads nowhere is left out.
+/// Collects the moves, in machine orientation; skips moves of zero length.
 class Path {
   public:
     Path(const CuttingOrientation& view, PlanePoint at, std::vector<LatheMove>& moves)
@@ -26,7 +26,7 @@ class Path {
     PlanePoint at() const { return at_; }
     bool full() const { return moves_.size() > max_turning_moves; }
     void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
-    /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
+    /// Passes over everything up to `highest`: retracts first if one of the ends is lower, and descends behind it.
     void over(double highest, PlanePoint to) {
         if (std::min(at_.second, to.second) < highest - same_mm) {
             const double clear = std::max(to.second, highest);
@@ -35,15 +35,15 @@ class Path {
         }
         rapid(to);
     }
-    /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not
-    /// aslant through the work piece, nor through a part of it that is higher than the start.
+    /// Moves to the start. If it lies behind the beginning of the contour, continues to a point above the beginning.
+    /// Never passes through the workpiece, neither on a slant nor where it is higher than the start.
     PlanePoint before(PlanePoint start, PlanePoint begin, double highest) {
         rapid(start);
         if (begin.first < start.first) over(highest, {begin.first, start.second});
         return at_;
     }
     void feed(PlanePoint to) { add(MoveKind::feed, to, {}, 0); }
-    /// Along a piece, up to a place on it. `on`: it goes on along the arc that the move before was on.
+    /// Moves along a segment up to a point on it. `on`: continues the arc of the previous move.
     void along(const ContourSegment& piece, PlanePoint to, bool on) {
         if (!piece.arc()) return feed(to);
         if (on && !moves_.empty() && moves_.back().kind == MoveKind::arc &&
@@ -64,7 +64,7 @@ class Path {
     std::vector<LatheMove>& moves_;
 };
 
-/// Where a piece that rises or falls is at a height.
+/// Returns the point at a given height on a rising or falling segment.
 PlanePoint at_height(const ContourSegment& piece, double height) {
     if (std::fabs(height - piece.to.second) <= same_mm) return piece.to;
     if (!piece.arc()) {
@@ -87,7 +87,7 @@ double highest_of(const std::vector<ContourSegment>& contour) {
     return highest;
 }
 
-/// Roughing along a contour that goes one way, seen in its view.
+/// Roughing along a monotone contour, in its own orientation.
 class Rougher {
   public:
     Rougher(const LatheCycle& plan, Part part, PlanePoint start, const std::vector<ContourSegment>& contour, Path& path)
@@ -101,7 +101,7 @@ class Rougher {
     void cut();
 
   private:
-    /// A place on the contour.
+    /// A point on the contour.
     struct On {
         std::size_t piece;
         PlanePoint at;
@@ -120,10 +120,10 @@ class Rougher {
     const LatheCycle& plan_;
     Part part_;
     PlanePoint start_;
-    double top_;  ///< where the levels begin: at the start, or at the highest pocket so far where only pockets are cut
+    double top_;  ///< height of the first level: the start, or the highest pocket so far if only pockets are cut
     const std::vector<ContourSegment>& contour_;
     Path& path_;
-    bool goes_on_ = false;  ///< the next piece may lengthen the last move's arc
+    bool goes_on_ = false;  ///< the next segment may extend the arc of the last move
 };
 
 void Rougher::cut() {
@@ -141,7 +141,7 @@ void Rougher::cut() {
     }
 }
 
-/// From the start down to where the contour begins; there is nothing yet of the work piece.
+/// Moves from the start down to the beginning of the contour; the workpiece has not been reached there.
 void Rougher::enter() {
     const PlanePoint begin = contour_.front().from;
     start_ = path_.before(start_, begin, highest_of(contour_));
@@ -156,7 +156,7 @@ void Rougher::enter() {
     path_.rapid(begin);
 }
 
-/// One level from `from` to the contour, and back. False: the contour never comes up to it.
+/// Cuts one level from `from` to the contour, and returns. Returns false if the contour never rises to it.
 bool Rougher::cut_level(PlanePoint from, const On& behind, bool outside) {
     On exit{};
     if (!exit_of(from.second, behind.piece, exit)) return false;
@@ -173,7 +173,7 @@ bool Rougher::cut_level(PlanePoint from, const On& behind, bool outside) {
     return true;
 }
 
-/// Where the contour, having been below a height, comes up to it.
+/// Finds the point where the contour rises to a height from below.
 bool Rougher::exit_of(double height, std::size_t from, On& exit) const {
     for (std::size_t i = from; i < contour_.size(); ++i) {
         const ContourSegment& piece = contour_[i];
@@ -184,7 +184,7 @@ bool Rougher::exit_of(double height, std::size_t from, On& exit) const {
     return false;
 }
 
-/// The contour goes down from here: the levels that are in there, then its bottom.
+/// Cuts a pocket, where the contour descends: its levels, then its bottom.
 void Rougher::pocket(std::size_t& piece) {
     On at{piece, contour_[piece].from};
     std::size_t bottom = piece;
@@ -205,7 +205,7 @@ void Rougher::pocket(std::size_t& piece) {
     piece = bottom + 1;
 }
 
-/// Straight on to where the contour is as high again; or along it where it never is.
+/// Moves straight to the point where the contour is as high again; along the contour if there is none.
 void Rougher::pass_over(std::size_t& piece) {
     const PlanePoint top = contour_[piece].from;
     On exit{};
@@ -225,7 +225,7 @@ void Rougher::follow(On& from, On to, bool on) {
     from = to;
 }
 
-/// The last piece leads up to the height of the start.
+/// Extends the last segment up to the height of the start.
 void close(std::vector<ContourSegment>& contour, double height) {
     const ContourSegment& last = contour.back();
     if (last.to.second >= height - same_mm) return;
@@ -263,8 +263,8 @@ std::vector<ContourSegment> seen(const std::vector<ContourSegment>& contour, con
     return out;
 }
 
-/// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part
-/// that is higher than one of the two.
+/// G70: passes along the contour in equal steps towards it. The return to the start avoids a part that is higher than
+/// both ends.
 std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const std::vector<ContourSegment>& contour,
                    Path& path) {
     PlanePoint start = view.in(plan.start);
@@ -282,7 +282,7 @@ std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const
     return {};
 }
 
-/// The contour in the view in which it goes one way; G70 takes either.
+/// Orients the contour so that it is monotone; G70 accepts both directions.
 std::string in_its_view(const LatheCycle& plan, const std::vector<ContourSegment>& contour, CuttingOrientation& view,
                         std::vector<ContourSegment>& out) {
     std::string fault;

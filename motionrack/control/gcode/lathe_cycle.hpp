@@ -1,14 +1,14 @@
-// Turning cycles G70 .. G72.2: from the contour of a work piece to the moves that cut it, in one plane; no words and no
+// Lathe cycles G70 .. G72.2: from the contour of a workpiece to the moves that cut it, in one plane; without words and
 // modes.
 //
 //     G71, seen with Z to the right:                    G72 is the same with X and Z exchanged.
 //
 //     X  T <───────────────────────────────── T start   levels I apart, from the start towards the contour;
-//        :  <───────────────────────────────  /         each: F along, T back by R aslant, T to the next one
-//        :      <─────────────────────────── /          on the line from the start to the contour's begin;
-//        F <─┐          ┌──<──┐<─────────── /           then F along the contour, with a distance D beside it
+//        :  <───────────────────────────────  /         each: F along, T back by R on a slant, T to the next one
+//        :      <─────────────────────────── /          on the line from the start to the beginning of the contour;
+//        F <─┐          ┌──<──┐<─────────── /           then F along the contour, at a distance D from it
 //            └─<─┐ ┌─<──┘     └──<───────── begin
-//                └─┘ a pocket: its levels when the contour goes down into it (G71.1: passed over; G71.2: only these)
+//                └─┘ a pocket: its levels when the contour descends into it (G71.1: skipped; G71.2: pockets only)
 //
 // All lengths are mm. In PlanePoint `first` is Z, `second` is X (G18).
 #pragma once
@@ -21,7 +21,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Whether a G code in tenths is one of these.
+/// Returns true if a G code in tenths is a lathe cycle.
 constexpr bool is_turning(std::int16_t code) {
     return code >= 700 && code <= 722;
 }
@@ -31,42 +31,40 @@ struct ContourSegment {
     PlanePoint from, to;
     std::int32_t turns = 0;  ///< arc: 1 counter-clockwise, -1 clockwise, as Move::turns of G18; 0: line
     PlanePoint centre;       ///< arc
-    double corner =
-        0;  ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: neither
+    double corner = 0;  ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: none
     bool chamfer = false;
-    std::int32_t line = 0;  ///< of the source
+    std::int32_t line = 0;  ///< source line
     bool arc() const { return turns != 0; }
 };
 
 struct LatheCycle {
     std::int16_t code = 710;  ///< in tenths: 700, 710 711 712, 720 721 722
-    PlanePoint start;         ///< from where it cuts
-    double distance =
-        0;  ///< D: what is left on the contour; of G70 that of the first pass would be, were there one more
-    double end_distance = 0;  ///< E of G70: of the last pass
+    PlanePoint start;         ///< start of cutting
+    double distance = 0;      ///< D: remaining stock on the contour; G70: distance of a pass before the first one
+    double end_distance = 0;  ///< E of G70: distance of the last pass
     std::int32_t passes = 1;  ///< P of G70
-    double depth = 1;         ///< I: between two levels, > 0
-    double retract = 0.5;     ///< R: up and back after a cut, >= 0
+    double depth = 1;         ///< I: distance between two levels, > 0
+    double retract = 0.5;     ///< R: retract after a cut, >= 0
 };
 
 struct LatheMove {
-    MoveKind kind = MoveKind::feed;  ///< traverse, feed or arc
+    MoveKind kind = MoveKind::feed;  ///< rapid, feed or arc
     PlanePoint to;
     PlanePoint centre;
     std::int32_t turns = 0;
 };
 
-/// Moves that one cycle may make.
+/// Maximum number of moves of one cycle.
 inline constexpr std::size_t max_turning_moves = 1'000'000;
 
-/// `contour`: one piece or more, each from the end of the one before; the machine stands at `from`. Gives the moves; a
-/// sentence if there are none, and nothing is of use then.
+/// Makes the moves of a cycle. `contour`: one segment or more, each from the end of the previous one; `from`: the
+/// current position. Returns an error sentence, with unusable moves, or an empty string.
 std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment> contour, PlanePoint from,
                              std::vector<LatheMove>& moves);
 
-// ---- what it is made of
+// ---- parts of the computation
 
-/// The plane as the cycle sees it: `first` along the cut, `second` away from the work piece.
+/// Orientation of the cycle in the plane: `first` along the cut, `second` away from the workpiece.
 struct CuttingOrientation {
     bool swapped = false;  ///< along X
     double along = 1;      ///< or -1
@@ -81,13 +79,13 @@ struct CuttingOrientation {
     std::int32_t turns(std::int32_t seen) const { return (along * away > 0) != swapped ? seen : -seen; }
 };
 
-/// Puts in the fillets and chamfers; from there on pieces have none.
+/// Inserts the fillets and chamfers; afterwards no segment has a corner radius.
 std::string insert_fillets(std::vector<ContourSegment>& contour);
 
-/// Cuts arcs where they are highest or lowest (`second`). A sentence if the contour goes back along `first` anywhere.
+/// Splits arcs at their extremes of `second`. Returns an error sentence if the contour reverses along `first`.
 std::string make_monotone(std::vector<ContourSegment>& contour, char axis);
 
-/// The contour at a distance >= 0 left of it: with arcs about corners that it turns away from.
+/// Computes the contour at a distance >= 0 to its left, with arcs about convex corners.
 std::string offset_contour(const std::vector<ContourSegment>& contour, double distance,
                            std::vector<ContourSegment>& beside);
 

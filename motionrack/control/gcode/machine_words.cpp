@@ -1,5 +1,4 @@
-// What words say to the rest of the machine: spindle, coolant, tool, overrides, stops, and modes that are kept and
-// brought back.
+// Words for the rest of the machine: spindle, coolant, tool, overrides, stops, and saved modes.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/interpreter.hpp>
@@ -46,8 +45,8 @@ bool Interpreter::apply_machine_words() {
     return true;
 }
 
-/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that
-/// the moves before it on the line still show the frame they were written in.
+/// Applies the state after M2 and M30 that Grbl and LinuxCNC reset. Runs when the end is pulled, so that the moves
+/// before it on the line keep their frame.
 void Interpreter::apply_end() {
     end_pending_ = false;
     next_ = modes_;
@@ -65,7 +64,7 @@ void Interpreter::apply_end() {
     modes_ = next_;
 }
 
-/// M48 .. M53. Of a spindle override and a feed stop switch the machine has none: what they say is kept and told.
+/// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
 bool Interpreter::overrides() {
     const int code = block_.m[m_override];
     const bool takes_p = code >= 50;
@@ -93,7 +92,7 @@ void Interpreter::fill_overrides() {
                                 : modes_.feed_override;
 }
 
-/// M98 P L and M99 stand alone; where they lead is for who walks through the program.
+/// M98 P L and M99 must be alone on the line; ProgramFlow executes them.
 bool Interpreter::program_words() {
     const int code = block_.m[m_program];
     const std::size_t column = block_.m_column[m_program];
@@ -120,7 +119,7 @@ bool Interpreter::program_words() {
            (!block_.has('L') || need_integer('L', 0, 1e9, "how often the program runs"));
 }
 
-/// M61 Q: the tool in the spindle is another one than was thought.
+/// M61 Q: corrects the number of the tool in the spindle.
 bool Interpreter::set_tool() {
     if (!block_.has('Q'))
         return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
@@ -134,7 +133,7 @@ bool Interpreter::set_tool() {
     return true;
 }
 
-/// Without a tool table every number is a tool's.
+/// Without a tool table every number is valid.
 bool Interpreter::require_tool(char letter, std::int32_t number) {
     if (number == 0 || settings_.tools.empty() || tools_.find(number)) return true;
     return fail_word(
@@ -142,8 +141,8 @@ bool Interpreter::require_tool(char letter, std::int32_t number) {
         fmt::format("{}: the tool table has no tool {}; write it into the table", word_text(letter), number));
 }
 
-/// M70 keeps the modes, M71 forgets them, M72 brings them back, M73 keeps them until the call ends. Spindle and coolant
-/// are left alone.
+/// M70 saves the modes, M71 discards them, M72 restores them, M73 saves them until the call ends. Spindle and coolant
+/// are not affected.
 void Interpreter::save_modes() {
     const int code = block_.m[m_state];
     if (code == 72) return;
@@ -187,7 +186,7 @@ bool Interpreter::end_call(std::optional<double> returned) {
     return true;
 }
 
-/// Whether cutter compensation can stay on when these modes come back.
+/// Returns true if cutter compensation can stay on with the restored modes.
 bool Interpreter::goes_beside(const ModalState& saved) const {
     return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system &&
            !saved.inverse_time;

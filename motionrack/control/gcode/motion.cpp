@@ -1,4 +1,4 @@
-// What axis words mean: which motion they belong to, where it ends, whether the machine reaches it, and at which feed.
+// Interpretation of axis words: their motion code, target, limits and feed rate.
 #include <fmt/format.h>
 
 #include <bit>
@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Two ways to the same place in a turned work system differ by less, mm.
+/// Maximum difference between two computations of the same position in a rotated work system, mm.
 constexpr double turned_slack = 1e-9;
 
 bool is_arc(std::int16_t code) {
@@ -44,7 +44,7 @@ bool Interpreter::motion() {
     return straight(code);
 }
 
-/// The rules for which words may stand beside a motion word, and the other way round.
+/// Checks the combination of axis words and motion word.
 bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     const bool is_explicit = block_.has_g(g_motion);
     if (axis_words_taken_ && is_explicit && code != no_motion) {
@@ -85,7 +85,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     return true;
 }
 
-/// Ends of the axes that have words.
+/// Computes the targets of the axes that have words.
 bool Interpreter::targets(bool machine_coordinates) {
     if (frame_now().is_rotated && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
@@ -104,7 +104,7 @@ bool Interpreter::targets(bool machine_coordinates) {
     return offset_contour || !off_path_ || reaches_contour();
 }
 
-/// Where the work system is turned, a word of X moves Y too.
+/// In a rotated work system an X word moves Y as well.
 bool Interpreter::targets_turned() {
     const WorkFrame& frame = frame_now();
     const bool offset_contour = compensates();
@@ -124,7 +124,7 @@ bool Interpreter::targets_turned() {
         if (!absent && !in_plane && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
         end_[axis] = target;
     }
-    // A rounding is no move: beside a contour it would have a direction.
+    // A rounding error must not become a move: in cutter compensation it would have a direction.
     if (!next_.incremental && std::fabs(end_[0] - position_[0]) < turned_slack &&
         std::fabs(end_[1] - position_[1]) < turned_slack) {
         end_[0] = position_[0];
@@ -153,7 +153,7 @@ bool Interpreter::straight(std::int16_t code) {
     return !compensates() || compensate();
 }
 
-/// Where each axis positions by itself only one of them can move at a feed.
+/// Where each axis positions independently, only one of them can make a feed move.
 bool Interpreter::by_itself(std::int16_t code) {
     if (!settings_.point_to_point) return true;
     std::string moving;
@@ -171,7 +171,7 @@ bool Interpreter::by_itself(std::int16_t code) {
                   name_of_g(code), moving));
 }
 
-/// A move of the line being read, with what the modes say of it, to where the words lead.
+/// Starts a move of the current line with the active modes, to the targets of the words.
 Move& Interpreter::begin_move(MoveKind kind) {
     moving_.line = line_;
     moving_.probe = Probe::none;

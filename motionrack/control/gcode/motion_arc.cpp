@@ -1,4 +1,4 @@
-// G2 and G3: centre, turns, and whether the machine reaches every point of the arc.
+// G2 and G3: centre, turns, and limits over the whole arc.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,13 +12,13 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Start and end may differ in radius by this much (mm), or by 0.1 % of the radius up to the second number; as Grbl,
+/// Allowed difference between start and end radius (mm), or 0.1 % of the radius up to the second number; as Grbl,
 /// LinuxCNC.
 constexpr double radius_difference_mm = 0.005;
 constexpr double radius_difference_relative = 0.001;
 constexpr double radius_difference_most_mm = 0.5;
 
-/// An end this near to the start (mm) is the start, and the arc a full turn.
+/// An end within this distance of the start (mm) makes a full turn.
 constexpr double same_point_mm = 1e-7;
 
 constexpr double max_turns = 100'000;
@@ -54,7 +54,7 @@ bool Interpreter::arc(std::int16_t code) {
                              move.turns);
 }
 
-/// In a turned work system an arc of G18 or G19 would lie in no plane of two axes; a cycle would drill aslant.
+/// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
     if (!frame_now().is_rotated || next_.plane == 0) return true;
     return fail_at(
@@ -64,7 +64,7 @@ bool Interpreter::in_turned_plane(std::int16_t code) {
             name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
 }
 
-/// Finds the centre from R or from I J K.
+/// Computes the centre from R or from I J K.
 bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
     const PlanePoint start = {position_[axes[0]], position_[axes[1]]};

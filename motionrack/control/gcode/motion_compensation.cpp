@@ -1,4 +1,4 @@
-// G40, G41, G42, G41.1, G42.1: the moves of a line become moves of the cutter's centre; what compensation forbids.
+// G40, G41, G42, G41.1, G42.1: converts the moves of a line to moves of the cutter centre; checks for conflicts.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ bool Interpreter::cutter() {
     return true;
 }
 
-/// From the D word, in mm; negative ones change the side.
+/// Reads the D word in mm; a negative diameter swaps the side.
 bool Interpreter::cutter_diameter(double& diameter) {
     const std::int16_t code = block_.g[g_cutter];
     const std::size_t column = block_.g_column[g_cutter];
@@ -80,7 +80,7 @@ bool Interpreter::cutter_diameter(double& diameter) {
         fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
 }
 
-/// What must stay as it is while compensation is on.
+/// Checks for changes that compensation does not allow.
 bool Interpreter::cutter_allows() {
     const auto forbid = [&](std::size_t column, std::string_view what) {
         return fail_at(
@@ -88,7 +88,7 @@ bool Interpreter::cutter_allows() {
             fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
     };
     const bool was_on = modes_.cutter != CutterSide::off;
-    // M72 brings modes back, too.
+    // M72 restores modes, too.
     const auto column_of = [&](GroupG group) -> std::size_t {
         return block_.has_g(group)      ? block_.g_column[group]
                : block_.has_m(m_state)  ? block_.m_column[m_state]
@@ -118,7 +118,7 @@ bool Interpreter::cutter_allows() {
     return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
 }
 
-/// The move that waits is the last one beside the contour; it ends as it is.
+/// Ends the waiting move, the last compensated one, without a corner.
 bool Interpreter::end_waiting_path() {
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
@@ -134,7 +134,7 @@ bool Interpreter::gouges(std::int32_t line) {
                     modes_.cutter_radius_mm, line));
 }
 
-/// The path beside the move that straight() or arc() has prepared.
+/// Computes the offset path of the move from straight() or arc().
 bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
     const Move& move = moving_.move;
     const double radius = next_.cutter_radius_mm;
@@ -165,7 +165,7 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
             : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
 }
 
-/// From the programmed move to that of the cutter, which waits until the next one is known.
+/// Converts the programmed move to that of the cutter, which waits until the next one is known.
 bool Interpreter::compensate() {
     Move& move = moving_.move;
     const auto& axes = plane_axes[next_.plane];
@@ -191,7 +191,7 @@ bool Interpreter::compensate() {
            off_limits();
 }
 
-/// From beside the contour back to it, which may lie where the machine cannot go.
+/// Checks the return from the offset path to the contour, which may be outside the limits.
 bool Interpreter::reaches_contour() {
     for (int axis = 0; axis < 3; ++axis)
         if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
@@ -204,7 +204,7 @@ bool Interpreter::off_limits() {
     return false;
 }
 
-/// Joins the move that waits to the one of this line.
+/// Joins the waiting move to the move of this line.
 bool Interpreter::join(PlanePoint corner) {
     const auto& axes = plane_axes[next_.plane];
     const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
@@ -225,7 +225,7 @@ bool Interpreter::join(PlanePoint corner) {
     cutter_plan_.around = joint.kind == CornerJoin::around;
     cutter_plan_.from = cutter_plan_.around ? path.start : joint.at;
     if (!cutter_plan_.around) return true;
-    // Before a rapid move the corner is cut straight, in the air.
+    // Before a rapid the corner is connected straight, above the workpiece.
     Move& arc = cutter_plan_.arc;
     arc = moving_.move;
     if (arc.kind != MoveKind::rapid) arc.kind = MoveKind::arc;
@@ -243,7 +243,7 @@ bool Interpreter::join(PlanePoint corner) {
            off_limits();
 }
 
-/// After G40 the cutter still stands beside the contour.
+/// After G40 the cutter is still on the offset path.
 bool Interpreter::leaves_straight(std::int16_t code) {
     if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
     return fail_at(error_column(), GrblStatus::bad_target,
@@ -251,13 +251,13 @@ bool Interpreter::leaves_straight(std::int16_t code) {
                                name_of_g(code)));
 }
 
-/// The program ends on this line.
+/// Handles the end of the program on this line.
 bool Interpreter::end_cutter() {
     if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
     return !compensating_ || end_waiting_path();
 }
 
-/// Without a move beside the contour, or an end of it, what the line does would wait too.
+/// Refuses a line whose calls would have to wait as well: it has no compensated move and does not end compensation.
 bool Interpreter::may_wait() {
     const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
     if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
@@ -268,7 +268,7 @@ bool Interpreter::may_wait() {
                                CompensationQueue::most, cutter_line_));
 }
 
-/// What the good line changes: the steps that are final become ready, its own ones wait behind them.
+/// Applies a valid line: final calls become ready, its own calls wait behind them.
 void Interpreter::commit_cutter() {
     const auto& axes = plane_axes[modes_.plane];
     const bool off = modes_.cutter == CutterSide::off;
@@ -294,7 +294,7 @@ void Interpreter::commit_cutter() {
     if (held_.has_ready()) todo_ |= todo_held;
 }
 
-/// What waited is final up to the move that this line begins.
+/// Completes the waiting calls up to the start of this line's move.
 void Interpreter::settle_joint() {
     const auto& axes = plane_axes[modes_.plane];
     if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
@@ -307,7 +307,7 @@ void Interpreter::settle_joint() {
     held_.settle();
 }
 
-/// Puts this line's events and motion behind what waits; the comments are told at once, the end of the program last.
+/// Queues the events and motion of this line; comments are passed on at once, the end of the program is last.
 void Interpreter::hold_steps() {
     const std::uint32_t kept = todo_ & (todo_comments | (end_pending_ ? todo_stop : 0u));
     todo_ &= ~kept;

@@ -14,12 +14,12 @@ namespace {
 constexpr double max_repeats = 10'000;
 constexpr double max_pecks = 100'000;
 
-/// Marks in Modes::cycle_words for the word of the drilling axis, whatever its letter.
+/// Bit in ModalState::cycle_words for the word of the drilling axis, whatever its letter.
 constexpr std::uint32_t depth_word = letter_bit('Z');
 
 }  // namespace
 
-/// Words that the cycle keeps from line to line; each must have been given since the cycle's own G word.
+/// Reads the words that the cycle stores from line to line; each must follow the cycle's own G word.
 bool Interpreter::cycle_words(std::int16_t code) {
     const char depth = axis_letters[plane_axes[next_.plane][2]];
     if (modes_.motion != code) next_.cycle_words = 0;
@@ -49,8 +49,8 @@ bool Interpreter::cycle_words(std::int16_t code) {
                    fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
-/// Tapping turns the spindle back at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and tapping
-/// the right way.
+/// Tapping reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and for
+/// tapping in the correct direction.
 bool Interpreter::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
     if (code != 740 && code != 840 && code != 860) return true;
@@ -63,7 +63,7 @@ bool Interpreter::spindle_turns(std::int16_t code) {
                                code == 740 ? "M4" : "M3"));
 }
 
-/// A peck that is too thin for its hole would go on for ever.
+/// Rejects a peck that is too thin for the depth of the hole, because the cycle would not end in useful time.
 bool Interpreter::pecks_go(const DrillCycle& plan) {
     if (!is_pecking(plan.code) || (plan.peck * max_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
         return true;
@@ -142,8 +142,8 @@ bool Interpreter::cycle(std::int16_t code) {
     return true;
 }
 
-/// The holes lie on a straight line, so the first and the last decide. Fills the plan's steps and first hole, and the
-/// end.
+/// Checks the first and the last hole, because all holes lie on a straight line. Computes the steps, the first hole and
+/// the end.
 bool Interpreter::cycle_within_limits(DrillCycle& plan) {
     plan.pattern.end = position_;
     if (!(frame_now().is_rotated ? cycle_places_turned(plan) : cycle_places(plan))) return false;
@@ -155,7 +155,7 @@ bool Interpreter::cycle_within_limits(DrillCycle& plan) {
     return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
 }
 
-/// The first hole and the steps in a turned work system, G17.
+/// Computes the first hole and the steps in a rotated work system, G17.
 bool Interpreter::cycle_places_turned(DrillCycle& plan) {
     const WorkFrame& frame = frame_now();
     Point words = next_.incremental ? Point{} : frame.to_program(position_);

@@ -1,4 +1,4 @@
-// G70 .. G72.2: from words to a plan, and from the contour that a sub gives to moves.
+// G70 .. G72.2: from words to a plan, and from the contour of a sub to moves.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/codes.hpp>
@@ -12,19 +12,19 @@ namespace {
 
 constexpr std::int16_t finishing = 700;
 constexpr double max_passes = 10'000;
-/// A level takes at least so much, mm.
+/// Minimum depth of a level, mm.
 constexpr double min_depth = 1e-4;
 
 }  // namespace
 
-/// The words of the cycle. Its moves come when the contour is known: turn().
+/// Reads the words of the cycle. turn() makes its moves when the contour is known.
 bool Interpreter::turning(std::int16_t code) {
     LatheCycle plan;
     plan.code = code;
     if (!turning_allowed(code) || !turning_words(code, plan)) return false;
     used_ |= axis_words;
     const Point stays = end_;
-    const bool incremental = std::exchange(next_.incremental, false);  // X and Z are places in G91 too
+    const bool incremental = std::exchange(next_.incremental, false);  // X and Z are absolute in G91 too
     if ((block_.words & axis_words) != 0 && !targets(false)) return false;
     next_.incremental = incremental;
     plan.start = {end_[2], end_[0]};

@@ -1,4 +1,4 @@
-// G38.2 .. G38.5: a move that the probe ends.
+// G38.2 .. G38.5: a move that ends at the probe edge.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/codes.hpp>
@@ -24,7 +24,7 @@ bool Interpreter::may_probe(std::int16_t code) {
     return true;
 }
 
-/// What straight() has prepared becomes a probing move.
+/// Turns the move prepared by straight() into a probing move.
 bool Interpreter::probing(std::int16_t code) {
     const std::string name = name_of_g(code);
     const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(error_column(), status, name + why); };
@@ -39,7 +39,7 @@ bool Interpreter::probing(std::int16_t code) {
     return true;
 }
 
-/// #5061 .. #5066 in the coordinates and units of the probing line, #5070.
+/// Stores #5061 .. #5066 in the coordinates and units of the probing line, and #5070.
 void Interpreter::store_probe_result(bool hit, const Point& at) {
     constexpr int first = 5061, success = 5070;
     const Point place = frame_.to_program(at);

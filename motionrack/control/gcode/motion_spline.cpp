@@ -1,4 +1,4 @@
-// G5 and G5.1: from words to the four points of a cubic, checked against the travel.
+// G5 and G5.1: from words to the four points of a cubic, checked against the limits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     return true;
 }
 
-/// I J from the start to the first control point, P Q from the end to the second one.
+/// I J lead from the start to the first control point, P Q from the end to the second one.
 bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     if (!block_.has('P') || !block_.has('Q') || (used_ & (letter_bit('P') | letter_bit('Q'))) != 0) {
         return fail_at(
@@ -80,7 +80,7 @@ bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
                 missing));
     }
     PlanePoint handle = {-modes_.spline_end.first,
-                         -modes_.spline_end.second};  // as written: not turned with the work system
+                         -modes_.spline_end.second};  // as written: not rotated with the work system
     const bool goes_on =
         modes_.motion == 50 && modes_.spline_at.first == start.first && modes_.spline_at.second == start.second;
     if (block_.has('I')) {
@@ -101,7 +101,7 @@ bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
     return true;
 }
 
-/// I J from the start to the one control point.
+/// I J lead from the start to the only control point.
 bool Interpreter::quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     used_ |= letter_bit('I') | letter_bit('J');
     const PlanePoint handle = {block_.has('I') ? scaled('I') : 0.0, block_.has('J') ? scaled('J') : 0.0};
@@ -121,14 +121,14 @@ PlanePoint Interpreter::turned_handle(PlanePoint handle) const {
     return {by[0], by[1]};
 }
 
-/// P and Q may be below 0 where they are a way, not a time, a tolerance or a depth.
+/// P and Q may be negative if they are distances, not a time, a tolerance or a depth.
 bool Interpreter::negative_handles() const {
     const std::int16_t code = block_.has_g(g_motion) ? block_.g[g_motion] : modes_.motion;
     return code == 50 && !block_.has_g(g_nonmodal) && !block_.has_g(g_path) && !block_.has_m(m_tool) &&
            !block_.has_m(m_override);
 }
 
-/// The next arc of the curve. Its joints may lie beside it, but not beyond the travel.
+/// Makes the next arc of the curve. Its joints may lie beside the curve, but not outside the limits.
 bool Interpreter::pull_spline() {
     Move& move = moving_.move;
     if (!spline_.next(move)) return false;

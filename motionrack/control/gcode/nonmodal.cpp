@@ -44,7 +44,7 @@ bool Interpreter::nonmodal() {
             break;
         }
         default:
-            return true;  // G53, a matter of the motion
+            return true;  // G53 belongs to the motion
     }
     if ((block_.words & axis_words) != 0 && !block_.has_g(g_motion)) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));

@@ -1,4 +1,4 @@
-// The hard cases of a G-code number: blanks inside, more digits than a double holds, and what is no number.
+// Rare cases of a G-code number: blanks inside, more digits than a double holds, errors.
 #include <fast_float/fast_float.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ const char* without_blanks(const char* p, const char* end) {
     return p;
 }
 
-/// Correctly rounded value of digits with at most one point.
+/// Returns the correctly rounded value of digits with at most one point.
 double round_correctly(const std::string& digits) {
     double value = 0;
     fast_float::from_chars(digits.data(), digits.data() + digits.size(), value);

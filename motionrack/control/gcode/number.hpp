@@ -6,7 +6,7 @@
 
 namespace motionrack::control::gcode {
 
-/// No number in a program may be larger, so that sums of a few of them are exact enough and never overflow.
+/// Maximum of a number in a program: sums of a few numbers are then exact enough and never overflow.
 inline constexpr double largest_number = 1e9;
 
 enum class NumberFault : std::uint8_t { none, no_digits, two_points, too_large };
@@ -15,7 +15,7 @@ struct Number {
     double value = 0;           ///< the correctly rounded double
     std::int64_t mantissa = 0;  ///< value = mantissa / 10^decimals where `exact`
     std::int32_t decimals = 0;
-    bool exact = true;  ///< false: more digits than 18, mantissa does not hold them
+    bool exact = true;  ///< false: more than 18 digits, which mantissa cannot hold
     NumberFault fault = NumberFault::none;
 };
 
@@ -32,11 +32,11 @@ inline char to_lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
 }
 
-/// The same as scan_number for the hard cases: blanks inside, long numbers, faults.
+/// As scan_number, for the rare cases: blanks inside, long numbers, errors.
 Number scan_number_slow(const char*& at, const char* end);
 
-/// Reads the number at `at`, leaves `at` at the first character that is neither of the number nor a blank after it.
-/// Up to 15 digits or so it needs one division, which rounds correctly because both operands are exact.
+/// Reads the number at `at` and moves `at` behind it and the following blanks. Up to about 15 digits need one division,
+/// which rounds correctly because both operands are exact.
 inline Number scan_number(const char*& at, const char* end) {
     const char* p = at;
     Number number;

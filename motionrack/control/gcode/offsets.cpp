@@ -1,5 +1,5 @@
-// What moves program coordinates about: work offsets and their turn (G10 L2, L20), the tool table (G10 L1, L10, L11)
-// and tool lengths (G43, G43.1, G43.2, G49).
+// Offsets of program coordinates: work offsets and rotation (G10 L2, L20), the tool table (G10 L1, L10, L11) and tool
+// lengths (G43, G43.1, G43.2, G49).
 #include <fmt/format.h>
 
 #include <bit>
@@ -70,8 +70,8 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
     return true;
 }
 
-/// How far an offset moves, along the axes of the frame, for the position there to be as the words say; in machine
-/// coordinates.
+/// Returns the change of an offset, along the axes of the frame in machine coordinates, that makes the current position
+/// read as the words.
 Point Interpreter::shift_to_words(const WorkFrame& frame) const {
     const Point now = frame.to_program(position_);
     Point by = {};
@@ -82,15 +82,15 @@ Point Interpreter::shift_to_words(const WorkFrame& frame) const {
     return frame.rotate(by);
 }
 
-/// G10 L20 of a turned system.
+/// G10 L20 of a rotated system.
 void Interpreter::shift_turned(WorkFrame& frame, int system) {
     frame.activate(system);
     const Point by = shift_to_words(frame);
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
 }
 
-/// G10 L1 sets a tool's offsets as written; L10 and L11 so that the tool, as it stands, is at the place written: in the
-/// active system, or in G59.3.
+/// G10 L1 sets the offsets of a tool as written; L10 and L11 set them so that the current tool position equals the
+/// words. L10 uses the active system, L11 uses G59.3.
 bool Interpreter::edit_tool(int what) {
     if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
     used_ |= letter_bit('L') | letter_bit('P');
@@ -153,7 +153,7 @@ bool Interpreter::tool_length() {
     return tool_length_of_table(code == 432);
 }
 
-/// G43.1, and G43.2 without H: the length is written on the line.
+/// G43.1, and G43.2 without H: the length is in the words of the line.
 bool Interpreter::tool_length_of_words(bool adds) {
     const std::uint32_t others = language_ == Language::words ? block_.words & axis_words & ~letter_bit('Z') : 0;
     if (others != 0) {
@@ -181,8 +181,8 @@ bool Interpreter::tool_length_of_words(bool adds) {
     return true;
 }
 
-/// Null: it was told that there is none. To blame is the word that names it or, where the tool in the spindle is meant,
-/// the code.
+/// Returns null after reporting a missing tool. The error points to the word that names it or, for the tool in the
+/// spindle, to the code.
 const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG code) {
     const Tool* tool = tools_.find(number);
     const bool named = block_.has(letter);
@@ -194,7 +194,7 @@ const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG 
     return tool;
 }
 
-/// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, means the tool in the spindle.
+/// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, selects the tool in the spindle.
 bool Interpreter::tool_length_of_table(bool adds) {
     const std::size_t column = block_.g_column[g_tool_length];
     std::int32_t number = std::max(0, next_.tool_loaded);

@@ -1,4 +1,4 @@
-// Places in a plane: its axes, sums and products.
+// Points in a plane: axes, sums and products.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace motionrack::control::gcode {
 
-/// First, second and third axis of G17, G18, G19: the first turns towards the second seen from above the third.
+/// First, second and third axis of G17, G18, G19: positive rotation turns the first axis towards the second.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
 
 inline PlanePoint operator+(PlanePoint a, PlanePoint b) {

@@ -1,4 +1,4 @@
-// What is wrong in a line of G-code: an Error with the word as written and the number that Grbl gives it.
+// An error in a line of G-code: an Error with the word as written and the status number of Grbl.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Status numbers of Grbl 1.1 ("error:n"), those that a line of G-code can have.
+/// Status numbers of Grbl 1.1 ("error:n") that a line of G-code can cause.
 enum class GrblStatus : int {
     none = 0,
     expected_letter = 1,
@@ -15,7 +15,7 @@ enum class GrblStatus : int {
     system_command = 3,
     negative_value = 4,
     line_too_long = 11,
-    travel_exceeded = 15,  ///< Grbl has it for jogs; a program that leaves the travel is its alarm 2
+    travel_exceeded = 15,  ///< used by Grbl for jogs; a program that leaves the travel raises its alarm 2
     unsupported = 20,
     modal_group = 21,
     no_feed = 22,
@@ -37,10 +37,10 @@ enum class GrblStatus : int {
     value_too_large = 38
 };
 
-/// An Error (sentence, file, line, column) of one line; nothing of that line took effect.
+/// An Error (sentence, file, line, column) of one line; the line had no effect.
 struct Problem : Error {
     GrblStatus status = GrblStatus::none;
-    std::string word;  ///< as written, at the error's column; empty when no word is to blame
+    std::string word;  ///< as written, at the column of the error; empty if no word is the cause
 };
 
 template <class T>

@@ -1,4 +1,4 @@
-// Finding the ends of lines eight characters at a time.
+// Finds the ends of lines, eight characters at a time.
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -9,13 +9,12 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// A byte of `word` is zero where the highest bit of that byte of the result is set (and none below the first such byte
-/// is wrong).
+/// Sets the highest bit of every byte that is zero in `word`; bytes below the first such byte are exact.
 constexpr std::uint64_t zero_bytes(std::uint64_t word) {
     return (word - 0x0101010101010101u) & ~word & 0x8080808080808080u;
 }
 
-/// First CR or LF at or after `p`, or `end`.
+/// Returns the first CR or LF at or after `p`, or `end`.
 const char* find_line_end(const char* p, const char* end) {
     constexpr std::uint64_t every_lf = 0x0a0a0a0a0a0a0a0au;
     constexpr std::uint64_t every_cr = 0x0d0d0d0d0d0d0d0du;

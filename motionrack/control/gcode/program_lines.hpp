@@ -1,4 +1,4 @@
-// Cutting a text into lines.
+// Divides a text into lines.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,17 @@
 
 namespace motionrack::control::gcode {
 
-/// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning. A copy is a place in
-/// the text to which one can come back.
+/// Divides a text into lines at LF, CR LF or CR, and skips a byte order mark at the beginning. A copy stores a position
+/// to which the reader can return.
 class ProgramLines {
   public:
     explicit ProgramLines(std::string_view text);
 
-    /// The next line, without its end; false: there is none. Of a line longer than `max_line_length` only the first
-    /// max_line_length + 1 characters are given, and the rest is skipped at the next call.
+    /// Returns the next line without its end; false after the last one. A line longer than `max_line_length` is
+    /// truncated to max_line_length + 1 characters; the next call skips the rest.
     bool next(std::string_view& line);
 
-    std::int32_t number() const { return number_; }  ///< of the line that next() gave, from 1
+    std::int32_t number() const { return number_; }  ///< number of the last line, from 1
     bool at_end() const { return at_ == end_ && !skip_; }
 
   private:

@@ -1,4 +1,4 @@
-// Walking through the lines of a program.
+// Pulls the calls line by line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
     : walk_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
 
-/// What other lines than those of cycles do is in the allowance of each line.
+/// Checks the budget of cycles; calls of other lines are covered by the allowance for each line.
 bool ProgramReader::within_budget() const {
     constexpr std::int64_t steps_of_a_line = 16;
     return further_steps_ <= max_steps_ + steps_of_a_line * lines_read_;
@@ -53,10 +53,10 @@ Outcome<const CanonCall*> ProgramReader::next_from_lines() {
 
 namespace {
 
-/// Problems that were told before, until a check is given up.
+/// Number of repeated problems after which a check stops.
 constexpr int max_repeated = 10'000;
 
-/// What goes wrong in a loop or a subprogram goes wrong often.
+/// Errors in a loop or a subprogram occur repeatedly.
 bool is_known(const std::vector<Problem>& problems, const Problem& one) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
         return other.place.line == one.place.line && other.place.column == one.place.column && other.file == one.file;

@@ -1,4 +1,4 @@
-// Taking a line of G-code apart: one pass over its characters, no allocation unless there is a comment or a fault.
+// Divides a line of G-code in one pass, without allocation unless there is a comment or an error.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/codes.hpp>
@@ -13,7 +13,7 @@ constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('D
                                        letter_bit('S') | letter_bit('T') | letter_bit('G') | letter_bit('M') |
                                        letter_bit('H') | letter_bit('E');
 
-/// The code in tenths, or -1 where it has more decimals or is out of the table.
+/// Returns the code in tenths, or -1 with more decimals or outside the table.
 int tenths_of(const Number& number) {
     if (!number.exact || number.mantissa < 0) return -1;
     std::int64_t mantissa = number.mantissa;
@@ -155,7 +155,7 @@ bool Scanner::comment() {
     return true;
 }
 
-/// In line with its one caller: most of the time of reading goes in here.
+/// Inlined into its only caller, because most of the reading time is spent here.
 [[gnu::always_inline]] inline bool Scanner::scan() {
     while (at_ < end_) {
         const char c = *at_;

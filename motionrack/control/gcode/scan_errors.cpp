@@ -1,4 +1,4 @@
-// What is said of a line that cannot be taken apart.
+// Error messages for lines that cannot be divided into words.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/scanner.hpp>

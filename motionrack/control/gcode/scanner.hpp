@@ -1,4 +1,4 @@
-// A line of G-code being taken apart: what scan.cpp, scan_faults.cpp and language/scan_language.cpp share.
+// Scanner for a line of G-code, shared by scan.cpp, scan_errors.cpp and language/scan_language.cpp.
 #pragma once
 
 #include <motionrack/control/gcode/block.hpp>
@@ -14,7 +14,7 @@ inline char upper(char c) {
     return static_cast<char>(c & ~0x20);
 }
 
-/// A line being taken apart; every method returns false after it has filled the problem.
+/// State of the scan of one line; every method returns false after it has filled the problem.
 class Scanner {
   public:
     Scanner(std::string_view text, const ScanOptions& options, Block& block, Problem& problem)

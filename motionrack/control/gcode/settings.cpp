@@ -1,4 +1,4 @@
-// Refusing settings with which no program could be read sensibly.
+// Refuses settings with which no program could be read.
 #include <fmt/format.h>
 
 #include <cmath>

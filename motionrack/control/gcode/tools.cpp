@@ -1,4 +1,4 @@
-// Reading and writing a tool table.
+// Reads and writes a tool table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ char upper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
 }
 
-/// Where a word's value belongs; null: the letter is none of a tool's. Whole: in `whole`, with the greatest value.
+/// Destination of a word's value: `value`, or `whole` with its maximum for integers; null if a tool has no such letter.
 struct Slot {
     double* value = nullptr;
     std::int32_t* whole = nullptr;
@@ -46,7 +46,7 @@ Slot slot_of(char letter, Tool& tool) {
                                       : Slot{&tool.offset[static_cast<std::size_t>(axis - axis_letters.begin())]};
 }
 
-/// One line; `problem` is empty where it is good.
+/// Reads one line; `problem` is empty if it is valid.
 struct LineReader {
     std::string_view text;
     Tool tool = {};
@@ -146,7 +146,7 @@ std::string to_text(const Tool& tool) {
     std::string out = fmt::format("T{} P{}", tool.number, tool.pocket);
     const auto add = [&out](char letter, double value) {
         if (value == 0) return;
-        std::array<char, 400> digits;  // the longest, of the smallest double, have 343
+        std::array<char, 400> digits;  // the smallest double needs 343 digits
         const auto [end, error] =
             std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed);
         MOTIONRACK_ASSERT(error == std::errc());

@@ -1,4 +1,4 @@
-// The tool table, as LinuxCNC keeps it in its .tbl files: one tool a line.
+// The tool table in the format of LinuxCNC's .tbl files: one tool per line.
 //
 //     T1 P1 Z42.5 D3.175   ;end mill
 //     T2 P2 X0.1 Z38 D6 I90 J30 Q2
@@ -31,23 +31,23 @@ struct Tool {
 
 class ToolTable {
   public:
-    /// Null: there is no tool of that number.
+    /// Returns null if the table has no tool with this number.
     const Tool* find(std::int32_t number) const;
-    /// In the order of the file.
+    /// in file order
     const std::vector<Tool>& tools() const { return tools_; }
     bool empty() const { return tools_.empty(); }
-    /// In place of the tool with that number, or behind the others. False: max_tools.
+    /// Replaces the tool with this number, or appends it. Returns false at max_tools.
     bool put(const Tool& tool);
 
   private:
     std::vector<Tool> tools_;
 };
 
-/// Errors: a line that is no tool, with its place in `file`.
+/// Errors: a line that does not describe a tool, with its position in `file`.
 Result<ToolTable> read_tool_table(std::string_view text, const std::string& file = {});
 
-/// "T1 P1 Z42.5 D3.175", without a line end. Each number has the fewest digits that read back as the same number, and
-/// no exponent, which the table does not know. Requires finite numbers.
+/// Returns "T1 P1 Z42.5 D3.175", without a line end. Each number has the fewest digits that read back as the same
+/// number, and no exponent, which the format does not have. Requires finite numbers.
 std::string to_text(const Tool& tool);
 
 }  // namespace motionrack::control::gcode

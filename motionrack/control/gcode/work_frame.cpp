@@ -1,4 +1,4 @@
-// From program coordinates to the machine's and back.
+// Converts program coordinates to machine coordinates and back.
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/gcode/work_frame.hpp>

@@ -1,6 +1,6 @@
-// Where program coordinates lie on the machine.
+// The transformation from program to machine coordinates.
 //
-//     machine = turn(program + G92) + work offset + tool offset        turn: about Z, by the active system's G10 L2 R
+//     machine = rotate(program + G92) + work offset + tool offset     rotate: about Z, by G10 L2 R of the active system
 #pragma once
 
 #include <motionrack/control/gcode/settings.hpp>
@@ -11,15 +11,15 @@ struct WorkFrame {
     std::array<Point, work_offset_count> work = {};
     std::array<double, work_offset_count> rotation_deg = {};  ///< degrees, counter-clockwise seen from above
     Point g92 = {};
-    Point g92_saved = {};  ///< what G92.3 brings back
+    Point g92_saved = {};  ///< restored by G92.3
     Point tool = {};       ///< G43, G43.1, G43.2
     Point g28 = {};
     Point g30 = {};
-    Point probe = {};  ///< machine coordinates where the probe last touched or left, or where its move ended without
-    bool probe_hit = false;  ///< whether it did
+    Point probe = {};        ///< machine coordinates of the last probe edge, or the end of the move without one
+    bool probe_hit = false;  ///< the last probing move found an edge
 
-    // Of the active system, by activate():
-    Point offset = {};  ///< sum of work, G92 and tool: machine less program coordinates where the system is not turned
+    // Set by activate() for the active system:
+    Point offset = {};  ///< sum of work, G92 and tool: machine less program coordinates without rotation
     Point base = {};    ///< work and tool
     bool is_rotated = false;
     double cosine = 1;
@@ -29,11 +29,11 @@ struct WorkFrame {
 
     Point to_machine(const Point& program) const;
     Point to_program(const Point& machine) const;
-    /// A distance in program coordinates as one of the machine.
+    /// Transforms a distance from program to machine coordinates.
     Point rotate(const Point& distance) const;
 };
 
-/// Cosine and sine of an angle in degrees; exact at quarter turns.
+/// Cosine and sine of an angle in degrees; exact for multiples of 90 degrees.
 struct Rotation {
     double cosine;
     double sine;

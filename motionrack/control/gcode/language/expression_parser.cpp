@@ -1,4 +1,4 @@
-// Operators by strength, from left to right; brackets and functions by recursion, whose depth is bounded.
+// Operators by precedence, from left to right; brackets and functions by recursion of limited depth.
 #include <fmt/format.h>
 
 #include <array>
@@ -32,17 +32,17 @@ enum class ExpressionParser::Operator : unsigned char {
 
 namespace {
 
-/// Brackets in brackets.
+/// Maximum nesting of brackets.
 constexpr int deepest = 100;
-/// Numbers that differ by less are equal to EQ and NE, and whole to a parameter's number.
+/// Numbers with a smaller difference are equal for EQ and NE, and integers for a parameter number.
 constexpr double same = 0.0001;
 
 constexpr double degrees = 180 / pi;
 
-/// Of an operator in the order of the enumeration; 0 the weakest.
+/// Precedence of the operators in the order of the enumeration; 0 is the weakest.
 constexpr std::array<int, 16> strength = {-1, 4, 3, 3, 3, 2, 2, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 
-/// Whether `word` stands at `at`, in either case.
+/// Returns true if `word` is at `at`, in either case.
 bool stands(const char* at, const char* end, std::string_view word) {
     if (static_cast<std::size_t>(end - at) < word.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i)
@@ -54,7 +54,7 @@ enum class Function { abs, acos, asin, atan, cos, exists, exp, fix, fup, ln, rou
 constexpr std::array<std::string_view, 14> function_names = {"abs", "acos", "asin", "atan",  "cos", "exists", "exp",
                                                              "fix", "fup",  "ln",   "round", "sin", "sqrt",   "tan"};
 
-/// The function whose name stands at `at` with a bracket behind it.
+/// Returns the function whose name is at `at`, followed by a bracket.
 Function function_at(const char* at, const char* end, const char*& bracket) {
     for (std::size_t i = 0; i < function_names.size(); ++i) {
         if (!stands(at, end, function_names[i])) continue;
@@ -96,7 +96,7 @@ double calculate(Function function, double x) {
     }
 }
 
-/// What `x` must be for the function to have a value.
+/// Returns the required domain of `x` for the function.
 const char* domain_of(Function function) {
     switch (function) {
         case Function::acos:
@@ -218,7 +218,7 @@ ExpressionParser::Operator ExpressionParser::operator_at(const char* at, const c
     return Operator::none;
 }
 
-/// A value and all operators behind it that are not weaker than `weakest`.
+/// Parses a value and all following operators that are not weaker than `weakest`.
 bool ExpressionParser::operation(const char*& at, int weakest, double& value) {
     if (!this->value(at, value)) return false;
     for (;;) {

@@ -1,10 +1,10 @@
-// Values of G-code words as LinuxCNC has them: numbers, parameters, expressions in brackets and functions.
+// Parser of G-code values as in LinuxCNC: numbers, parameters, expressions in brackets and functions.
 //
 //     X12.5   X#1   X-#<depth>   X[#1 + 2 * [#2 - 1]]   X SIN[30]   X ATAN[#2]/[#3]
 //
-// Operators from the strongest to the weakest, equals from left to right:
+// Operators from the strongest to the weakest, equal ones from left to right:
 //     **     * / MOD     + -     EQ NE GT GE LT LE     AND OR XOR
-// Comparisons give 1 or 0; EQ and NE take numbers for equal that differ by less than 0.0001. MOD is never negative.
+// Comparisons return 1 or 0; EQ and NE treat numbers that differ by less than 0.0001 as equal. MOD is never negative.
 // Angles are in degrees. Functions: ABS ACOS ASIN ATAN[]/[] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN.
 #pragma once
 
@@ -16,38 +16,39 @@ namespace motionrack::control::gcode {
 
 /// Parameters are #1 to #5602.
 inline constexpr int last_parameter = 5602;
-/// Characters of a parameter's name, blanks not counted.
+/// Maximum length of a parameter name, without blanks.
 inline constexpr std::size_t max_name_length = 100;
 
-/// Where the values of parameters come from.
+/// Source of parameter values.
 class ParameterSource {
   public:
     virtual ~ParameterSource() = default;
-    /// Of #number, 1 .. last_parameter; 0 if it was never set.
+    /// Returns #number, 1 .. last_parameter; 0 if it was never set.
     virtual double numbered(int number) const = 0;
-    /// Of #<name>, lower case and without blanks; nothing if it was never set.
+    /// Returns #<name>, given in lower case without blanks; nothing if it was never set.
     virtual std::optional<double> named(std::string_view name) const = 0;
 };
 
-/// What stands left of an assignment, or after a '#'.
+/// Name of a parameter: the left side of an assignment, or the text after a '#'.
 struct ParameterName {
-    int number = 0;    ///< 1 .. last_parameter; 0: `name` counts
+    int number = 0;    ///< 1 .. last_parameter; 0: `name` is used
     std::string name;  ///< lower case, without blanks
 };
 
-/// Reads values out of a line. After a method gave false, `fault_at` (from 0) and `fault` say what is wrong.
+/// Parses values in a line. After a method returned false, `fault_at` (from 0) and `fault` describe the error.
 class ExpressionParser {
   public:
     ExpressionParser(std::string_view text, const ParameterSource& source)
         : text_(text), end_(text.data() + text.size()), source_(source) {}
 
-    /// Whether a value that is not a plain number begins at `at`: '#', '[', a function, or one of these after a sign.
+    /// Returns true if a value other than a plain number starts at `at`: '#', '[', a function, or one of these after a
+    /// sign.
     bool begins(const char* at) const;
 
-    /// Reads a value; leaves `at` behind it and the blanks after it. The value is finite.
+    /// Parses a value, which is finite, and moves `at` behind it and the following blanks.
     bool value(const char*& at, double& value);
 
-    /// Reads what stands behind a '#', at which `at` must point.
+    /// Parses the parameter behind a '#', at which `at` must point.
     bool parameter(const char*& at, ParameterName& name);
 
     std::size_t fault_at() const { return fault_at_; }

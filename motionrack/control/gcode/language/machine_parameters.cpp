@@ -1,4 +1,4 @@
-// Parameters of the machine, from the interpreter's state.
+// Parameters of the machine from the state of the interpreter.
 #include <algorithm>
 #include <array>
 #include <motionrack/control/gcode/interpreter.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int first_system = 5221, system_size = 20, turn_place = 9;
 
-/// Axis of the place in a row X Y Z A B C U V W.
+/// Returns the axis value at this index of X Y Z A B C U V W.
 double of_axis(const Point& point, int place) {
     return place < axis_count ? point[static_cast<std::size_t>(place)] : 0;
 }

@@ -1,4 +1,4 @@
-// Reading O words.
+// Parses O words.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,14 +17,14 @@ namespace {
 constexpr std::array<std::string_view, 16> names = {
     "sub",   "endsub",   "call", "return", "if",        "elseif", "else",     "endif",
     "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
-/// Those that are written.
+/// Number of names that are written out.
 constexpr std::size_t of_words = 15;
 
 void skip_blanks(std::string_view text, std::size_t& at) {
     while (at < text.size() && is_blank(text[at])) ++at;
 }
 
-/// Blanks and closed comments.
+/// Skips blanks and closed comments.
 void skip_comments(std::string_view text, std::size_t& at) {
     for (skip_blanks(text, at); at < text.size() && text[at] == '('; skip_blanks(text, at)) {
         const std::size_t close = text.find(')', at);
@@ -33,7 +33,7 @@ void skip_comments(std::string_view text, std::size_t& at) {
     }
 }
 
-/// What a line begins with, behind '/' and comments; its size: nothing, or all is deleted.
+/// Returns the start of a line behind '/' and comments; its size if it is empty or deleted.
 std::size_t find_first(std::string_view text, bool block_delete) {
     std::size_t at = 0;
     skip_comments(text, at);
@@ -44,7 +44,7 @@ std::size_t find_first(std::string_view text, bool block_delete) {
     return at;
 }
 
-/// Behind the value of a computed label: its brackets are paired, names and digits are passed.
+/// Returns the end of a computed label: skips paired brackets, names and digits.
 std::size_t end_of_value(std::string_view text, std::size_t at) {
     int open = 0;
     for (; at < text.size(); ++at) {

@@ -1,4 +1,4 @@
-// One line with an O word, taken apart: o100 while [#1 LT 5], o<drill> call [1] [2].
+// Parser of one line with an O word: o100 while [#1 LT 5], o<drill> call [1] [2].
 #pragma once
 
 #include <motionrack/control/gcode/problem.hpp>
@@ -23,36 +23,36 @@ enum class OWord : unsigned char {
     endrepeat,
     break_loop,
     continue_loop,
-    numbered  ///< O100 alone: a numbered program begins
+    numbered  ///< O100 alone: start of a numbered program
 };
 
 struct OWordStatement {
-    std::string label;      ///< "100" or "<drill>", lower case; empty where it is computed
-    bool computed = false;  ///< o#1 call, o[#1 + 1] call: its value begins behind the O
+    std::string label;      ///< "100" or "<drill>", lower case; empty if computed
+    bool computed = false;  ///< o#1 call, o[#1 + 1] call: its value starts behind the O
     OWord word = OWord::sub;
-    std::uint16_t column = 0;  ///< of the O, from 0
-    std::uint16_t rest = 0;    ///< where the arguments begin, or the end of the line
+    std::uint16_t column = 0;  ///< column of the O, from 0
+    std::uint16_t rest = 0;    ///< start of the arguments, or the end of the line
 };
 
 /// "while"
 std::string_view name_of(OWord word);
 
-/// Takes apart the line whose O word begins at `column` (from 0). False: `problem` says what is wrong, but not in which
-/// line.
+/// Parses the line whose O word starts at `column` (from 0). Returns false with the error, without the line number, in
+/// `problem`.
 bool parse_oword(std::string_view text, std::size_t column, OWordStatement& line, Problem& problem);
 
-/// The column of the O word with which a line begins, behind '/' and N; npos: it begins with none.
+/// Returns the column of an O word at the start of a line, behind '/' and N; npos if there is none.
 std::size_t find_oword(std::string_view text, bool block_delete);
 
-/// Whether a text's program is over at this line, by its '%': the one with which a text begins is none, nor is what
-/// stands before it. Lines that are refused count as well, so that whoever goes through a text finds the same end.
+/// Detects the closing '%' of a program. A '%' before the first words of the text does not count. Lines with errors
+/// must be passed as well, so that all readers of a text find the same end.
 class ProgramEndDetector {
   public:
     explicit ProgramEndDetector(bool block_delete) : block_delete_(block_delete) {}
 
-    /// The next line of the text: is it the end?
+    /// Processes the next line of the text; returns true if it is the end.
     bool is_at(std::string_view line);
-    /// Whether there was a line with more than comments on it.
+    /// Returns true after a line with more than comments.
     bool begun() const { return begun_; }
 
   private:
@@ -60,7 +60,7 @@ class ProgramEndDetector {
     bool begun_ = false;
 };
 
-/// Whether only blanks and comments stand at `at` and behind it.
+/// Returns true if only blanks and comments follow from `at` on.
 bool is_rest_empty(std::string_view text, std::size_t at);
 
 }  // namespace motionrack::control::gcode

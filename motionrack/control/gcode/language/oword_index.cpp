@@ -1,4 +1,4 @@
-// Pairing O words: a stack of what is open.
+// Pairs O words with a stack of open ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -101,7 +101,7 @@ void Indexer::begin_sub(std::int32_t at, const std::string& label) {
     open_.push_back(at);
 }
 
-/// O100: what follows, up to M99 or the end of the program, is program 100.
+/// O100 starts program 100, up to M99 or the end of the program.
 void Indexer::begin_program(std::int32_t at, const std::string& label) {
     const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
@@ -148,7 +148,7 @@ void Indexer::pair(std::int32_t at) {
     }
 }
 
-/// Whether what is open last is `opener` with the label of the place.
+/// Returns true if the innermost open word is `opener` with the label of the location.
 bool Indexer::fits(std::int32_t at, OWord opener) {
     const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     const auto opens = [&](std::int32_t one) {
@@ -158,7 +158,7 @@ bool Indexer::fits(std::int32_t at, OWord opener) {
     };
     if (!open_.empty() && opens(open_.back())) return true;
     if (const auto outer = std::find_if(open_.begin(), open_.end(), opens); outer != open_.end()) {
-        open_.erase(outer);  // it has been told of
+        open_.erase(outer);  // already reported
         fail(place, fmt::format("{}: {} of line {} is open here; end that first", what(place), what(open_place()),
                                 open_place().line));
     } else {
@@ -193,7 +193,7 @@ void Indexer::close(std::int32_t at, OWord opener) {
     open_.pop_back();
 }
 
-/// break, continue and return stand within their loop or sub.
+/// Checks that break, continue and return are inside their loop or sub.
 void Indexer::inside(std::int32_t at) {
     OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     const bool returns = place.word == OWord::return_sub;

@@ -1,4 +1,4 @@
-// What a program keeps in # parameters, and in which call it may see them.
+// The # parameters of a program and their scope.
 #pragma once
 
 #include <array>
@@ -9,19 +9,19 @@
 
 namespace motionrack::control::gcode {
 
-/// A call has this many arguments at most; they are #1 to #30 of its own.
+/// Maximum number of arguments of a call, its #1 to #30.
 inline constexpr int max_arguments = 30;
-/// Calls in calls.
+/// Maximum depth of nested calls.
 inline constexpr int max_call_depth = 100;
-/// Named parameters, global ones or those of one call.
+/// Maximum number of named parameters, globally and in each call.
 inline constexpr std::size_t max_names = 1000;
 
-/// Names that begin with '_' are seen everywhere, others only in the call that set them.
+/// Names that begin with '_' are global, others local to the call that set them.
 inline bool is_global(std::string_view name) {
     return name.starts_with('_');
 }
 
-/// The parameters that a program sets itself; those of the machine are not here. Copies are independent.
+/// Parameters set by the program, without those of the machine. Copies are independent.
 class Parameters {
   public:
     /// 1 .. last_parameter; 0 if it was never set.
@@ -29,27 +29,27 @@ class Parameters {
     void set(int number, double value);
     std::optional<double> named(std::string_view name) const;
     void set(const std::string& name, double value);
-    /// How many more names there may be where this one goes.
+    /// Returns the number of names that can be added in the scope of this one.
     std::size_t room_for(std::string_view name) const;
 
-    /// A call begins: #1 .. #30 are its arguments, or 0, and it has names of its own. False: max_call_depth.
+    /// Starts a call with its own names and #1 .. #30 (the arguments, or 0). Returns false at max_call_depth.
     bool enter(std::span<const double> arguments);
-    /// The same without arguments: #1 .. #30 are those of the caller.
+    /// Starts a call without arguments; #1 .. #30 are those of the caller.
     bool enter();
-    /// It ends: #1 .. #30 are as before, if they were its own; what it returned, if anything.
+    /// Ends a call: restores #1 .. #30 if they were local, and stores the return value, if any.
     void leave(std::optional<double> returned);
     /// 0: the main program.
     int level() const { return static_cast<int>(calls_.size()); }
-    /// Of the last call that ended.
+    /// Returns the value of the last call that ended.
     std::optional<double> returned() const { return returned_; }
-    /// A new call has not returned anything.
+    /// Clears the return value at the start of a call.
     void forget_returned() { returned_.reset(); }
 
   private:
     using Names = std::map<std::string, double, std::less<>>;
     struct Call {
         std::array<double, max_arguments> kept = {};
-        bool keeps = false;  ///< #1 .. #30 of the caller are in `kept`
+        bool keeps = false;  ///< `kept` holds #1 .. #30 of the caller
         Names names;
     };
 
@@ -57,7 +57,7 @@ class Parameters {
         return is_global(name) ? global_ : calls_.empty() ? main_ : calls_.back().names;
     }
 
-    std::vector<double> numbered_;  ///< empty until one is set
+    std::vector<double> numbered_;  ///< empty until the first set()
     Names global_;
     Names main_;
     std::vector<Call> calls_;

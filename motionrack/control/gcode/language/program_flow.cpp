@@ -1,4 +1,4 @@
-// O words at work: jumps within a text, calls between texts.
+// Executes O words: jumps within a text, calls between texts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
     return {};
 }
 
-/// Loops and calls go through a program more often than it has lines.
+/// Enforces the budget: loops and calls may execute more lines than the program has.
 bool ProgramFlow::within_budget(const OWordLocation& place) {
     furthest_ = highest_line();
     walked_ += lines_.number() - counted_from_;
@@ -146,7 +146,7 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
     return true;
 }
 
-/// Goes behind the first branch whose condition holds, or behind the endif.
+/// Continues behind the first branch whose condition holds, or behind the endif.
 bool ProgramFlow::choose(std::int32_t at, Interpreter& interpreter) {
     for (;;) {
         const OWordLocation& place = place_at(at);
@@ -188,7 +188,7 @@ void ProgramFlow::end_repeat(const OWordLocation& place) {
         repeats_.pop_back();
 }
 
-/// Repeats of this call between two places are over.
+/// Removes the repeats of this call between two locations.
 void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
     const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
     while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last)
@@ -200,11 +200,11 @@ void ProgramFlow::leave_loop(const OWordLocation& loop) {
     jump(place_at(loop.end));
 }
 
-/// The next round of a loop, or its end.
+/// Starts the next iteration of a loop, or leaves it.
 void ProgramFlow::go_on(const OWordLocation& loop) {
     forget_repeats(loop.begin + 1, loop.end);
     const OWordLocation& decides = loop.word == OWord::while_true ? loop : place_at(loop.end);
-    // That line is walked again: back to the end of the line before it.
+    // The deciding line is executed again: returns to the end of the line before it.
     lines_ = decides.before;
     counted_from_ = decides.line - 1;
 }

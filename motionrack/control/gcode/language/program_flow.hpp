@@ -1,16 +1,16 @@
-// Walking through a program: which line comes next, where O words have their say.
+// Control flow of a program: selects the next line according to the O words.
 //
-//     o100 sub .. endsub      a subprogram, before or after where it is called; met on the way it is passed over
-//     o100 call [..] [..]     up to 30 arguments, #1 .. #30 there; o100 return [..] or endsub [..] gives #<_value>
+//     o100 sub .. endsub      a subprogram, before or after its calls; skipped when reached in sequence
+//     o100 call [..] [..]     up to 30 arguments, #1 .. #30 there; o100 return [..] or endsub [..] sets #<_value>
 //     o100 if [..] .. elseif [..] .. else .. endif
 //     o100 while [..] .. endwhile      o100 do .. while [..]      o100 repeat [..] .. endrepeat
 //     o100 break, continue    of the loop with that label
-//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those
-//                             of the caller
+//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, with #1 .. #30 of the
+//                             caller
 //
-// A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or
-// M30, at the end of its text, or at a '%' that is not its first line with anything on it. A plain program costs
-// nothing of all this: the first O word makes an index of the text.
+// A call of o<name> that the text does not contain goes to Settings::subprogram. A program ends after M2 or M30, at the
+// end of its text, or at a '%' that is not its first line with content. A plain program has no overhead: the first O
+// word creates an index of the text.
 #pragma once
 
 #include <memory>
@@ -22,13 +22,13 @@ namespace motionrack::control::gcode {
 
 class ProgramFlow {
   public:
-    /// `text` must stay where it is.
+    /// `text` must stay valid.
     ProgramFlow(std::string_view text, const Settings& settings, std::string file);
 
-    /// The next line to read; false: there is none.
+    /// Returns the next line to read; false at the end.
     bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
-    /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word
-    /// cannot be done; then it is passed over.
+    /// Processes a valid line: executes its O word and checks for the end of the program. Errors: the O word cannot be
+    /// executed, and is skipped.
     Outcome<void> line_accepted(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.percent || !end_.begun()) see_end(block.text);
@@ -39,26 +39,26 @@ class ProgramFlow {
         return {};
     }
 
-    /// There are no lines any more.
+    /// Ends the program.
     void end() { over_ = true; }
 
-    /// Line of the program; in another file the line that called it.
+    /// Returns the line of the program; within another file, the line that called it.
     std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
-    /// The greatest number() so far.
+    /// Returns the highest number() so far.
     std::int32_t highest_line() const { return std::max(furthest_, number()); }
-    const std::string& file() const { return sources_.front()->file; }  ///< of the program
+    const std::string& file() const { return sources_.front()->file; }  ///< file of the program
     bool at_end() const { return lines_.at_end(); }
-    /// The last line was refused: fills in where the problem is, and sees whether the program is over.
+    /// Processes a line with an error: completes the position in `problem` and checks for the end of the program.
     void line_rejected(std::string_view text, Problem& problem);
 
-    /// O words that do not fit together: once they are found, nothing more is walked.
+    /// Returns true if O words do not match; nothing more is executed then.
     bool has_faults() const { return !faults_.empty(); }
     Problem take_fault();
 
   private:
-    /// A text with O words: the program's or a subprogram's file.
+    /// A text with O words: the program or the file of a subprogram.
     struct Source {
-        std::string kept;  ///< what text is of, unless it is the program's
+        std::string kept;  ///< storage of `text`, unless it is the program
         std::string_view text;
         std::string file;
         std::optional<OWordIndex> index;
@@ -68,10 +68,10 @@ class ProgramFlow {
         Source* source = nullptr;
         std::size_t repeats = 0;
         std::int32_t called_at = 0;
-        std::int32_t program = no_location;  ///< of a numbered program: where it begins
-        std::int64_t left = 0;               ///< times that it is still to run
+        std::int32_t program = no_location;  ///< numbered program: its start
+        std::int64_t left = 0;               ///< remaining repetitions
     };
-    /// A repeat loop that runs.
+    /// An active repeat loop.
     struct Repeat {
         std::int32_t place;
         std::int64_t left;
@@ -122,12 +122,12 @@ class ProgramFlow {
     ProgramLines lines_;
     bool over_ = false;
     bool block_delete_;
-    ProgramEndDetector end_;  ///< of the program's own text
+    ProgramEndDetector end_;  ///< for the text of the program
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
     std::int64_t max_lines_;
     std::int64_t walked_ = 0;        ///< lines, up to the last jump
-    std::int32_t counted_from_ = 0;  ///< line that it went to
+    std::int32_t counted_from_ = 0;  ///< target line of the last jump
     SubprogramSource subprogram_;
     std::vector<std::unique_ptr<Source>> sources_;
     Source* source_;

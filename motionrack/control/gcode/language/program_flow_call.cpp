@@ -1,4 +1,4 @@
-// Calls: which sub, with which arguments, and what comes back.
+// Calls: target sub, arguments and return value.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Files of subprograms that one program may use.
+/// Maximum number of subprogram files in one program.
 constexpr std::size_t max_files = 100;
 
-/// A name that is a file's in the program's own folder, and nowhere else.
+/// Returns true for a name that can only be a file in the folder of the program.
 bool is_plain(std::string_view name) {
     const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || is_digit(c) || c == '_' || c == '-' || c == '.'; };
     return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), plain);
@@ -24,7 +24,7 @@ std::string_view without_marks(std::string_view label) {
     return label;
 }
 
-/// What a call looks like, and what it is looking for.
+/// Describes a call and its target for an error message.
 std::string asks_for(const std::string& label, bool numbered) {
     return numbered ? fmt::format("M98 P{}", label) : fmt::format("o{} call", label);
 }
@@ -38,7 +38,7 @@ std::string too_deep(const std::string& asks) {
 
 }  // namespace
 
-/// Values in brackets up to the end of the line.
+/// Evaluates the values in brackets up to the end of the line.
 bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter,
                             std::vector<double>& values) {
     const MachineParameters known(interpreter);
@@ -64,7 +64,7 @@ bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interp
     }
 }
 
-/// The one value of a condition.
+/// Evaluates the single value of a condition.
 bool ProgramFlow::evaluate(const OWordLocation& place, Interpreter& interpreter, double& value) {
     std::vector<double> values;
     if (!arguments(place, 1, interpreter, values)) return false;
@@ -75,7 +75,7 @@ bool ProgramFlow::evaluate(const OWordLocation& place, Interpreter& interpreter,
     return true;
 }
 
-/// The label of a call that computes it is a number.
+/// Returns the computed label of a call, a number.
 bool ProgramFlow::label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label) {
     OWordStatement words;
     if (!parse_oword(place.text, place.column, words, problem_)) return false;
@@ -125,7 +125,7 @@ bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& targ
            std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
 }
 
-/// A sub or a numbered program of the same text, of one read before, or of a file of its own.
+/// Finds a sub or a numbered program in the same text, in a text read before, or in a file.
 bool ProgramFlow::find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
     if (look_for(label, numbered, target)) return true;
     if (look_for(label, !numbered, target)) {
@@ -206,7 +206,7 @@ void ProgramFlow::back_to_caller() {
 
 // ---- numbered programs
 
-/// M98 and M99: calls without arguments, as often as L says.
+/// M98 and M99: calls without arguments, repeated L times.
 Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
@@ -238,7 +238,7 @@ bool ProgramFlow::call_program(const OWordLocation& place, Interpreter& interpre
     return true;
 }
 
-/// Once more, or back. In the main program it is over.
+/// Repeats the program or returns to the caller. Ends the main program.
 bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpreter) {
     if (frames_.empty()) {
         over_ = true;
@@ -260,7 +260,7 @@ bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpr
     return good;
 }
 
-/// A text is over; of a numbered program without M99 that is told.
+/// Handles the end of a text; reports a numbered program without M99.
 bool ProgramFlow::text_ended() {
     if (frames_.empty() || frames_.back().program == no_location || !faults_.empty()) return false;
     over_ = true;

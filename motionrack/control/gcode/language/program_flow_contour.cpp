@@ -1,4 +1,4 @@
-// The contour of a turning cycle: the moves that a sub would make, which nobody drives.
+// Reads the contour of a lathe cycle: the moves of a sub, which are not executed.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 namespace {
 
 constexpr std::size_t max_pieces = 10'000;
-/// A move that is shorter is none, mm.
+/// Shorter moves are skipped, mm.
 constexpr double shortest = 1e-6;
 
 PlanePoint plane_of(const Point& at) {
@@ -55,7 +55,7 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     return {};
 }
 
-/// Walks through the sub with a reader of its own.
+/// Executes the sub with a separate interpreter.
 bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>& contour) {
     const std::size_t depth = frames_.size();
     Point at = {};
@@ -81,7 +81,7 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>&
     return true;
 }
 
-/// What the last line moves; the first move leads to where the contour begins.
+/// Adds the moves of the last line; the first move leads to the beginning of the contour.
 bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour,
                               Point& at, bool& begun) {
     while (const CanonCall* step = reader.pull()) {

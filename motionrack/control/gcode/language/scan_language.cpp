@@ -1,5 +1,4 @@
-// What a line has beyond words with numbers: values from parameters, assignments, O words, and comments that show
-// values.
+// Language elements beyond words with numbers: values from parameters, assignments, O words, and comments with values.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +9,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// G[#1] is a code if it is as near as this to a tenth.
+/// Maximum distance of a computed code, G[#1], from a tenth.
 constexpr double code_slack = 0.001;
 
 bool begins_with(std::string_view text, std::string_view word) {
@@ -22,7 +21,7 @@ bool begins_with(std::string_view text, std::string_view word) {
 
 }  // namespace
 
-/// A word whose plain number was faulty.
+/// Scans a word whose number is not a plain one.
 bool Scanner::word_of_language(char letter, std::size_t column, const Number& plain) {
     if (options_.language == Language::words || plain.fault != NumberFault::no_digits)
         return bad_number(plain, letter, column);
@@ -44,7 +43,7 @@ bool Scanner::word_of_language(char letter, std::size_t column, const Number& pl
     return take(letter, column, number);
 }
 
-/// #1 = 2: kept until the whole line has been read, so that values on the line are those before it.
+/// #1 = 2: stored until the whole line was read, so that values on the line are the previous ones.
 bool Scanner::assignment() {
     const std::size_t column = here();
     ExpressionParser reader(text_, *options_.parameters);
@@ -69,7 +68,7 @@ bool Scanner::assignment() {
     return true;
 }
 
-/// An O word stands first on its line; what follows it is the matter of who walks through the program.
+/// An O word must be first on its line; ProgramFlow reads the rest.
 bool Scanner::flow(std::size_t column) {
     if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 ||
         !block_.assignments.empty()) {

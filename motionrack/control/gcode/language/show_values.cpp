@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// How the values behind it are shown: %d, %f, %.4f, %lf. Nothing of these: no length.
+/// Reads the format for the following values: %d, %f, %.4f, %lf. Returns its length; 0 for other text.
 std::size_t format_at(std::string_view text, int& decimals) {
     if (text.starts_with("%d")) {
         decimals = 0;
@@ -27,7 +27,7 @@ std::size_t format_at(std::string_view text, int& decimals) {
     return 0;
 }
 
-/// Where the name of a parameter ends that begins with the '#' at 0: digits, or up to '>'.
+/// Returns the end of the parameter name that starts with the '#' at 0: digits, or up to '>'.
 std::size_t end_of_parameter(std::string_view text) {
     if (text.size() > 1 && text[1] == '<') {
         const std::size_t close = text.find('>');
@@ -40,14 +40,14 @@ std::size_t end_of_parameter(std::string_view text) {
 
 }  // namespace
 
-/// As they are before the line moves, but after its assignments; as LinuxCNC does.
+/// Uses the values after the assignments of the line and before its motion, as LinuxCNC.
 void Interpreter::show_values() {
     shown_.clear();
     for (const Comment& comment : block_.comments)
         shown_.push_back(comment.values ? substitute_values(comment.text) : std::string());
 }
 
-/// A parameter that has no value is shown as ######, as LinuxCNC does.
+/// A parameter without a value is shown as ######, as in LinuxCNC.
 std::string Interpreter::substitute_values(std::string_view text) const {
     const MachineParameters known(*this);
     std::string out;
