@@ -1,5 +1,4 @@
-// The programs of tests/golden/canon: what LinuxCNC's rs274 -g printed for them lies beside, and rs274 itself can be
-// asked.
+// The programs of tests/golden/canon with the stored output of LinuxCNC's rs274 -g; rs274 itself can be run as well.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +26,7 @@ inline std::string file_text(const std::string& path) {
     return text.str();
 }
 
-/// Programs with their calls; a subprogram's file has none.
+/// Returns the programs that have stored calls; files of subprograms have none.
 inline std::vector<std::string> names() {
     std::vector<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator(folder()))
@@ -36,7 +35,7 @@ inline std::vector<std::string> names() {
     return out;
 }
 
-/// Those whose names begin with "tools" have the tool table.
+/// Programs whose names begin with "tools" use the tool table.
 inline bool has_tools(const std::string& name) {
     return name.starts_with("tools");
 }
@@ -50,7 +49,7 @@ inline Settings settings_of(const std::string& name) {
     return settings;
 }
 
-/// Only moves, waits and outputs, without the columns before them and without the sign of zeros.
+/// Returns only moves, waits and outputs, without the leading columns and without the sign of zeros.
 inline std::string motion_lines(const std::string& canon) {
     std::string out;
     std::istringstream lines(canon);
@@ -67,12 +66,12 @@ inline std::string motion_lines(const std::string& canon) {
     return out;
 }
 
-/// "G71": these cycles put no moves out that lead nowhere, while rs274 does.
+/// "G71": our cycles skip moves of zero length, while rs274 prints them.
 inline bool turns(const std::string& name) {
     return name.starts_with("lathe");
 }
 
-/// The lines without those that lead to where the one before led.
+/// Removes the lines that end where the previous one ended.
 inline std::string that_lead_on(const std::string& lines) {
     std::string out, last;
     std::istringstream text(lines);

@@ -1,4 +1,5 @@
-// Cutter compensation: the cutter's edge runs along the contour, and what cannot be done is refused at its place.
+// Cutter compensation: the edge of the cutter follows the contour, and impossible contours are refused with their
+// position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -25,7 +26,7 @@ double distance_to_segment(CutterSpot p, CutterSpot a, CutterSpot b) {
     return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy);
 }
 
-/// Places on a move, close together, by the C library's own functions.
+/// Returns dense points of a move, computed with the C library's own functions.
 std::vector<CutterSpot> cutter_spots(const Move& move, CutterSpot from) {
     std::vector<CutterSpot> out;
     const CutterSpot to = {move.end[0], move.end[1]};
@@ -54,7 +55,7 @@ std::string place(CutterSpot p) {
     return text;
 }
 
-/// Corners of a polygon around the origin, seen counter-clockwise, as they are written.
+/// Returns the corners of a polygon around the origin, counter-clockwise, as written.
 std::vector<CutterSpot> star() {
     const int corners = *rc::gen::inRange(4, 14);
     std::vector<CutterSpot> out;
@@ -82,12 +83,12 @@ RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) 
     };
     std::string text =
         std::string(cutter_preamble) + (inside ? "G41.1 D" : "G42.1 D") + std::to_string(2 * radius) + "\n";
-    // Onto the first edge along the edge itself, round, and off it.
+    // Approaches the first edge along the edge itself, goes round, and leaves it.
     text += "G1" + place(middle(0, 0.4)) + "\n" + "G1" + place(middle(0, 0.5)) + "\n";
     for (std::size_t i = 1; i <= count; ++i) text += "G1" + place(corners[i % count]) + "\n";
     text += "G1" + place(middle(0, 0.3)) + "\nG40\n";
     const auto program = read(text);
-    // A cutter that does not fit between neighbours is refused, never squeezed in.
+    // A cutter that does not fit between neighbours is refused.
     if (!program.problems.empty()) {
         RC_ASSERT(program.problems[0].status == GrblStatus::bad_target);
         RC_DISCARD("the cutter does not fit");
@@ -103,7 +104,7 @@ RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) 
             for (std::size_t i = 0; i < count; ++i)
                 near = std::min(near, distance_to_segment(p, corners[i], corners[(i + 1) % count]));
             RC_ASSERT(near < radius + cutter_tolerance_mm + 1e-4);
-            // Other edges than the neighbours may be too near: that is the programmer's care.
+            // Other edges than the neighbours may be too close: the programmer must avoid this.
             double neighbours = 1e9;
             for (std::size_t i = 0; i < count; ++i) {
                 const double apart = distance_to_segment(p, corners[i], corners[(i + 1) % count]);
@@ -203,7 +204,7 @@ TEST(GcodeCutter, NearlyTangentJointsGetNoTinyArcs) {
         arcs += moves[i].kind == MoveKind::arc;
         EXPECT_NEAR(std::hypot(moves[i].end[0], moves[i].end[1]), 103, 0.003);
     }
-    EXPECT_EQ(arcs, 1);  // where the first chord leaves the way in
+    EXPECT_EQ(arcs, 1);  // where the first chord leaves the lead-in
 }
 
 TEST(GcodeCutter, TakesTheDiameterOfATool) {
@@ -225,7 +226,7 @@ TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
     EXPECT_TRUE(
         read(std::string(cutter_preamble) + "G41.1 D20\nG1 X400 Y-505\nG1 X450\nG40 G1 X0 Y0\n").problems.empty());
     const auto program = read(std::string(cutter_preamble) + "G42.1 D20\nG1 X400 Y-495\nG1 X450\nG40 G1 X0 Y0\n");
-    ASSERT_EQ(program.problems.size(), 1u);  // the way in; then the next move is the way in
+    ASSERT_EQ(program.problems.size(), 1u);  // the lead-in; then the next move is the lead-in
     EXPECT_EQ(program.problems[0].status, GrblStatus::travel_exceeded);
     EXPECT_THAT(program.problems[0].message, HasSubstr("where the cutter's centre goes"));
 }

@@ -1,4 +1,4 @@
-// O words: subprograms, conditions and loops, as LinuxCNC has them.
+// O words: subprograms, conditions and loops, as in LinuxCNC.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -91,7 +91,7 @@ TEST(GcodeFlow, NamesOfACallAreItsOwn) {
 }
 
 TEST(GcodeFlow, RecursionHasItsOwnLoops) {
-    // Towers: the sub calls itself from within a repeat.
+    // The sub calls itself from within a repeat.
     EXPECT_THAT(xs("G91\no1 sub\no2 if [#1 GT 0]\no3 repeat [2]\no1 call [#1 - 1]\no3 endrepeat\no2 else\nX1\no2 "
                    "endif\no1 endsub\no1 call [3]"),
                 ::testing::SizeIs(8));
@@ -229,7 +229,7 @@ TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
         << "what is behind the closing % is no program";
 }
 
-/// Lines of a program whose problems are told, in their order.
+/// Returns the lines with reported problems, in order.
 std::vector<std::int32_t> refused_lines(const std::string& text) {
     std::vector<std::int32_t> lines;
     for (const Problem& problem : check_program(text, testing::machine(), 100, "f").problems)
@@ -246,7 +246,7 @@ TEST(GcodeFlow, EndsAtTheSamePercentSignWhateverIsRefused) {
     EXPECT_THAT(xs("(pocket) G0 X1\n%\no1 rubbish\n"), ElementsAre(1));
 }
 
-/// A random program of nested loops and branches, and what a referee that runs it by itself says.
+/// A random program of nested loops and branches, with the result of a reference that executes it independently.
 struct Scripted {
     std::string text;
     std::vector<double> out;

@@ -1,4 +1,5 @@
-// Our canonical motion lines against those that LinuxCNC's rs274 printed for the same programs (tests/golden/canon).
+// Our canonical motion lines compared with those that LinuxCNC's rs274 printed for the same programs
+// (tests/golden/canon).
 #include <gtest/gtest.h>
 
 #include <motionrack/control/gcode/codes.hpp>
@@ -97,7 +98,7 @@ TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {
 
 namespace {
 
-/// Only the calls that tell of modes which M70 keeps.
+/// Returns only the calls about modes that M70 saves.
 std::string mode_lines(const std::string& canon) {
     std::string out;
     std::istringstream lines(canon);
@@ -111,7 +112,7 @@ std::string mode_lines(const std::string& canon) {
 }  // namespace
 
 TEST(GcodeCanon, TellsModesThatAreBroughtBackAsRs274Does) {
-    // Up to there rs274 leaves out a G54 that changes nothing.
+    // Up to there rs274 omits a G54 that changes nothing.
     for (const auto& [name, from] :
          {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {
         const std::string ours = mode_lines(printed(file_text(folder() + name + ".ngc"))),

@@ -1,4 +1,4 @@
-// Parameters and expressions: what a program in LinuxCNC's language relies on.
+// Parameters and expressions of LinuxCNC's language.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -16,7 +16,7 @@ namespace {
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 
-/// Where X stands after the program.
+/// Returns the position of X after the program.
 double x_after(const std::string& program) {
     const auto read = testing::read("G0 G21\n" + program, testing::machine("XYZABC", 1e8));
     EXPECT_TRUE(read.problems.empty()) << read.problems.front().text();
@@ -252,7 +252,7 @@ TEST(GcodeParameters, AreNotTakenFromSenders) {
     EXPECT_FALSE(interpreter.line("O100 SUB", 1, Language::expressions));
 }
 
-/// An expression as text and its value by the referee's own rules: every operation in brackets of its own.
+/// An expression as text and its value by independent rules: every operation in its own brackets.
 struct Bracketed {
     std::string text;
     double value = 0;

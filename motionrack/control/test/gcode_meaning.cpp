@@ -1,4 +1,4 @@
-// What programs mean: moves with all their fields, events in their order, marks of the text.
+// Interpretation of programs: moves with all their fields, order of events, delimiters of the text.
 #include <gtest/gtest.h>
 
 #include <motionrack/control/gcode/arc.hpp>

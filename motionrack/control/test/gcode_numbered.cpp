@@ -1,4 +1,4 @@
-// Numbered programs: O100 .. M99, called by M98 P100 L3, as LinuxCNC has them.
+// Numbered programs: O100 .. M99, called by M98 P100 L3, as in LinuxCNC.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

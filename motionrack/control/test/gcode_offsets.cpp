@@ -1,4 +1,4 @@
-// Work systems, their turn, tool tables and tool lengths, and modes that are kept.
+// Work systems, their rotation, tool tables, tool lengths, and saved modes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -146,10 +146,10 @@ TEST(GcodeTools, AreSetByG10) {
     expect_near(last_end("T1 M6\nG10 L1 P1 Z7 R2\nZ[#5410]"), 0, 0, 4);
     expect_near(last_end("G10 L1 P50 Z4\nG43 H50 Z1"), 0, 0, 5);
     expect_near(last_end("G20 G10 L1 P50 Z1\nG43 H50 Z1"), 0, 0, 50.8);
-    // The tool stands at machine Z 12; that shall be Z 2 in G54 (offset 4): its length is 6.
+    // The tool is at machine Z 12; this shall be Z 2 in G54 (offset 4): its length is 6.
     expect_near(last_end("G10 L2 P1 Z4\nG53 G0 Z12\nG10 L10 P1 Z2\nG43 H1 Z0"), 0, 0, 10);
     expect_near(last_end("G10 L2 P9 Z3\nG53 G0 Z12\nG10 L11 P1 Z2\nG43 H1 Z0"), 0, 0, 7);
-    // In a turned system the offset goes along the system's axes, so that the tool stays where it is.
+    // In a rotated system the offset is along the axes of the system, so that the tool does not move.
     expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2 Y1\nG43 H1\nX2 Y1"), 6.1602540378443873,
                 9.3301270189221928, 0);
     expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2\nG43 H1\nX2"), 6.1602540378443873, 9.3301270189221928,

@@ -1,4 +1,4 @@
-// M48 .. M53 and M62 .. M68: what they say of the moves around them, and what is refused.
+// M48 .. M53 and M62 .. M68: effects on the neighbouring moves, and refused uses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 using testing::expect_refused;
 using testing::Refused;
 
-/// "X1", "out P0 1 moving", "wait 2", "in P1 -1": what a program does, one after the other.
+/// Returns the calls of a program in order, as "X1", "out P0 1 moving", "wait 2", "in P1 -1".
 std::vector<std::string> told(const std::string& program) {
     const auto read = testing::read("G21 G90 F600\n" + program);
     for (const Problem& problem : read.problems) ADD_FAILURE() << problem.text();

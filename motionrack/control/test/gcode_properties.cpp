@@ -1,4 +1,4 @@
-// Properties: the same program written in other ways means the same; rapidcheck prints the seed of a failure.
+// Properties: the same program written in other ways has the same meaning; rapidcheck prints the seed of a failure.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -54,7 +54,7 @@ std::string plain(const std::vector<Line>& program) {
     return text;
 }
 
-/// The same words with blanks anywhere, letters of any case, comments, N words, and one of the three line ends.
+/// Returns the same words with blanks anywhere, letters of any case, comments, N words, and one of the three line ends.
 std::string disguised(const std::vector<Line>& program) {
     const std::string line_end = *rc::gen::element<std::string>("\n", "\r\n", "\r");
     std::string text = *rc::gen::element<std::string>("", "\xEF\xBB\xBF");
@@ -77,7 +77,7 @@ std::string disguised(const std::vector<Line>& program) {
     return text;
 }
 
-/// A point of the circle about the origin, exact to a rounding: from the parametrisation without angles.
+/// Returns a point of the circle about the origin, exact except for rounding, from the parametrisation without angles.
 Point on_circle(double radius, double t, bool left) {
     const double x = radius * (1 - t * t) / (1 + t * t);
     return {left ? -x : x, radius * 2 * t / (1 + t * t), 0, 0, 0, 0};
@@ -131,7 +131,7 @@ RC_GTEST_PROP(GcodeProperties, IncrementalProgramsGoWhereAbsoluteOnesGo, ()) {
 
 RC_GTEST_PROP(GcodeProperties, InchesAreMillimetres, ()) {
     const double x = *rc::gen::inRange(-15'000, 15'000) / 1000.0;
-    const double r = *rc::gen::inRange(100, 2'300) / 1000.0;  // the whole circle stays within the travel
+    const double r = *rc::gen::inRange(100, 2'300) / 1000.0;  // the whole circle is within the limits
     const std::string inch = "G20 G0 X" + number(x) + " F10\nG2 I" + number(r) + " Z.5\nG1 Y1";
     const std::string mm = "G21 G0 X" + number(x * 25.4) + " F254\nG2 I" + number(r * 25.4) + " Z12.7\nG1 Y25.4";
     const auto a = read(inch).moves();

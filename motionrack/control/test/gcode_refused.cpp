@@ -1,4 +1,4 @@
-// Lines that are refused: where the error points, the word it names, Grbl's number and the words of the sentence.
+// Refused lines: error column, word, Grbl status number and words of the sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The last line of `program` is the bad one.
+/// The last line of `program` is refused.
 struct RefusedLine {
     const char* program;
     int column;
@@ -149,7 +149,7 @@ const RefusedLine refused[] = {
     {"F100 G81 X1 R1 Z-1 A5", 20, "A5", 36, "does not turn axes"},
     {"G81 X1 R1 Z-1", 1, "G81", 22, "F word missing"},
     {"G93 F1 G81 X1 R1 Z-1", 8, "G81", 22, "inverse time"},
-    // travel
+    // limits
     {"G0 X500.1", 4, "X500.1", 15, "from -500 to 500"},
     {"G10 L2 P1 X10\nG0 X495", 4, "X495", 15, "the work offset is 10"},
     {"G20 G0 Y-20", 8, "Y-20", 15, "Y = -508 mm"},

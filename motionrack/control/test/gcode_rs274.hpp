@@ -1,4 +1,4 @@
-// LinuxCNC's own interpreter, where it is installed (Debian: linuxcnc-uspace).
+// LinuxCNC's interpreter, where it is installed (Debian: linuxcnc-uspace).
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ inline bool is_installed() {
     return std::system("command -v rs274 >/dev/null 2>&1") == 0;
 }
 
-/// A folder that goes when the test ends.
+/// A folder that is deleted when the test ends.
 class Folder {
   public:
     Folder() : path_(std::filesystem::temp_directory_path() / fmt::format("motionrack-rs274-{}", ::getpid())) {
@@ -45,8 +45,8 @@ inline std::string table_in_inches() {
     return out;
 }
 
-/// What rs274 prints for a file in the folder. It keeps tools in a file of the home folder, which two at once would
-/// share.
+/// Returns the output of rs274 for a file in the folder. It stores tools in a file of the home folder, which parallel
+/// runs would share.
 inline std::string of_rs274(const Folder& at, const std::string& name, bool tools) {
     std::filesystem::remove(at.file("x.var"));
     const std::string command = fmt::format("cd '{}' && HOME=. timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1",

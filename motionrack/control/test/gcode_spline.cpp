@@ -1,4 +1,4 @@
-// G5 and G5.1: the arcs lie within the tolerance of the curve that the words mean, and pass into each other.
+// G5 and G5.1: the arcs are within tolerance of the programmed curve and tangent to each other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -19,7 +19,7 @@ struct Spot {
     double x, y;
 };
 
-/// By the sum of Bernstein's polynomials, not as the reader does it.
+/// Uses the sum of Bernstein polynomials, unlike the reader.
 Spot curve_at(const std::array<Spot, 4>& p, double t) {
     const double u = 1 - t;
     const double b[] = {u * u * u, 3 * u * u * t, 3 * u * t * t, t * t * t};
@@ -37,7 +37,7 @@ double to_segment(Spot p, Spot a, Spot b) {
     return apart(p, {a.x + along * dx, a.y + along * dy});
 }
 
-/// Places along moves, by the C library's functions; less than 0.05 mm apart.
+/// Returns points along moves, computed with the C library's functions; less than 0.05 mm apart.
 std::vector<Spot> spots(const std::vector<Move>& moves, Spot from) {
     std::vector<Spot> out = {from};
     for (const Move& move : moves) {
@@ -62,7 +62,7 @@ std::vector<Spot> spots(const std::vector<Move>& moves, Spot from) {
     return out;
 }
 
-/// Greatest distance from any of `places` to the chain of short lines through `line`; both run the same way.
+/// Returns the largest distance of `places` from the polyline through `line`; both have the same direction.
 double farthest(const std::vector<Spot>& places, const std::vector<Spot>& line) {
     double worst = 0;
     std::size_t near = 0;
@@ -112,7 +112,7 @@ RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     for (int k = 0; k <= count; ++k) fine.push_back(curve_at(points, static_cast<double>(k) / count));
     const std::vector<Spot> driven = spots(moves, start);
     RC_ASSERT(farthest(driven, fine) <= spline_tolerance_mm);
-    // Chords of the arcs' places stay within 0.05^2 / 8 r of the arcs; so compare with a little more.
+    // Chords of the sampled points are within 0.05^2 / 8 r of the arcs; so the comparison allows slightly more.
     double worst = 0;
     for (std::size_t k = 0; k < fine.size(); k += 29) {
         double best = 1e9;
@@ -174,7 +174,7 @@ TEST(GcodeSpline, CuspsLoopsStraightsAndHandlesOfNoLengthAreDriven) {
 }
 
 TEST(GcodeSpline, CurveStaysWithinTheTravel) {
-    // It starts along the end of the travel, so that a joint could lie beyond.
+    // It starts along the limit, so that a joint could be outside.
     const auto program = read(std::string(spline_preamble) + "G0 X-500 Y0\nG5 X-400 Y300 I0 J100 P-90 Q-30\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     for (const Move& move : program.moves()) EXPECT_GE(move.end[0], -500 - limit_slack);

@@ -1,4 +1,4 @@
-// What the G-code tests share: a machine, a whole program as a list of steps, and one line's problem.
+// Shared by the G-code tests: a machine, a whole program as a list of calls, and the problem of one line.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace motionrack::control::gcode::testing {
 
-/// Axes as wanted, each from -500 to 500.
+/// Returns a machine with these axes, each from -500 to 500.
 inline Settings machine(std::string_view axes = "XYZABC", double reach = 500) {
     Settings settings;
     settings.probe = true;
@@ -38,7 +38,7 @@ struct Program {
     }
 };
 
-/// Reads all of `text`; going on after problems. The steps' texts point into `text`.
+/// Reads all of `text` and continues after problems. The texts of the calls point into `text`.
 inline Program read(std::string_view text, const Settings& settings = machine()) {
     Program program;
     ProgramReader reader(text, settings, "part.ngc");
@@ -54,7 +54,7 @@ inline Program read(std::string_view text, const Settings& settings = machine())
     }
 }
 
-/// A program whose last line is refused first: at this column, with this in its sentence.
+/// A program whose last line is the first refused one: at this column, with this text in its sentence.
 struct Refused {
     const char* program;
     int column;
@@ -74,7 +74,7 @@ inline void expect_refused(const std::string& preamble, std::span<const Refused>
     }
 }
 
-/// A program whose first problem is in this line, with this in its sentence.
+/// A program whose first problem is in this line, with this text in its sentence.
 struct RefusedAt {
     const char* program;
     int line;
@@ -92,13 +92,13 @@ inline void expect_refused_at(std::span<const RefusedAt> rows, const Settings& s
     }
 }
 
-/// A machine with far travels on which axis words alone are rapid moves: for programs that are about their lines.
+/// A machine with long travels and G0 as initial mode, for programs that test the order of lines.
 inline Settings in_g0(Settings settings = machine("XYZABC", 1e6)) {
     settings.start_in_g0 = true;
     return settings;
 }
 
-/// The X of all moves of a program in_g0() without problems.
+/// Returns the X of all moves of a program in_g0() without problems.
 inline std::vector<double> xs(const std::string& program, const Settings& settings = in_g0()) {
     const auto whole = read(program, in_g0(settings));
     for (const Problem& problem : whole.problems) ADD_FAILURE() << problem.text();
@@ -107,7 +107,7 @@ inline std::vector<double> xs(const std::string& program, const Settings& settin
     return out;
 }
 
-/// Everything that counts of a move, for comparing two programs exactly but for their line numbers.
+/// Formats all relevant fields of a move, for an exact comparison except for line numbers.
 inline std::string describe(const Move& move) {
     std::string out = std::to_string(static_cast<int>(move.kind)) + ' ' + std::to_string(static_cast<int>(move.path)) +
                       ' ' + std::to_string(static_cast<int>(move.feed_mode)) + ' ' + std::to_string(move.turns);

@@ -1,4 +1,4 @@
-// Turning cycles G70 .. G72.2: what they cut and what not, by a work piece that is turned here in numbers.
+// Lathe cycles G70 .. G72.2: their cuts, and material that they must not cut, checked with a numeric workpiece.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr double top = 60;  ///< height of the start
 constexpr double near = 1e-6;
-/// Of what joints that are nearly tangent are off, mm.
+/// Error of junctions that are nearly tangent, mm.
 constexpr double rough = cutter_tolerance_mm + near;
 
-/// A contour in the view of a cycle: `first` along the cut, `second` away from the work piece.
+/// Makes a contour in the orientation of a cycle: `first` along the cut, `second` away from the workpiece.
 std::vector<ContourSegment> random_contour(bool arcs, double widest) {
     std::vector<ContourSegment> out;
     PlanePoint at = {0, *rc::gen::inRange(0, 40) * 1.0};
@@ -32,7 +32,7 @@ std::vector<ContourSegment> random_contour(bool arcs, double widest) {
             !after_upright && *rc::gen::inRange(0, 4) == 0 ? 0 : *rc::gen::inRange(30, 100) * widest / 100;
         const double high = *rc::gen::inRange(0, 40);
         piece.to = {at.first + wide, wide > 0 && *rc::gen::inRange(0, 3) == 0 ? at.second : high};
-        if (arcs && wide > 0 && *rc::gen::inRange(0, 3) == 0) {  // a bulge or a groove that goes one way
+        if (arcs && wide > 0 && *rc::gen::inRange(0, 3) == 0) {  // a monotone bulge or groove
             piece.to.second = at.second;
             const double deep = *rc::gen::inRange(0, 100) * wide / 100;
             const bool up = *rc::gen::arbitrary<bool>();
@@ -53,7 +53,8 @@ std::vector<ContourSegment> random_contour(bool arcs, double widest) {
     return out;
 }
 
-/// The height of a move or of a piece of contour at a place along the cut; nothing where it is not there, or upright.
+/// Returns the height of a move or a contour segment at a position along the cut; nothing outside of it, or if it is
+/// vertical.
 std::optional<double> height_at(PlanePoint from, PlanePoint to, std::int32_t turns, PlanePoint centre, double along) {
     const double least = std::min(from.first, to.first), greatest = std::max(from.first, to.first);
     if (along < least || along > greatest || greatest - least < near) return std::nullopt;
@@ -92,7 +93,7 @@ double contour_distance_to(const std::vector<ContourSegment>& contour, PlanePoin
     return nearest;
 }
 
-/// Above the contour or on it. Where it is upright, its lower side counts: a tool may stand there.
+/// Returns true above the contour or on it. On a vertical segment the lower side counts, because a tool may be there.
 bool is_above(const std::vector<ContourSegment>& contour, PlanePoint p) {
     return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near ||
            contour_distance_to(contour, p) <= rough;
@@ -100,7 +101,7 @@ bool is_above(const std::vector<ContourSegment>& contour, PlanePoint p) {
 
 struct Moved {
     PlanePoint from;
-    LatheMove move;  ///< in the view
+    LatheMove move;  ///< in the orientation of the cycle
 
     PlanePoint at(double share) const {
         if (move.turns == 0) return from + (move.to - from) * share;
@@ -110,7 +111,7 @@ struct Moved {
     }
 };
 
-/// Does a cycle on a contour given in its view, in one of the eight ways in which that can lie in X and Z.
+/// Executes a cycle on a contour in its orientation, in one of the eight orientations in X and Z.
 std::string cut(const CuttingOrientation& view, LatheCycle plan, std::vector<ContourSegment> contour,
                 std::vector<Moved>& out) {
     for (ContourSegment& piece : contour) {
@@ -144,7 +145,7 @@ CuttingOrientation random_view() {
     return view;
 }
 
-/// What is left of a cylinder at a place, after some moves.
+/// Returns the remaining radius of a cylinder at a position, after some moves.
 double left_at(const std::vector<Moved>& moves, std::size_t count, double along) {
     double height = top;
     for (std::size_t i = 0; i < count; ++i) {
@@ -170,8 +171,8 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     if (!fault.empty()) RC_DISCARD("no room");
     RC_ASSERT(!moves.empty());
     const double begin = contour.front().from.first + plan.distance, end = contour.back().to.first - plan.distance;
-    // The levels begin on the line from the start to where the path beside the contour begins. Where the contour goes
-    // down at once, that lies past its first corner, and the line leads over the corner at less than D.
+    // The levels begin on the line from the start to the start of the offset contour. If the contour descends at once,
+    // that point is behind its first corner, and the line passes the corner at less than D.
     std::vector<ContourSegment> beside;
     RC_ASSERT(offset_contour(contour, plan.distance, beside) == "");
     ContourSegment way_in;
@@ -211,7 +212,7 @@ RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
         }
     RC_ASSERT(std::fabs(moves.back().move.to.first - contour.back().to.first) < near);
     RC_ASSERT(std::fabs(moves.back().move.to.second - top) < near);
-    // First all but the pockets, then these, leave the same.
+    // All except the pockets, and then the pockets, leave the same.
     std::vector<Moved> rest;
     plan.code = 711;
     RC_ASSERT(cut(view, plan, contour, moves) == "");
@@ -219,7 +220,7 @@ RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
     RC_ASSERT(cut(view, plan, contour, rest) == "");
     moves.insert(moves.end(), rest.begin(), rest.end());
     for (int k = 1; k < 40; ++k) {
-        const double along = contour.back().to.first * (k + 0.2928932) / 41;  // no upright piece stands there
+        const double along = contour.back().to.first * (k + 0.2928932) / 41;  // no vertical segment is there
         RC_ASSERT(std::fabs(left_at(moves, moves.size(), along) - contour_at(contour, along)) < 1e-5);
     }
 }
@@ -233,7 +234,7 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     plan.end_distance = *rc::gen::inRange(0, 10) / 10.0;
     plan.passes = *rc::gen::inRange(1, 4);
     std::vector<Moved> moves;
-    CuttingOrientation view;  // not across: a contour that goes one way along both is taken along Z
+    CuttingOrientation view;  // not transverse: a contour that is monotone along both axes is cut along Z
     view.along = *rc::gen::arbitrary<bool>() ? 1 : -1;
     view.away = *rc::gen::arbitrary<bool>() ? 1 : -1;
     if (!cut(view, plan, contour, moves).empty()) RC_DISCARD("no room");
@@ -267,7 +268,7 @@ RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStart
         for (int k = 0; k <= 12; ++k) RC_ASSERT(is_above(contour, one.at(k / 12.0)));
 }
 
-/// G70 in two passes along a contour that is given in its view.
+/// Executes G70 in two passes along a contour in its orientation.
 void expect_finished_above(const std::vector<ContourSegment>& contour, PlanePoint start, double distance,
                            double end_distance) {
     LatheCycle plan;
@@ -288,8 +289,8 @@ TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
     expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
 }
 
-// Beside the contour the groove ends a little past its half circle, because its bulge begins within the tolerance of
-// that.
+// In the offset contour the groove ends slightly after its half circle, because its bulge begins within the tolerance
+// of that.
 TEST(GcodeTurning, FinishingComesBackOverABulgeBehindAGrooveThatItNearlyTouches) {
     expect_finished_above(
         {{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}},

@@ -1,5 +1,4 @@
-// Turning cycles G70 .. G72.2 in programs: fillets and chamfers, where the machine stands after them, and what is
-// refused.
+// Lathe cycles G70 .. G72.2 in programs: fillets and chamfers, final position, and refused uses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The look-ahead and the curve take memory when they are made, and none for a move; a travel takes none.
+// The look-ahead and the path builder allocate at construction and not for a move; an axis profile never allocates.
 
 #include <gtest/gtest.h>
 

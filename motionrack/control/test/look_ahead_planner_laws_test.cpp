@@ -1,4 +1,4 @@
-// Laws of the look-ahead, for random programs: limits are kept everywhere, and the window finds what a full pass finds.
+// Laws of the look-ahead, for random programs: all limits are observed, and the window finds the result of a full pass.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -167,7 +167,7 @@ void keeps_the_limits(const MachineLimits& limits, const std::vector<PlannedMove
     }
 }
 
-/// Entry speeds of a whole program: every move knows all that follow.
+/// Returns the entry velocities of a whole program: every move knows all following ones.
 std::vector<double> entries_by_full_passes(const MachineLimits& machine, const std::vector<PlannedMove>& moves) {
     const PathLimits limits(machine);
     const std::size_t count = moves.size();
@@ -248,7 +248,7 @@ std::vector<Move> curve(int count, double step) {
 TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 100, 1000, 0, 1, 1000};
-    // 90 mm/s take 4.05 mm to stop: 41 lines of 0.1 mm
+    // stopping from 90 mm/s takes 4.05 mm: 41 lines of 0.1 mm
     const auto out = plan(limits, curve(5000, 0.1), 64);
     ASSERT_EQ(out.size(), 5000u);
     const auto entries = entries_by_full_passes(limits, out);
@@ -260,7 +260,7 @@ TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
     EXPECT_GT(fastest, 85);
 }
 
-/// Folds the bits of speeds, lengths and times; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
+/// Hashes the bits of velocities, lengths and times; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
 TEST(PlannerLaws, BitsAreTheSameOnEveryCompilerAndCpu) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 100, 1000, 30'000, 1, 1000};

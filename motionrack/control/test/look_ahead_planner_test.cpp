@@ -1,4 +1,4 @@
-// The look-ahead: cases worked out by hand, and laws that hold for any program.
+// The look-ahead: cases computed by hand, and properties of any program.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -120,7 +120,7 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheJumpOfTheAxes) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});
-    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 2);  // X jumps by the whole speed
+    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 2);  // X has the whole velocity as a step
 }
 
 TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
@@ -132,7 +132,7 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 0.01;
     const auto out = plan_path(limits, {first, path_line_to(20, 20)});
-    // a right angle: s = sin 45 degrees; both axes take part, so a = 1000 sqrt 2
+    // a right angle: s = sin 45 degrees; both axes contribute, so a = 1000 sqrt 2
     const double s = std::sqrt(0.5);
     EXPECT_NEAR(out[0].exit_velocity, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
 }
@@ -158,7 +158,7 @@ TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
     arc.centre_first = 20;
     arc.centre_second = 10;
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), arc});
-    // least acceleration of X and Y: 600
+    // lower acceleration of X and Y: 600
     EXPECT_NEAR(out[0].exit_velocity, 50, 1e-9);
     EXPECT_NEAR(out[1].accel, 0.4 * 600, 1e-9);
     arc.end = {20.5, 0.5, 0, 0, 0, 0};
@@ -173,7 +173,7 @@ TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
     helix.turns = 1;
     MachineLimits limits = path_machine();
     limits[2] = limits[0];
-    // as high as it is round: half of v^2 / r points to the axis; the way along the arc is sqrt 1/2 of the path
+    // equally high and round: half of v^2 / r points to the axis; the distance along the arc is sqrt 1/2 of the path
     const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
     const AlongPathLimits along = PathLimits(limits).along(path, helix);
     EXPECT_NEAR(along.speed, std::sqrt(0.8 * 600 * 0.1 / 0.5), 1e-9);
@@ -191,7 +191,7 @@ TEST(LookAheadPlanner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
     const Geometry before = geometry_of(first, Point{});
     const Move second = path_line_to(0.1 + 0.08, 0.06);
     const Geometry after = geometry_of(second, first.end);
-    // Y gains 0.6 of the speed within 0.1 mm: v * 0.6 v / 0.1 <= 1000
+    // the velocity of Y increases by 0.6 of the path velocity within 0.1 mm: v * 0.6 v / 0.1 <= 1000
     const double squared =
         PathLimits(limits).max_junction_velocity2(before, 50, after, 50, PathControl::continuous, 100);
     EXPECT_NEAR(squared, 1000 * 0.1 / 0.6, 1e-9);
@@ -202,7 +202,7 @@ TEST(LookAheadPlanner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     for (int i = 1; i <= 2000; ++i) moves.push_back(path_line_to(0.01 * i, 0, 0, 100));
     const auto out = plan_path(path_machine(), moves);
     ASSERT_EQ(out.size(), 2000u);
-    // 100 mm/s take 5 mm: 500 lines up and 500 lines down
+    // 100 mm/s take 5 mm: 500 lines for acceleration and 500 for deceleration
     EXPECT_NEAR(out[1000].entry_velocity, 100, 1e-9);
     EXPECT_NEAR(out[499].exit_velocity, 100, 1e-6);
     EXPECT_NEAR(out[1500].entry_velocity, 100, 1e-6);
@@ -279,7 +279,7 @@ TEST(LookAheadPlanner, RefusesWhatTheMachineCannotDoAndGoesOn) {
     EXPECT_FALSE(planner.pull(planned));
 }
 
-/// Its changes of speed take whole moves of a pulse or two.
+/// Each change of velocity takes a whole move of a pulse or two.
 class SpendsAll : public DriveConstraints {
   public:
     double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }

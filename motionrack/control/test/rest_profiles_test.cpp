@@ -1,4 +1,5 @@
-// Trapezoids and S-curves: cases by hand, exact ends, limits, symmetry, and that nothing of the same kind is quicker.
+// Trapezoidal and double-S profiles: cases by hand, exact ends, limits, symmetry, and time optimality within their
+// form.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -36,7 +37,7 @@ void near(double got, double expected, double scale) {
     RC_ASSERT(std::fabs(got - expected) <= 1e-11 * scale);
 }
 
-/// Speeds are compared at instants that a double of `duration` tells apart only so far.
+/// Compares velocities at instants whose resolution is limited by a double of `duration`.
 void near_speed(double got, double expected, double speed, double accel, double duration) {
     near(got, expected, speed + 1e-4 * accel * duration);
 }
@@ -141,7 +142,7 @@ RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakSpeedIsQuicker, ()) {
         if (v == 0 || ramps > l.distance * (1 + 1e-12)) continue;
         quickest = std::min(quickest, (2 * v - v0 - v1) / l.accel + (l.distance - ramps) / v);
     }
-    // speeds are told apart to 1e-16 of themselves, which the reference turns into times
+    // velocities have a resolution of 1e-16 of their value, which the reference converts to times
     RC_ASSERT(p.duration() <= quickest * (1 + 1e-9) + 1e-15 * l.speed / l.accel);
 }
 
@@ -166,7 +167,7 @@ TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
 }
 
 TEST(SCurveProfile, TheShortCasesAreThoseOfTheBooks) {
-    // full acceleration, not full speed: v^2 / a + v a / j = d with a 50, j 500 and v 10 gives d 3
+    // full acceleration, not full velocity: v^2 / a + v a / j = d with a 50, j 500 and v 10 gives d 3
     const SCurveProfile no_cruise(3, 20, 50, 500);
     EXPECT_DOUBLE_EQ(no_cruise.peak(), 10);
     EXPECT_DOUBLE_EQ(no_cruise.duration(), 0.6);
@@ -174,7 +175,7 @@ TEST(SCurveProfile, TheShortCasesAreThoseOfTheBooks) {
     const SCurveProfile jerk_only(0.125, 20, 50, 500);
     EXPECT_NEAR(jerk_only.peak_accel(), 25, 1e-13);
     EXPECT_NEAR(jerk_only.duration(), 0.2, 1e-15);
-    // full speed without full acceleration: t = sqrt(v / j) = 0.1
+    // full velocity without full acceleration: t = sqrt(v / j) = 0.1
     const SCurveProfile slow(10, 5, 1000, 500);
     EXPECT_DOUBLE_EQ(slow.peak_accel(), 50);
     EXPECT_DOUBLE_EQ(slow.duration(), 2 + 0.2);
@@ -229,7 +230,8 @@ RC_GTEST_PROP(SCurveLaws, NeverPassesALimitNorGoesBackAndIsSymmetric, ()) {
     }
 }
 
-/// Seconds of the S-curve with these limits and peak speed v, or a great number if it does not fit in the distance.
+/// Returns the duration of the profile with these limits and peak velocity v, or a large number if the distance is too
+/// short.
 double seconds_with(double distance, double v, double accel, double jerk) {
     const double speed_up = v * jerk >= accel * accel ? v / accel + accel / jerk : 2 * std::sqrt(v / jerk);
     if (v * speed_up > distance * (1 + 1e-12)) return 1e300;

@@ -1,4 +1,4 @@
-// Parts of moves put together again are the move; the rest of a move ends where the move ends.
+// The parts of a move together are the move; a remaining move ends where the whole move ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ Move straight_to(double x, double y, double a = 0) {
     return move;
 }
 
-/// From (10, 0) about (0, 0), helical, to `turn` of a circle.
+/// Makes a helix from (10, 0) about (0, 0), `turn` of a circle long.
 Move helix(double turn, double z, bool counter_clockwise = true) {
     Move move;
     move.kind = MoveKind::arc;

@@ -1,8 +1,8 @@
-// The slow referee: every motion of the right form that reaches the target, the quickest of them. It knows neither feet
-// nor scales: it integrates phases one after the other.
+// The slow reference solver: evaluates every motion of the correct form that reaches the target, and selects the
+// fastest. It uses neither feet nor scales: it integrates phases one after the other.
 //
 //   peak y <= accel: the acceleration rises to y;  y > accel: it is held at its limit for (y - accel)/jerk s
-//   then it falls to the valley -- two of them may give the end speed -- and rises to the end's acceleration
+//   then it falls to the valley -- two of them may give the end velocity -- and rises to the final acceleration
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ class Search {
         double best = no_time;
         const double top = max_peak();
         best = std::min(best, cruising(top));
-        // closely at both ends, where branches begin
+        // dense at both ends, where branches begin
         std::vector<double> peaks;
         for (int i = 0; i <= steps; ++i) {
             const double x = static_cast<double>(i) / steps;
@@ -63,9 +63,9 @@ class Search {
         return s;
     }
 
-    /// From a state to the end by a valley on the low or on the high branch.
+    /// Returns the motion from a state to the end through a valley on the low or on the high branch.
     Outcome down(State s, bool low) const {
-        // speed gained by falling to q and rising to the end's acceleration: (a^2 + end^2)/2 - q^2, over jerk
+        // velocity gained by falling to q and rising to the final acceleration: (a^2 + end^2)/2 - q^2, over jerk
         const double square = 0.5 * (s.a * s.a + t_.to.accel * t_.to.accel) - j_ * (t_.to.speed - s.v);
         if (!(square >= 0)) return {};
         double q = low ? -std::sqrt(square) : std::sqrt(square);
@@ -81,7 +81,7 @@ class Search {
         return {true, s.t, s.p};
     }
 
-    /// Not a number where the branch has no such motion.
+    /// Returns NaN if the branch has no such motion.
     double error(double peak, bool low, bool& possible, double& seconds) const {
         const Outcome out = down(up_to(peak), low);
         possible = out.possible;
@@ -95,7 +95,7 @@ class Search {
         double first = error(from, low, one, seconds);
         double second = error(to, low, two, seconds);
         if (!one && !two) return no_time;
-        if (one != two) {  // where the branch begins or ends
+        if (one != two) {  // start or end of the branch
             double in = one ? from : to, out = one ? to : from;
             for (int i = 0; i < 60; ++i) {
                 const double middle = 0.5 * (in + out);
@@ -119,7 +119,7 @@ class Search {
         return left <= 1e-9 * (std::fabs(first) + std::fabs(second)) ? seconds : no_time;
     }
 
-    /// The peak with which the greatest speed is just reached.
+    /// Returns the peak with which the maximum velocity is just reached.
     double max_peak() const {
         const auto fastest = [&](double peak) {
             const State s = up_to(peak);
@@ -155,8 +155,8 @@ Task mirrored(Task t) {
     return t;
 }
 
-/// Seconds from a state that is too fast, or will be, until its speed is `top` for good, if the acceleration falls to
-/// `depth` and rises again; infinite if it then falls below -top.
+/// Returns the seconds until a velocity that exceeds, or will exceed, `top` stays below it, if the acceleration falls
+/// to `depth` and rises again. Returns infinity if the velocity then falls below -top.
 double braked(State s, double depth, double top, const KinematicLimits& limits) {
     const double j = limits.jerk;
     const double straight = s.a * s.a + 2 * j * (s.v - top);
@@ -166,7 +166,7 @@ double braked(State s, double depth, double top, const KinematicLimits& limits) 
         s.go(-j, (s.a - entry) / j);
     } else {
         s.go(-j, (s.a - depth) / j);
-        // on at this acceleration, then up: as late as the entry can be kept from falling below -top
+        // continue with this acceleration, then rise as late as possible without falling below -top
         entry = std::max(depth, -2 * std::sqrt(j * top));
         const double rising = (depth * depth - entry * entry) / (2 * j);
         const double hold = (s.v - rising - top) / -depth;

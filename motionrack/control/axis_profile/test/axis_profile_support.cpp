@@ -41,7 +41,7 @@ Task Tasks::usual() {
     };
     const double quick = t.limits.speed, a_start = std::min(t.limits.accel, std::sqrt(2 * quick * t.limits.jerk));
     t.from = {0, some(quick), some(a_start)};
-    // a start that can be kept within
+    // a start that can stay within the limits
     const double room = quick - 0.5 * t.from.accel * t.from.accel / t.limits.jerk;
     if (t.from.speed * t.from.accel > 0 && room >= 0) t.from.speed = std::clamp(t.from.speed, -room, room);
     if (room < 0) t.from.accel = 0;
@@ -83,7 +83,7 @@ Task Tasks::outside() {
 
 std::optional<double> Tasks::motion(Task& t) {
     t = usual();
-    // a little within the limits: what takes all of them may be reachable to the bit only
+    // slightly within the limits: a state that uses all of them may be reachable only to the bit
     t.from.accel *= 0.999;
     t.from.speed *= 0.999;
     const KinematicLimits m = {0.999 * t.limits.speed, 0.999 * t.limits.accel, t.limits.jerk};
@@ -94,7 +94,7 @@ std::optional<double> Tasks::motion(Task& t) {
     for (int k = 0; k < phases; ++k, side = -side) {
         double jerk = side * m.jerk * (one_in(4) ? part() : 0.999);
         double dt = between(0, 2) * std::min(m.accel / m.jerk, std::sqrt(m.speed / m.jerk));
-        // up to the acceleration's limit, and along it for a while
+        // to the acceleration limit, and along it for a while
         const double until = (side * m.accel - s.accel) / jerk;
         if (dt > until) dt = until;
         for (int part_of = 0; part_of < 2; ++part_of) {
@@ -129,14 +129,14 @@ std::string fault_of(const AxisProfile& travel, const Task& task, double within)
     const double a_size = std::max({m.accel, std::fabs(task.from.accel)});
     const double v_size =
         std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
-    // what the accelerations at both ends are worth in way has roundings, too, however short the travel is
+    // the distance due to the accelerations at both ends has rounding errors, even in a short profile
     const double a_ends = std::fabs(task.from.accel) + std::fabs(task.to.accel);
     const double ends =
         (std::fabs(task.from.speed) + std::fabs(task.to.speed) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
     const double p_size =
         std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T, 0.01 * ends});
     const auto jump = [&](double position, double speed, double accel) {
-        const double instant = 1e-15 * T;  // times are no finer
+        const double instant = 1e-15 * T;  // resolution of times
         if (!(std::fabs(position - at.position) <= 1e-12 * p_size + instant * v_size)) return "jump of the position";
         if (!(std::fabs(speed - at.speed) <= 1e-12 * v_size + instant * a_size)) return "jump of the speed";
         if (!(std::fabs(accel - at.accel) <= 1e-12 * a_size + instant * m.jerk)) return "jump of the acceleration";
@@ -153,7 +153,7 @@ std::string fault_of(const AxisProfile& travel, const Task& task, double within)
             if (t >= within) {
                 if (!(std::fabs(accel) <= m.accel * (1 + 1e-9))) return "acceleration";
                 if (!(std::fabs(speed) <= m.speed * (1 + 1e-9))) return "speed";
-                // where the acceleration passes through 0 the speed has its peak
+                // the velocity has its peak where the acceleration passes through 0
                 if (i > 0 && p.jerk != 0) {
                     const double zero = -p.accel / p.jerk + p.zero;
                     const double peak = p.speed - 0.5 * p.accel * p.accel / p.jerk;
@@ -185,7 +185,7 @@ double entry_of(const AxisProfile& travel, const KinematicLimits& limits) {
             }
             entry = in;
         }
-        // a peak between two looks
+        // a peak between two samples
         const double peak = p.jerk != 0 ? p.zero - p.accel / p.jerk : begin;
         if (peak > std::max(begin, entry) && peak < p.end && outside(p.at(peak))) {
             double out = peak, in = p.end;

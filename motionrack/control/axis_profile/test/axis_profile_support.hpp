@@ -1,4 +1,4 @@
-// Random tasks for travels, what must hold of every travel, and the slow referee.
+// Random tasks for axis profiles, the properties of every profile, and the slow reference solver.
 
 #pragma once
 
@@ -18,49 +18,51 @@ struct Task {
 
 std::string text_of(const Task& task);
 
-/// Tasks at random, the same on every computer.
+/// Random tasks, the same on every computer.
 class Tasks {
   public:
     explicit Tasks(std::uint64_t seed) : random_(seed) {}
 
-    /// 0 .. 1
+    /// Returns 0 .. 1.
     double part() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
     double between(double least, double most) { return least + (most - least) * part(); }
-    /// Evenly by order of magnitude, of either sign.
+    /// Returns a number of either sign, evenly distributed over the orders of magnitude.
     double of_magnitude(double least, double most);
     bool one_in(int n) { return random_() % static_cast<unsigned>(n) == 0; }
 
-    /// Numbers as they occur: limits near 1, everything at random, a few at rest or at a limit.
+    /// Returns a typical task: limits near 1, everything random, some values at zero or at a limit.
     Task usual();
-    /// Limits and distances of any magnitude.
+    /// Returns a task with limits and distances of any magnitude.
     Task any();
-    /// A target within reach: its end speed and acceleration leave room to stop.
+    /// Makes the target feasible: its velocity and acceleration leave room to stop.
     void allow(Task& task);
-    /// A start that is outside the limits.
+    /// Returns a task whose start is outside the limits.
     Task outside();
-    /// Whatever motion, a few phases long, within the limits; its seconds. The target is where it ends.
+    /// Sets the task to a random motion of a few phases within the limits, which ends at the target; returns its
+    /// seconds.
     std::optional<double> motion(Task& task);
 
   private:
     std::mt19937_64 random_;
 };
 
-/// What is wrong with a travel for its task; nothing if all holds: phases in order, the jerk its limit or 0, the state
-/// going on without jumps, limits held from `within` on, both ends exact.
+/// Returns the violated property of a profile for its task, or nothing. Checks order of phases, jerk at its limit or 0,
+/// continuity, limits from `within` on, and exact ends.
 std::string fault_of(const AxisProfile& travel, const Task& task, double within = 0);
 
-/// The least duration by a slow search: all motions of the form jerk +-j, 0, -+j, 0 (cruise), -+j, 0, +-j, by their
-/// peak, which is scanned and bisected. Starts and targets within the limits. Infinite if the search finds none.
+/// Returns the minimum duration by a slow search over all motions of the form jerk +-j, 0, -+j, 0 (cruise), -+j, 0,
+/// +-j; it scans and bisects their peak. Start and target must be within the limits. Returns infinity if the search
+/// finds none.
 double slowly_found_duration(const Task& task, int steps = 100);
 
-/// The instant from which on a travel is within the limits.
+/// Returns the instant from which on a profile is within the limits.
 double entry_of(const AxisProfile& travel, const KinematicLimits& limits);
 
-/// How soon a start can be within the limits for good, its acceleration first, by a slow search over how far the
-/// acceleration goes.
+/// Returns the minimum time until a start stays within the limits, acceleration first, by a slow search over the depth
+/// of the acceleration.
 double slowly_found_entry(const KinematicState& from, const KinematicLimits& limits);
 
-/// A sum of the bits of all phases of the travels of `count` tasks.
+/// Returns a hash of the bits of all phases for `count` tasks.
 std::uint64_t bits_of_travels(std::uint64_t seed, int count);
 
 }  // namespace motionrack::control::travel_test

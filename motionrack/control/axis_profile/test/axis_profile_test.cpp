@@ -1,4 +1,4 @@
-// Travels: what holds at every instant, and that there is no quicker way.
+// Axis profiles: properties at every instant, and time optimality.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ double seconds_of(const Task& t) {
     return time_optimal_profile(t.from, t.to, t.limits).value().duration();
 }
 
-/// Durations are compared to this.
+/// Tolerance for comparing durations.
 double exactness(double seconds) {
     return 1e-8 * std::max(1.0, seconds);
 }
@@ -88,7 +88,8 @@ TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
     }
 }
 
-/// To a target that moves there may be no way at all that is a rounding shorter, but for a detour; so nearly always.
+/// A moving target may be impossible to reach in a time shorter by a rounding, except by a detour; hence only nearly
+/// always.
 TEST(AxisProfile, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) {
     Tasks tasks(14);
     int longer = 0;
@@ -134,7 +135,7 @@ TEST(AxisProfile, StartsAndEndsAtItsLimits) {
             for (const double w : signs)
                 for (const double b : signs)
                     for (const double distance : {-40.0, -3.0, -1e-9, 0.0, 1e-9, 0.5, 25.0}) {
-                        // a speed that is just not too much for its acceleration
+                        // a velocity that is just feasible with its acceleration
                         const auto kept = [&](double speed, double accel) {
                             return 2 * speed - speed * accel * accel * 0.125;
                         };
@@ -166,7 +167,7 @@ TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
 }
 
 TEST(AxisProfile, ThatMustTurnBackDoes) {
-    // at full speed past a place just ahead: it overshoots, returns and stands
+    // at full velocity past a position just ahead: it overshoots, returns and stops
     const KinematicLimits limits = {10, 20, 100};
     const auto out = time_optimal_profile({0, 10, 0}, {1, 0, 0}, limits);
     double farthest = 0;
@@ -258,7 +259,7 @@ TEST(AChangeOfSpeed, IsTheQuickestOfAllTravelsToItsSpeed) {
     }
 }
 
-/// To the place where it ends a travel takes no longer, so a travel is also never quicker than it.
+/// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
 TEST(AChangeOfSpeed, IsTheTravelToWhereItEnds) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {

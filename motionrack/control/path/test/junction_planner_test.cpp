@@ -1,4 +1,4 @@
-// Rows of joints: the choice against all rows that there are.
+// Sequences of junctions: the choice compared with all possible sequences.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 struct ChoiceRow {
     std::vector<LegLimits> legs;
-    std::vector<Junction> joints;  ///< one more: the row's begin first
+    std::vector<Junction> joints;  ///< one more than legs, starting with the beginning of the sequence
 };
 
 ChoiceRow random_row(unsigned seed, std::size_t legs) {
@@ -33,7 +33,7 @@ ChoiceRow random_row(unsigned seed, std::size_t legs) {
     return out;
 }
 
-/// `stops`: bit i of the end of leg i.
+/// `stops`: bit i for the end of leg i.
 double seconds_of_row(const ChoiceRow& row, unsigned stops) {
     double seconds = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {

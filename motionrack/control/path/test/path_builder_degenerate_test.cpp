@@ -1,4 +1,4 @@
-// Programs no one would write: sizes and tolerances that are very small and very great, in any order.
+// Degenerate programs: very small and very large sizes and tolerances, in any order.
 
 #include <gtest/gtest.h>
 

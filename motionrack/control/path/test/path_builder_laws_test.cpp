@@ -1,4 +1,4 @@
-// Laws of the curve, for random programs: it meets itself smoothly, stays near the path and is never faster than u.
+// Laws of the curve, for random programs: it is smooth, stays near the path and is never faster than u.
 // MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many there are.
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(CurveLaws, AMoveMakesFewPieces) {
         for (const CubicSegment& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            // three knots a turn; up to 8 turns on either side reach over a move
+            // three knots a corner; up to 8 corners on either side reach over a move
             const double turned = std::fabs(paths[i].sweep) * std::sqrt(std::sqrt(1 + paths[i].radius / half_pulse));
             ASSERT_LE(count[i + 1], 100 + 3 * turned) << "line " << i + 1;
         }
@@ -140,11 +140,11 @@ TEST(CurveLaws, CurvesBeginAndEndWhereTheProgramDoes) {
     });
 }
 
-/// What the program allows on a move, mm/s (degrees/s).
+/// Returns the programmed velocity on a move, mm/s (degrees/s).
 double programmed(const Move& move, const Geometry& path) {
     if (move.kind == MoveKind::rapid) return std::numeric_limits<double>::infinity();
     if (move.feed_mode == FeedMode::units_per_second) return move.feed;
-    return move.feed * (path.length + 4e-6);  // moves before it that were left out
+    return move.feed * (path.length + 4e-6);  // includes skipped moves before it
 }
 
 TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
@@ -153,7 +153,7 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
         for (const CubicSegment& piece : pieces_of(one.items)) {
             const std::size_t i = static_cast<std::size_t>(piece.line - 1);
             const double feed = programmed(one.moves[i], paths[i]);
-            // lines of moves that were left out have no direction of their own
+            // lines of skipped moves have no direction of their own
             if (feed == std::numeric_limits<double>::infinity() || piece.length < 2e-6) continue;
             const double grown = paths[i].radius_growth * (1 + paths[i].radius / paths[i].length);
             const double spiral = grown * grown;  // lengths of spirals are nominal
@@ -196,7 +196,7 @@ TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
     EXPECT_GT(worst, 0.5);
 }
 
-/// The least part of the tolerances, XYZ and ABC at once, within which a point is of a line.
+/// Returns the smallest share of the tolerances, XYZ and ABC together, within which a point lies on a line.
 double part_of_tolerances(const Geometry& line, const Point& at, double tolerance, double rotary) {
     const auto part = [&](double s) {
         double square = 0, most = 0;

@@ -1,4 +1,4 @@
-// What the curve's tests share: programs of all kinds from a seed, and the whole curve of a program.
+// Shared by the tests of the path builder: programs of all kinds from a seed, and the whole curve of a program.
 #pragma once
 
 #include <algorithm>
@@ -31,13 +31,13 @@ inline Move line_to(const Point& end, double tolerance_mm = 0.01) {
     return move;
 }
 
-/// At a feed at which corners are passed.
+/// Sets a feed rate at which corners are passed.
 inline Move slow(Move move) {
     move.feed = 1;
     return move;
 }
 
-/// In the plane of X and Y; `sweep` in rad, > 0 to the left; starts at `at` in the direction of `heading`.
+/// Makes an arc in the XY plane; `sweep` in rad, > 0 to the left; starts at `at` in the direction of `heading`.
 inline Move arc_from(const Point& at, double heading, double radius, double sweep, double tolerance_mm = 0.01) {
     Move move = line_to(at, tolerance_mm);
     move.kind = MoveKind::arc;
@@ -52,7 +52,7 @@ inline Move arc_from(const Point& at, double heading, double radius, double swee
     return move;
 }
 
-/// Gives the moves the lines 1, 2, ...
+/// Numbers the lines of the moves 1, 2, ...
 inline std::vector<Move> numbered(std::vector<Move> moves) {
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i].line = static_cast<std::int32_t>(i + 1);
     return moves;
@@ -97,15 +97,15 @@ inline double xyz_size(const Point& p) {
     return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
 }
 
-/// Programs in which everything occurs: chords on smooth curves, zigzags, corners, arcs, helices, spirals, rotary axes,
-/// dwells, all path controls and feeds, and moves that are too short to be seen.
+/// Makes programs with all elements: chords on smooth curves, zigzags, corners, arcs, helices, spirals, rotary axes and
+/// dwells. They have all path controls and feed rates, and moves that are too short to be noticed.
 class ProgramMaker {
   public:
     explicit ProgramMaker(std::uint64_t seed) : random_(seed) {}
 
     double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
     int one_of(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
-    /// Of very different sizes.
+    /// Returns a size from a logarithmic distribution.
     double size_between(double low, double high) { return low * std::exp(between(0, std::log(high / low))); }
 
     std::vector<Move> program(int sections) {
@@ -170,7 +170,7 @@ class ProgramMaker {
             dwell.seconds = 0.1;
             dwell.end = at_;
             moves.push_back(dwell);
-        } else {  // chords with noise, and moves that are too short to be seen
+        } else {  // chords with noise, and moves that are too short to be noticed
             for (int i = 0; i < count; ++i) {
                 go(moves, one_of(3) == 0 ? size_between(1e-10, 1e-5) : step * 0.01);
                 heading_ += between(-0.02, 0.02);

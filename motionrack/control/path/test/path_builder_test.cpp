@@ -1,4 +1,4 @@
-// What the curve does with the shapes that programs are made of.
+// Path builder: curves of typical program shapes.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ int rests(const std::vector<Move>& moves) {
     return rests_in(curve_of(numbered(moves)));
 }
 
-/// Greatest curvature and curvature_rate of XYZ on the curve.
+/// Maximum curvature and curvature_rate of XYZ on the curve.
 struct CurvePeaks {
     double curvature = 0, curvature_rate = 0;
 };
@@ -39,7 +39,7 @@ CurvePeaks peaks_of(const std::vector<CubicSegment>& pieces) {
     return out;
 }
 
-/// Greatest distance from one path.
+/// Returns the largest distance from a set of paths.
 double max_distance(const std::vector<CubicSegment>& pieces, const std::vector<Geometry>& paths) {
     double most = 0;
     for (const CubicSegment& piece : pieces)
@@ -90,7 +90,7 @@ TEST(Curve, RoundsACornerByItsTolerance) {
 TEST(Curve, RestsWhereTheProgramSaysSo) {
     const Point a = {10, 0, 0}, b = {10, 10, 0};
     EXPECT_EQ(rests({slow(line_to(a)), slow(line_to(b))}), 1);
-    EXPECT_EQ(rests({line_to(a), line_to(b)}), 2);  // at this feed the stop is quicker than the slow way round
+    EXPECT_EQ(rests({line_to(a), line_to(b)}), 2);  // at this feed rate the stop is faster than the slow detour
     EXPECT_EQ(rests({exact(line_to(a)), line_to(b)}), 2);
     EXPECT_EQ(rests({exact(line_to(a)), line_to({20, 0, 0})}), 1);
     Move stopping = line_to(a);
@@ -243,7 +243,7 @@ TEST(Curve, LeavesOutMovesThatAreTooShortButEndsWhereTheyDo) {
     EXPECT_LT(items.size(), 40u);
 }
 
-/// Also beside corners and joints: each move's feed holds on its own part of the path, whatever its neighbours' are.
+/// Also near corners and junctions each feed rate applies to its own move, whatever the neighbours have.
 TEST(Curve, FeedsAreThoseOfTheProgram) {
     std::vector<Move> moves = {line_to({10, 0, 0}), line_to({20, 1, 0}), line_to({30, 1, 0}), line_to({40, 0, 0})};
     moves[1].feed = 20;
@@ -283,7 +283,7 @@ TEST(Curve, EndsAtRestWheneverItIsFlushed) {
     }
 }
 
-/// Folds the bits of all pieces; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
+/// Hashes the bits of all segments; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
 TEST(Curve, BitsAreTheSameOnEveryCompilerAndCpu) {
     std::vector<Move> moves;
     double heading = 0;

@@ -1,4 +1,4 @@
-// Lines whose ends take less jerk.
+// Velocity profiles of lines with reduced jerk at their ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ class ALineWithEasedEnds : public testing::Test {
         return a * std::exp(std::log(b / a) * std::uniform_real_distribution<>(0, 1)(random_));
     }
 
-    /// One or both ends eased.
+    /// Reduces the jerk at one or both ends.
     std::vector<LimitInterval> spans() {
         const double length = between(0.05, 100), speed = between(5, 200), accel = between(200, 5000),
                      jerk = between(5e3, 1e6);
@@ -66,7 +66,7 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
         }
         ASSERT_NEAR(before.u, length, 1e-9 * length);
         ASSERT_NEAR(before.speed, 0, 1e-7);
-        std::vector<LimitInterval> cut = line;  // a span of its own kind keeps it from being recognized
+        std::vector<LimitInterval> cut = line;  // an interval with other limits disables the special case
         cut.push_back(cut.back());
         cut.back().length = cut[cut.size() - 2].length *= 0.5;
         cut.insert(cut.begin(), cut.front());

@@ -1,4 +1,4 @@
-// Feed profiles: what holds at every instant, how near they are to the quickest, and that they fit together.
+// Velocity profiles: properties at every instant, distance from the optimum, and continuity.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 namespace motionrack::control {
 namespace {
 
-/// Spans at random: every number between its bounds, evenly by order of magnitude.
+/// Random intervals: every number between its bounds, evenly distributed over the orders of magnitude.
 class RandomSpans {
   public:
     explicit RandomSpans(unsigned seed) : random_(seed) {}
-    /// Slowing down is limited as speeding up, or otherwise.
+    /// Deceleration has the same limit as acceleration, or another one.
     std::vector<LimitInterval> next(int most, bool brakes_alike = true) {
         std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(most));
         for (LimitInterval& span : out)
@@ -47,7 +47,7 @@ double seconds_of_feed(std::span<const ProfileSegment> pieces) {
     return seconds;
 }
 
-/// Greatest parts of the limits, and of any jump between pieces, that a profile has anywhere.
+/// Maximum use of the limits, and of any step between segments, over a whole profile.
 struct FeedPeaks {
     double speed = 0, accel = 0, jerk = 0, jump = 0;
 };
@@ -67,7 +67,7 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
             const PathMotion state = piece.at(piece.seconds * i / 6);
             if (i == 0) jump(state);
             while (k + 1 < spans.size() && state.u > end + 1e-10 * length) end += spans[++k].length;
-            // Where two spans meet those of either hold.
+            // Where two intervals meet, the limits of either one apply.
             LimitInterval span = spans[k];
             if (k + 1 < spans.size() && state.u > end - 1e-10 * length)
                 span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel),
@@ -97,7 +97,7 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
         }
 }
 
-/// Jerk may last for so short a way that places beside it have no digits for it.
+/// Jerk may last for a distance so short that nearby positions have no digits for it.
 TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
     VelocityPlanner planner;
     for (const double jerk : {1e9, 1e12, 1e15}) {
@@ -106,7 +106,7 @@ TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
         EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
         const FeedPeaks peaks = peaks_of(pieces, spans);
         EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
-        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // roundings of 50 beside speeds of 1e-12
+        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // rounding errors of 50 beside velocities of 1e-12
         for (const ProfileSegment& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
     }
 }
@@ -136,7 +136,7 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
     }
 }
 
-/// One way's limit is not the other's.
+/// Acceleration and deceleration have separate limits.
 TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> spans = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
@@ -151,8 +151,7 @@ TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
     EXPECT_NEAR(seconds_of_feed(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
 }
 
-/// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the
-/// place is left.
+/// A stop may be faster than passing a slow interval, because it needs no velocity for leaving it.
 TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
     VelocityPlanner planner;
     RandomSpans random(7);
@@ -182,7 +181,7 @@ TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
     EXPECT_NEAR(fastest, 100, 1e-6);
 }
 
-/// A slalom: the speed that its curvature allows rises and falls, and the profile follows it.
+/// A slalom: the velocity limit from its curvature rises and falls, and the profile follows it.
 TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
     VelocityPlanner planner;
     std::vector<LimitInterval> spans;
@@ -258,7 +257,7 @@ TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
     EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
 }
 
-/// What is left of spans from a place on.
+/// Returns the remaining intervals from a position on.
 std::vector<LimitInterval> spans_from(const std::vector<LimitInterval>& spans, double place) {
     std::vector<LimitInterval> out;
     double end = 0;
@@ -312,12 +311,12 @@ TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
     const std::vector<LimitInterval> spans = {{0.2, 10, 1000, 20'000}};
     EXPECT_TRUE(planner.plan_from({100, 0}, spans).empty());  // the jerk needs 0.2236 mm
     EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<LimitInterval>{{0.3, 10, 1000, 20'000}}).empty());
-    EXPECT_TRUE(
-        planner.plan_from({101, 0}, std::vector<LimitInterval>{{50, 10, 1000, 20'000}}).empty());  // too fast already
+    EXPECT_TRUE(planner.plan_from({101, 0}, std::vector<LimitInterval>{{50, 10, 1000, 20'000}})
+                    .empty());  // above the limit at the start
 }
 
 TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {
-    const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // least 2.25 at the half
+    const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).speed, 2, 1e-9);
     EXPECT_GT(cell.seconds, 0.5);

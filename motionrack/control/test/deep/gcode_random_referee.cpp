@@ -1,4 +1,4 @@
-// LinuxCNC's own interpreter as the referee of random programs.
+// LinuxCNC's interpreter as the reference for random programs.
 #include <rapidcheck.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace testing::corpus;
 
 namespace {
 
-/// A random value: a number, a parameter or an expression of them.
+/// Returns a random value: a number, a parameter or an expression of them.
 std::string value(int depth) {
     const int kind = depth == 0 ? *rc::gen::inRange(0, 2) : *rc::gen::inRange(0, 8);
     const auto sub = [&] { return value(depth - 1); };
@@ -38,7 +38,7 @@ std::string value(int depth) {
     }
 }
 
-/// With turned work systems, or with G92: rs274 loses its place where a system is turned while G92 is on.
+/// With rotated work systems, or with G92: rs274 loses its position if a system is rotated while G92 is on.
 std::string line(bool turns) {
     const char* axes = "XYZ";
     const char axis = axes[*rc::gen::inRange(0, 3)];
@@ -79,7 +79,7 @@ std::string body(int depth, int& label, bool turns) {
     return out;
 }
 
-/// "(-12.3437,-25.0000)" into its words, at any of " (),".
+/// Divides "(-12.3437,-25.0000)" into its words, at any of " (),".
 std::vector<std::string> words_of(const std::string& calls) {
     std::vector<std::string> out(1);
     for (const char c : calls) {
@@ -91,8 +91,8 @@ std::vector<std::string> words_of(const std::string& calls) {
     return out;
 }
 
-/// The same calls with the same numbers but for the last digit: what lies half between two is rounded up or down by the
-/// sixteenth digit, which is another one where a turned system was turned back.
+/// Returns true for equal calls whose numbers may differ in the last digit. A value half-way between two is rounded by
+/// its sixteenth digit, which the inverse rotation of a system changes.
 bool are_same(const std::string& ours, const std::string& theirs) {
     constexpr double last_digit = 1.01e-4;
     const std::vector<std::string> a = words_of(ours), b = words_of(theirs);

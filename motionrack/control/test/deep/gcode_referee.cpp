@@ -1,4 +1,4 @@
-// LinuxCNC's own interpreter as the referee of the corpus.
+// LinuxCNC's interpreter as the reference for the corpus.
 #include <motionrack/control/test/gcode_rs274.hpp>
 
 namespace motionrack::control::gcode {

@@ -1,5 +1,5 @@
-// How near jerk-limited rides are to the quickest with any jerk: never quicker, and how much slower on smooth shapes in
-// short chords.
+// Jerk-limited trajectories compared with the minimum duration: never faster, and only slightly slower on smooth shapes
+// in short chords.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -76,14 +76,14 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
     const auto bound = [&](const Move& move) { return seconds_of({move}, limits).bound; };
     Move slow = line_to({50, 0}), traverse = line_to({30, 40});
     traverse.kind = MoveKind::rapid;
-    EXPECT_NEAR(bound(slow), 50.0 / 100 + 100.0 / 2000, 1e-12);  // way / speed + speed / acceleration
+    EXPECT_NEAR(bound(slow), 50.0 / 100 + 100.0 / 2000, 1e-12);  // distance / velocity + velocity / acceleration
     EXPECT_NEAR(bound(traverse), 40.0 / 200 + 200.0 / 2000, 1e-12);
     EXPECT_NEAR(bound(line_to({0, 2})), 2 * std::sqrt(2.0 / 2000), 1e-12);
     EXPECT_EQ(min_duration_s({}, limits), 0);
 }
 
-/// No axis may take the circle faster than sqrt(2 acceleration radius), and at sqrt(acceleration radius) both can hold
-/// the speed.
+/// No axis can pass the circle faster than sqrt(2 acceleration radius); at sqrt(acceleration radius) both can hold the
+/// velocity.
 TEST(AnAccelBound, OfACircleIsNearTheSpeedOfItsBend) {
     const MachineLimits limits = with_jerk(1e6);
     const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
@@ -91,7 +91,7 @@ TEST(AnAccelBound, OfACircleIsNearTheSpeedOfItsBend) {
     EXPECT_GT(seconds, 2 * pi * 20 / 283.0);
 }
 
-/// The referee asks at both ends of its steps, the bound in the middle of its cells: the truth is near both.
+/// The reference checks both ends of its steps, the bound the middle of its cells: the true value is near both.
 TEST(AnAccelBound, IsWhatTheRefereeFinds) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
@@ -106,7 +106,7 @@ TEST(AnAccelBound, IsWhatTheRefereeFinds) {
     }
 }
 
-/// Chords that are too long to be smooth curvature the curve by jerks; there more is between the two.
+/// Chords that are too long for a smooth curvature bend the curve in steps; there the two differ more.
 TEST(AnAccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
@@ -154,12 +154,12 @@ TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
 struct Nearness {
     const char* name;
     std::vector<Move> moves;
-    double at_feed, as_fast_as_can_be;  ///< how many times the quickest
+    double at_feed, as_fast_as_can_be;  ///< relative to the minimum duration
 };
 
-/// With a jerk that asks for no time. At the feed what is lost is at the ends and on bends that are sharper than the
-/// feed allows; without one, on bends where the speed changes, for a limit holds for a part of the curve at its
-/// sharpest; long chords have bends that come and go.
+/// With a jerk that costs no time. At the feed rate the loss is at the ends and on curves that are tighter than the
+/// feed rate allows. Without it the loss is where the velocity changes on curves, because a limit applies to a part of
+/// the curve at its tightest point. Long chords have an intermittent curvature.
 TEST(ARide, IsNearTheQuickestOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
         {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},

@@ -1,4 +1,4 @@
-// Rows of corners: what they gain from the tolerance, and from more jerk.
+// Rows of corners: gains from the tolerance and from a higher jerk.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ MachineLimits machine(double jerk) {
 
 struct Row {
     std::string name;
-    double along, up_and_along, up;  ///< one line goes along, the next one up or down
+    double along, up_and_along, up;  ///< one line horizontal, the next one vertical
 };
 void PrintTo(const Row& row, std::ostream* out) {
     *out << row.name;

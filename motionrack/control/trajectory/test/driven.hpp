@@ -1,4 +1,4 @@
-// A rider that is driven bit by bit, and looked at all the time.
+// A trajectory generator that is advanced in small steps and checked at every step.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ using curve_test::machine;
 
 inline constexpr double slack = 1 + 1e-6;
 
-/// Lines, some of them many and short, some with Z, arcs, and dwells.
+/// Makes lines (some of them many and short, some with Z), arcs, and dwells.
 inline std::vector<Move> program(std::mt19937& random) {
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
     const auto one_of = [&](unsigned n) { return random() % n == 0; };
@@ -55,13 +55,13 @@ inline std::vector<Move> program(std::mt19937& random) {
     return out;
 }
 
-/// Pushes the moves that have come while there is room, and passes the time; looks at all axes all the time.
+/// Pushes available moves while there is room, advances the time, and checks all axes.
 class Driven {
   public:
     Driven(std::vector<Move> moves, TrajectoryGeneratorSettings settings)
         : moves_(std::move(moves)), rider(machine(), {}, settings) {}
 
-    /// False when all is driven.
+    /// Returns false when everything is executed.
     bool step(double seconds, bool early) {
         while (next_ < std::min(come, moves_.size()) && rider.has_room()) rider.push({moves_[next_++]});
         if (next_ == moves_.size() && !flushed_ && rider.has_room()) flushed_ = (rider.flush(), true);
@@ -81,9 +81,9 @@ class Driven {
     }
     void pass_time(double seconds) { now += seconds; }
 
-    std::size_t come = static_cast<std::size_t>(-1);  ///< so many moves, at most
+    std::size_t come = static_cast<std::size_t>(-1);  ///< maximum number of available moves
     double now = 0, speed = 0, accel = 0, jerk = 0,
-           jump = 0;  ///< greatest parts of the limits; of what the limits let change
+           jump = 0;  ///< maximum use of the limits; of the change that the limits allow
     TrajectoryPoint last;
 
   private:

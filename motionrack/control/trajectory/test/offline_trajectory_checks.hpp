@@ -1,5 +1,5 @@
-// What must hold at every instant of a ride, looked at densely: axes within their limits, no jumps, on the path, at the
-// feed, at rest at the end, and no quicker than with any jerk.
+// Properties of a trajectory at every instant, densely sampled. Axes are within their limits, continuous, on the path,
+// at the feed rate and finally at standstill. The motion is not faster than the minimum duration.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 
 namespace motionrack::control::ride_test {
 
-/// What is wrong, and how much more than allowed; no name: nothing.
+/// Violated property and its excess; no name: none.
 struct Fault {
     std::string name, text;
 };
@@ -34,7 +34,7 @@ class RideChecks {
         half_pulse_ = 0.5 / pulses;
     }
 
-    /// The first fault that is found.
+    /// Returns the first violation.
     Fault find() {
         const std::vector<KeptStretch> ride = kept_ride(program_.moves, limits_, program_.start);
         last_ = {};
@@ -43,7 +43,7 @@ class RideChecks {
             if (ride[i].curve.empty()) continue;
             std::size_t next = i + 1;
             while (next < ride.size() && ride[next].curve.empty() && ride[next].stretch.rest_seconds == 0) ++next;
-            // What is left of it then is looked at with the next one.
+            // The remaining part is sampled together with the next section.
             const double overlap = next < ride.size() ? ride[next].stretch.overlap : 0;
             check(ride[i], ride[i].stretch.seconds - overlap, overlap == 0);
         }
@@ -54,10 +54,9 @@ class RideChecks {
   private:
     static constexpr double slack = 1 + 1e-6;
     static constexpr double time_rounding = 1e-13;
-    /// Where a feed ends on a curvature the bound's cells are too slow by so much.
+    /// Where a feed rate ends on a curve, the cells of the bound are too slow by this share.
     static constexpr double bound_rounding = 3e-3;
-    /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which
-    /// of the feed's.
+    /// At the ends of curve and profile segments, rounding decides which of them are sampled together.
     static constexpr double beside = 1e-7;
 
     void fail(const char* name, double by, const std::string& text) {
@@ -130,7 +129,7 @@ class RideChecks {
         last_time_ = time;
     }
 
-    /// What the program allows on a move; a left out move before it may have made it a little longer.
+    /// Returns the programmed velocity on a move; a skipped move before it may have lengthened it slightly.
     double programmed(std::size_t i) const {
         const Move& move = program_.moves[i];
         if (move.kind == MoveKind::rapid || move.kind == MoveKind::dwell)
@@ -204,7 +203,7 @@ class RideChecks {
     Fault fault_;
     TrajectoryPoint last_;
     double last_time_ = 0;
-    double hair_ = 0;  ///< s that a time of the stretch may be off by roundings
+    double hair_ = 0;  ///< rounding error of a time in the section, s
     int looks_ = 0;
 };
 
@@ -212,7 +211,7 @@ inline Fault fault_of(const WildProgram& program) {
     return RideChecks(program).find();
 }
 
-/// The program without what the fault does not need. Moves that are left out move what follows.
+/// Removes everything that the fault does not need. Skipped moves shift the following ones.
 inline WildProgram reduced(WildProgram program) {
     const std::string name = fault_of(program).name;
     bool news = true;

@@ -1,4 +1,4 @@
-// What the ride's tests share: whole rides, kept beyond the callback.
+// Shared by the trajectory tests: whole trajectories, stored beyond the callback.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 namespace motionrack::control::ride_test {
 
-/// A stretch with its own pieces.
+/// A section with a copy of its segments.
 struct KeptStretch {
     std::vector<CubicSegment> curve;
     std::vector<ProfileSegment> feed;
@@ -20,7 +20,7 @@ struct KeptStretch {
         : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {
         before.keep(from.before);
     }
-    /// Valid as long as this is.
+    /// Valid while this object exists.
     PathSection view() const {
         PathSection out = stretch;
         out.curve = curve;
@@ -46,7 +46,7 @@ inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimit
     return seconds;
 }
 
-/// By the planner of trapezoids; S-curves from stop to stop.
+/// Returns the duration with the trapezoidal planner, but double-S profiles from stop to stop.
 inline double seconds_stopping(std::vector<Move> moves, const MachineLimits& limits) {
     LookAheadPlanner planner(limits, {});
     PlanSummary sum;

@@ -1,4 +1,4 @@
-// Whole programs, jerk-limited: what holds at every instant of them, and how long they take.
+// Whole jerk-limited programs: properties at every instant, and duration.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using curve_test::arc_from;
 using curve_test::line_to;
 using curve_test::machine;
 
-/// Of all axes and instants: parts of their limits, and of the programmed feed.
+/// Maximum use of the limits and of the programmed feed rate over all axes and instants.
 struct Ridden {
     double seconds = 0, speed = 0, accel = 0, jerk = 0;
     int rests = 0;
@@ -72,7 +72,7 @@ TEST(ARide, HasNoJumps) {
     const Ridden ridden = ride(moves, 1e-5);
     for (std::size_t i = 1; i < ridden.states.size(); ++i) {
         const TrajectoryPoint &a = ridden.states[i - 1], &b = ridden.states[i];
-        if (b.u < a.u) continue;  // the next stretch, which begins before this one ends
+        if (b.u < a.u) continue;  // the next section, which starts before this one ends
         for (std::size_t axis = 0; axis < 2; ++axis) {
             ASSERT_NEAR(a.place[axis], b.place[axis], 0.05);
             ASSERT_NEAR(a.speed[axis], b.speed[axis], 1.0);
@@ -83,7 +83,7 @@ TEST(ARide, HasNoJumps) {
 TEST(ARide, OfAStraightLineIsAnSCurve) {
     const Ridden ridden = ride({line_to({100, 0})});
     EXPECT_NEAR(ridden.seconds, 1 + 100.0 / 2000 + 2000.0 / 40'000,
-                1e-9);  // way / speed + speed / acceleration + acceleration / jerk
+                1e-9);  // distance / velocity + velocity / acceleration + acceleration / jerk
     EXPECT_EQ(ridden.end[0], 100);
 }
 
@@ -139,7 +139,7 @@ TEST(ARide, DoesNotStopAtTangentJoints) {
     EXPECT_EQ(ride(moves).rests, 1);
 }
 
-/// Chords on a smooth curve take no longer than its bends and the feed ask for, and one S-curve more.
+/// Chords on a smooth curve take at most the time of its curvature and feed rate, plus one double-S profile.
 TEST(ARide, RunsThroughManyChordsAsThroughTheCurve) {
     std::vector<Move> moves;
     double quickest = 0;

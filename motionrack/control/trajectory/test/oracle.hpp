@@ -1,8 +1,8 @@
-// The slow referee of times: how quick a curve could be driven with axes' speeds and accelerations limited and any
-// jerk.
+// The slow reference for durations: minimum duration of a curve with velocity and acceleration limits of the axes and
+// any jerk.
 //
-// Fine steps over u, each with constant acceleration along u. Whether a step may be driven from one square of speed to
-// another is asked of every axis at both ends of the step; the greatest squares are sought by halving.
+// Fine steps over u, each with constant acceleration along u. A step from one square of velocity to another is checked
+// for every axis at both ends of the step. The maximum squares are found by bisection.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace motionrack::control::ride_test {
 
-/// Place by place along a curve: what the axes see of it.
+/// Step of the curve with the demands on each axis.
 struct OracleStep {
     double length = 0;
     Point tangent_in = {}, bend_in = {}, tangent_out = {}, bend_out = {};
@@ -22,7 +22,7 @@ struct OracleStep {
 
 class Oracle {
   public:
-    /// Each piece is cut into at least `of_piece` steps, and the curve into about `of_curve`.
+    /// Divides each segment into at least `of_piece` steps, and the curve into about `of_curve`.
     Oracle(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
         : limits_(limits) {
         if (curve.empty()) return;
@@ -41,7 +41,7 @@ class Oracle {
         caps_.back() = 0;
     }
 
-    /// From rest to rest.
+    /// Returns the duration from standstill to standstill.
     double seconds() const {
         std::vector<double> most = caps_;
         for (std::size_t i = steps_.size(); i-- > 0;)
@@ -71,12 +71,12 @@ class Oracle {
         return speed * speed;
     }
 
-    /// The squares at the step's end that can be reached from one at its begin.
+    /// Returns the squares at the end of a step that are reachable from one at its start.
     Reach compute_reachable_velocities(const OracleStep& step, double square, double most) const {
         Reach out{0, most};
         const double per_accel = 2 * step.length;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            // begin: |tangent a + curvature w0| <= accel, where a = (w1 - w0) / (2 length)
+            // start: |tangent a + curvature w0| <= accel, where a = (w1 - w0) / (2 length)
             within(out, step.tangent_in[i] / per_accel,
                    step.bend_in[i] * square - step.tangent_in[i] / per_accel * square, limits_[i].max_accel);
             // end: |tangent a + curvature w1| <= accel
@@ -86,7 +86,7 @@ class Oracle {
         return out;
     }
 
-    /// Narrows w to |by w + with| <= most.
+    /// Restricts w to |by w + with| <= most.
     static void within(Reach& w, double by, double with, double most) {
         if (by == 0) {
             if (std::fabs(with) > most) w.high = -1;
@@ -102,7 +102,7 @@ class Oracle {
         if (can(cap)) return cap;
         double low = 0, high = cap;
         while (high - low > 1e-12 * high && high > 1e-290) {
-            // By size first: caps may be far too great.
+            // Bisects by magnitude first: caps may be far too large.
             const double middle = low > 0 && high < 4 * low ? 0.5 * (low + high)
                                   : low > 0                 ? std::sqrt(low) * std::sqrt(high)
                                                             : high * 1e-3;
@@ -116,7 +116,7 @@ class Oracle {
     std::vector<double> caps_;
 };
 
-/// Seconds.
+/// Returns the minimum duration, s.
 inline double time_optimal_s(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20,
                              int of_curve = 4000) {
     return Oracle(curve, limits, of_piece, of_curve).seconds();

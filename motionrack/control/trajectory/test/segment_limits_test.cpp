@@ -1,4 +1,4 @@
-// What is told of a piece is true all over it, for every axis.
+// The limits of a segment hold everywhere on it, for every axis.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 class RandomPieces {
   public:
     double between(double least, double most) { return std::uniform_real_distribution<>(least, most)(random_); }
-    /// As a turn leaves it: about as long as u, with a curvature that may change its sign on it, or without any.
+    /// Returns a segment as from a corner blend: about as long as u, with a curvature that may change its sign, or
+    /// straight.
     CubicSegment next() {
         CubicSegment piece;
         piece.begin = between(0, 100);
@@ -66,7 +67,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
     }
 }
 
-/// Speeding up all the way to it, and slowing down all the way from it.
+/// Accelerates all the way to it, and decelerates all the way from it.
 TEST(SegmentLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
     RandomPieces random;
     int looked = 0;

@@ -1,5 +1,5 @@
-// Rides against exact stops, as S-curves, on programs of straight lines. What a row of corners takes is estimated
-// before they are chosen to be passed or stopped at, so a few programs would be quicker with stops, by little.
+// Trajectories compared with exact stops and double-S profiles, on programs of straight lines. The choice between
+// passing and stopping uses estimated durations, so a few programs would be slightly faster with stops.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ TEST(ARideBesideExactStops, IsSeldomSlower) {
     EXPECT_LE(most, 1.04);
 }
 
-/// Short, long, short with turns of 40 degrees.
+/// Short, long, short, with corners of 40 degrees.
 TEST(ARideBesideExactStops, IsNotSlowerBetweenShortLines) {
     std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
     EXPECT_LE(times_stopping(moves), 1.0);

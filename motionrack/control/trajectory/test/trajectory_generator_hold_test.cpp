@@ -1,4 +1,4 @@
-// Programs that are held while they are driven: they stand soon, and on their path.
+// Feed hold during execution: a prompt stop, on the path.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using ride_test::long_line;
 using ride_test::machine;
 using ride_test::program;
 
-/// Whatever comes on its way to where it stands: corners, bends, the end of what is known. Where a leg has begun before
-/// the one before it has ended, both are driven as planned until that one ends.
+/// Any path to the stop: corners, curves, the end of the known path. If a leg has started before the previous one has
+/// ended, both are executed as planned until that one ends.
 TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
@@ -34,14 +34,14 @@ TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
             while (driven.now < when && driven.step(0.001, true)) {
             }
             driven.rider.hold();
-            double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it slows down
+            double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it decelerates
             while (driven.rider.next(true) == NextMotion::motion) {
                 const TrajectoryPoint before = driven.last;
                 const double at = driven.now;
                 driven.step(0.001, true);
                 const double way = driven.last.u - before.u;
-                if (driven.now - at < 0.0005) continue;  // too short to tell a speed
-                if (at - when < 0.02 || way < 0) {       // not heard yet, or on the next leg
+                if (driven.now - at < 0.0005) continue;  // too short to measure a velocity
+                if (at - when < 0.02 || way < 0) {       // no effect yet, or on the next leg
                     greatest = 0, lowest = 1e9;
                     continue;
                 }
@@ -63,7 +63,7 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     driven.rider.hold();
     const double asked = driven.now;
     while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
-    // twice sqrt(speed / jerk): its acceleration is not reached
+    // twice sqrt(velocity / jerk): the acceleration limit is not reached
     EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
     EXPECT_TRUE(driven.rider.stands());
     EXPECT_EQ(driven.rider.next(true), NextMotion::nothing);
@@ -106,8 +106,8 @@ TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
     }
 }
 
-/// The curvature alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down
-/// takes from the same.
+/// The curvature alone takes nearly all of the acceleration of X and Y alternately, and most of their jerk;
+/// deceleration needs both as well.
 TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
@@ -126,7 +126,7 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
     }
 }
 
-/// While it still speeds up, and at its full speed, where hardly any jerk is left to slow down with.
+/// During acceleration, and at full velocity, where hardly any jerk remains for deceleration.
 TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
     const auto speed_of = [](const Driven& driven) { return std::hypot(driven.last.speed[0], driven.last.speed[1]); };
     for (const double radius : {2, 10})
@@ -149,7 +149,7 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
         }
 }
 
-/// Where the next line would begin before this one has ended.
+/// The next line would start before this one has ended.
 TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);

@@ -1,4 +1,4 @@
-// Programs driven while they still come, slowed and let go on at any instant: what holds at every instant of them.
+// Programs that are executed while moves still arrive, with overrides, holds and resumes: properties at every instant.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
     }
 }
 
-/// So that a stretch may grow while the next one's beginning is planned already.
+/// The section may grow while the start of the next one is planned already.
 TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
@@ -85,7 +85,7 @@ TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
     }
 }
 
-/// The stretch behind a corner grows when its beginning is planned already.
+/// The section behind a corner grows when its start is planned already.
 TEST(ARider, GoesOnPastACornerToWhatCameBeforeIt) {
     std::vector<Move> moves = {line_to({20}, 0.05)};
     for (int i = 1; i <= 80; ++i) moves.push_back(line_to({20 - 0.002 * i * i, 0.4 * i}, 0.01));
@@ -130,7 +130,7 @@ TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
     int looks = 0;
     while (driven.step(0.003, false)) {
         if (driven.rider.stands() || driven.rider.left() < driven.rider.seconds_to_standstill())
-            continue;  // the next stretch begins before its end
+            continue;  // the next section starts before the end of this one
         const TrajectoryPoint end = driven.rider.at(driven.rider.seconds_to_standstill());
         for (const double speed : end.speed) EXPECT_EQ(speed, 0);
         ++looks;

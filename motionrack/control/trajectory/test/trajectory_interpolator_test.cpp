@@ -1,4 +1,4 @@
-// A ride cut into straight moves for a card: they meet, their speeds meet, and nothing of the ride is lost.
+// A trajectory divided into straight moves for a card: continuous positions and velocities, and complete.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ TEST(TheMovesOfARide, MeetInPlaceAndSpeedAndBeginAndEndAtRest) {
     EXPECT_EQ(moves.back().number, static_cast<std::int64_t>(curvy().size()) - 1);
 }
 
-/// Of the nearest place on the moves.
+/// Returns the distance from the nearest point of the moves.
 double distance_to(const std::vector<PlannedMove>& moves, const Point& place) {
     double nearest = 1e9;
     for (const PlannedMove& move : moves) {
@@ -81,7 +81,7 @@ double distance_to(const std::vector<PlannedMove>& moves, const Point& place) {
     return nearest;
 }
 
-/// A slow ride has corners within a move's time.
+/// A slow trajectory has corners within the duration of a move.
 TEST(TheMovesOfARide, PassNoCornerByMoreThanItsToleranceAndAPulse) {
     constexpr double tolerance = 0.002;
     for (unsigned seed = 0; seed < 30; ++seed) {
@@ -117,8 +117,8 @@ TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
     EXPECT_GT(greatest, 0.1);
 }
 
-/// A card keeps each axis' acceleration on a line: where it may not slow down so fast it comes too fast into the turn.
-/// Back beside itself, the ends of two lines overlap.
+/// A card observes the acceleration of each axis on a line: with too little deceleration it enters the corner too fast.
+/// On a return stroke the ends of two lines overlap.
 TEST(TheMovesOfARide, LetACardThatKeepsTheAccelerationsOnEachOfThemComeSlowIntoATurn) {
     MachineLimits limits = machine();
     limits[2].max_accel = 0.5 * limits[0].max_accel;
@@ -193,7 +193,7 @@ TEST(TheMovesOfARide, RefuseWhatNoPlannerTakesAndGoOn) {
     EXPECT_TRUE(planner.pull(planned));
 }
 
-/// Draws two axes and uses_auxiliary_axis a third.
+/// Interpolates two axes and uses a third as auxiliary axis.
 class TwoAxes : public DriveConstraints {
   public:
     double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }

@@ -1,4 +1,4 @@
-// Programs in which anything may follow anything, on machines whose axes are up to a million times apart; each from a
+// Random programs with any sequence of moves, on machines whose axes differ by up to a factor of a million; each from a
 // seed.
 #pragma once
 
@@ -47,7 +47,7 @@ class WildMaker {
     double size_between(double low, double high) { return low * std::exp(between(0, std::log(high / low))); }
 
     void make_limits(MachineLimits& limits) {
-        // Alike, a hundred times, or a million times apart.
+        // Equal, or up to a hundred or a million times different.
         const double apart = one_of(3) == 0 ? 1 : one_of(2) == 0 ? 10 : 1000;
         const bool no_jerk = one_of(10) == 0;
         const double pulses = size_between(100, 1e5);
@@ -108,7 +108,7 @@ class WildMaker {
                 break;
             default:
                 one_of(2) == 0 ? arc(moves) : line(moves, size_between(1e-3, 50));
-                break;  // in line
+                break;  // collinear
         }
         if (!std::isfinite(heading_)) heading_ = heading_before;
     }
@@ -124,7 +124,7 @@ class WildMaker {
         moves.push_back(move);
     }
 
-    /// In any plane; the rotary axes and the third one may turn with it.
+    /// Adds an arc in any plane; the rotary axes and the third one may move with it.
     void arc(std::vector<Move>& moves) {
         Move move = mode_;
         const std::size_t first = one_of(4) == 0 ? static_cast<std::size_t>(one_of(3)) : 0, second = (first + 1) % 3,

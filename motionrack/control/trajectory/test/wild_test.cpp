@@ -1,4 +1,4 @@
-// Some wild programs; ten thousand of them are in deep/.
+// Some random programs of any shape; ten thousand of them are in deep/.
 #include <gtest/gtest.h>
 
 #include <motionrack/control/trajectory/test/offline_trajectory_checks.hpp>
@@ -16,7 +16,7 @@ TEST(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     }
 }
 
-/// A step of the referee may be longer than a whole ramp; then it is too slow by this step at each end.
+/// A step of the reference may be longer than a whole ramp; then it is too slow by this step at each end.
 TEST(ARideOfAnything, IsNeverQuickerThanWithAnyJerk) {
     for (std::uint64_t seed = 100'001; seed <= 100'020; ++seed) {
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();

@@ -1,5 +1,5 @@
-// A million travels beside the slow referee, a million from outside the limits, and millions beside motions that
-// happen.
+// A million profiles against the slow reference solver, a million from outside the limits, and millions against random
+// motions.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using namespace travel_test;
 
 constexpr int parts = 10;
 constexpr int tasks_of_a_part = 100'000;
-constexpr int motions_of_a_part = 1'000'000;  // of which two in five stay within the limits
+constexpr int motions_of_a_part = 1'000'000;  // two in five of them stay within the limits
 
 class DeepTravels : public ::testing::TestWithParam<int> {
   protected:
@@ -39,7 +39,7 @@ TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
         ASSERT_LE(seconds, referee + exactness(seconds)) << text_of(t);
         equal += std::fabs(seconds - referee) <= exactness(seconds);
     }
-    // where the referee's search misses a motion it is slower, or finds none
+    // if the reference search misses a motion it is slower, or finds none
     EXPECT_GE(equal, tasks_of_a_part * 0.995);
     RecordProperty("equal", equal);
 }

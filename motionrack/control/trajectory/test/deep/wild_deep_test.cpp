@@ -1,4 +1,4 @@
-// Ten thousand wild programs, a thousand in each test; minutes in all.
+// Ten thousand random programs of any shape, a thousand in each test; minutes in all.
 #include <gtest/gtest.h>
 
 #include <motionrack/control/trajectory/test/offline_trajectory_checks.hpp>
