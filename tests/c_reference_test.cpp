@@ -1,4 +1,4 @@
-// Pages of docs/reference are made from the C headers, and motionrack/c.h names what the tables have.
+// Pages of docs/reference are generated from the C headers, and motionrack/c.h names all entries of the tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The header as Markdown: sections are headings, each declaration a block of code with its comment below.
+/// Converts a header to Markdown: sections are headings, each declaration a block of code with its comment below.
 class Page {
   public:
-    /// `title`: first lines; `api`: what stands before each function.
+    /// `title`: first lines; `api`: the macro before each function.
     Page(const std::string& header, std::string title, std::string api)
         : title_(std::move(title)), api_(std::move(api)) {
         std::istringstream in(header);
@@ -67,7 +67,7 @@ class Page {
         }
     }
 
-    /// What was declared, then what the comment before it says.
+    /// Writes the declaration, then the comment before it.
     void end_declaration() {
         if (declaration_.empty() && comment_.empty()) return;
         if (!declaration_.empty()) text_ += "```c\n" + declaration_ + "```\n";
@@ -92,7 +92,7 @@ class Page {
     bool inside_ = false;
 };
 
-/// A page of docs/reference is what the header makes of it.
+/// Expects a page of docs/reference to equal the page generated from its header.
 void is_made_from(const std::string& page, const std::string& header, const std::string& title, const std::string& api,
                   const std::string& continued = "") {
     const std::string behind = continued.empty() ? "" : contents(source_root / continued);

@@ -1,5 +1,5 @@
-// Encoders in recordings: what `motionrack trace` writes, `motionrack decode` counts, as the job's summary and as
-// sigrok-cli; and the page on it shows what its commands print.
+// Encoders in recordings: `motionrack decode` counts a recording of `motionrack trace` like the job's summary and like
+// sigrok-cli. The page about it shows the output of its commands.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that commands run in, gone afterwards.
+/// A temporary working folder for commands.
 class Decode : public testing::Test {
   protected:
     Decode() : folder_(fs::temp_directory_path() / ("motionrack_decode_" + std::to_string(::getpid()))) {
@@ -25,7 +25,7 @@ class Decode : public testing::Test {
     }
     ~Decode() override { fs::remove_all(folder_); }
 
-    /// What `command` prints, errors and warnings too.
+    /// Returns the output of `command`, including errors and warnings.
     Ran run(const std::string& command) const { return run_in(folder_, command); }
     Ran motionrack(const std::string& arguments) const { return run(MOTIONRACK_PROGRAM " " + arguments); }
     void write(const std::string& name, const std::string& text) const {
@@ -46,7 +46,7 @@ TEST_F(Decode, CountsWhatTheJobsSummarySays) {
     const auto summary = json_of("trace move.ngc move.vcd --signals '?.enc_?' --json");
     const auto decoded = json_of("decode move.vcd --json");
     ASSERT_EQ(decoded["channels"].size(), summary["axes"].size());
-    int moved = 0;  // all stood at count 0 when the recording began
+    int moved = 0;  // all were at count 0 when the recording started
     for (std::size_t i = 0; i < decoded["channels"].size(); ++i) {
         const auto& channel = decoded["channels"][i];
         const auto& axis = summary["axes"][i];
@@ -71,7 +71,7 @@ TEST_F(Decode, AgreesWithSigrokAndReadsItsFiles) {
     ASSERT_NE(colon, std::string::npos) << told.out;
     const int counts = std::atoi(told.out.c_str() + colon + 2);
     const auto from_vcd = json_of("decode move.vcd --json");
-    // sigrok tells each place when it is left: the last one told is one step before the end.
+    // sigrok reports each position when it is left: the last one reported is one step before the end.
     EXPECT_EQ(from_vcd["channels"][0]["counts"], 40);
     EXPECT_EQ(counts - 1, 40);
     ASSERT_EQ(
@@ -112,7 +112,7 @@ TEST_F(Decode, EndsWithACodeAndASentence) {
     EXPECT_NE(cut.out.find("encoder"), std::string::npos) << "what is before that is told";
 }
 
-/// The texts between ```LANGUAGE and ``` of a page.
+/// Returns the texts between ```LANGUAGE and ``` of a page.
 std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {
     std::vector<std::string> out;
     const std::string begin = "```" + language + "\n";

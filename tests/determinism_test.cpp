@@ -1,5 +1,5 @@
-// The same program gives the same history: on every compiler and optimisation level, beside other racks, and while it
-// is watched.
+// The same program gives the same event trace: with every compiler and optimisation level, next to other racks, and
+// while it is observed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -46,7 +46,7 @@ History run(const std::string& program, const std::string& vcd = {}) {
     return history;
 }
 
-// tests/determinism/matrix asks the same of other compilers, levels and CPUs.
+// tests/determinism/matrix checks the same with other compilers, levels and CPUs.
 TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
     EXPECT_EQ(example_histories(source_root), text_of(source_root / "tests/golden/trace/examples.txt"))
         << "If the machine was meant to do something else than before, put the new lines into "

@@ -1,4 +1,4 @@
-// The pages say what is so: generated ones are current, links lead somewhere, code shown is code that runs.
+// The documentation is correct: generated pages are current, links have targets, code shown is code that runs.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -31,7 +31,7 @@ std::vector<std::string> lines_in(const std::string& text) {
     return out;
 }
 
-/// The texts between ```LANGUAGE and ``` of a page.
+/// Returns the texts between ```LANGUAGE and ``` of a page.
 std::vector<std::string> code_in_page(const fs::path& page, const std::string& language) {
     std::vector<std::string> out;
     bool inside = false;
@@ -54,7 +54,7 @@ std::vector<fs::path> pages() {
     return out;
 }
 
-/// How a heading is called in a link: lower case, blanks are hyphens, other marks are left out.
+/// Returns the anchor of a heading: lower case, hyphens for blanks, without other punctuation.
 std::string anchor_of(const std::string& heading) {
     std::string out;
     for (const char c : heading.substr(heading.find_first_not_of("# "))) {

@@ -1,4 +1,4 @@
-// Every example does what its folder says: the same output, the same exit code.
+// Every example produces the output and the exit code stored in its folder.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -151,7 +151,7 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
 }
 
-/// What a run with these options prints, errors and warnings included.
+/// Returns the output of a run with these options, including errors and warnings.
 Ran run_with(const std::string& options) {
     return run(examples, std::string(MOTIONRACK_PROGRAM) + " run 01_first_move/first_move.ngc --no-report -q " +
                              options + " 2>&1");
@@ -197,7 +197,7 @@ TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {
     const auto folder = std::filesystem::temp_directory_path() / "motionrack_interrupt_test";
     std::filesystem::create_directories(folder);
     std::filesystem::remove(folder / "report.html");
-    // A program that goes on for hours of virtual time.
+    // A program that takes hours of virtual time.
     const Ran ran = run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; " +
                                     interrupted(MOTIONRACK_PROGRAM " run long.ngc --stream", "1") +
                                     "; code=$?; rm -f long.ngc; exit $code");

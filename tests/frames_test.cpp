@@ -1,4 +1,4 @@
-// The page about frames: every command on it prints what the page says.
+// The page about frames: every command on it prints the output shown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The how-to pages of the function libraries: what they show is what their programs do.
+// The how-to pages of the function libraries show the results of their programs.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -22,7 +22,7 @@ std::string printed_by(const std::string& command) {
     return out;
 }
 
-/// Every line of `text` that is not empty, with `indent` before it.
+/// Returns every line of `text` that is not empty, with `indent` before it.
 std::string indented(const std::string& text, const std::string& indent) {
     std::string out;
     std::istringstream in(text);
@@ -30,7 +30,7 @@ std::string indented(const std::string& text, const std::string& indent) {
     return out;
 }
 
-/// The page's first block of code in a language.
+/// Returns the first block of code in a language on the page.
 std::string code_of(const std::string& page, const std::string& language = "cpp") {
     const std::size_t begin = page.find("```" + language + "\n") + 4 + language.size();
     return page.substr(begin, page.find("```", begin) - begin);
@@ -105,7 +105,7 @@ std::string databoard_page(const std::string& name) {
     return text_of(source_root / "docs/howto/databoard4002" / (name + ".md"));
 }
 
-/// Runs `program` with the name of a picture that it makes; the page must show what it prints and that picture.
+/// Runs `program` with the name of a picture that it makes; expects its output and that picture on the page.
 void shows(const std::string& name, const std::string& program, const std::string& printer) {
     const std::string page = databoard_page(name);
     ASSERT_FALSE(page.empty());
@@ -133,8 +133,8 @@ TEST_P(Databoard4002HowTo, ShowsTheProgramItsOutputAndItsPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, Databoard4002HowTo, testing::Values("slope", "lock"));
 
-/// A page whose program is in C: it prints what the page says and writes a run, of which the picture is made; the page
-/// shows parts of the program.
+/// Tests a page with a program in C. Its output must be on the page, with a picture made from the run that it writes,
+/// and the page shows parts of the program.
 void shows_program_in_c(const std::string& name, const std::string& command, const std::string& source, int parts) {
     const fs::path csv = fs::temp_directory_path() / ("motionrack_howto_" + name + ".csv");
     const std::string printer = command + " '" + csv.string() + "'";

@@ -17,7 +17,7 @@ Ran run(const std::filesystem::path& folder, const std::string& command) {
     return run_in(folder, command, "/dev/null");
 }
 
-/// A Pascal program, compiled in that mode.
+/// Returns the path of a Pascal program, compiled in that mode.
 std::string pascal(const std::string& mode, const std::string& name) {
     return "LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/" + mode + "/" + name +
            "/" + name + "'";

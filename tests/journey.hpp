@@ -1,4 +1,4 @@
-// A part program on the router, and what every job must keep to.
+// A part program on the router, and the limits that every job must observe.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace motionrack::rack {
 
-/// The template, with the speed along paths as said.
+/// Returns the template with the given profile of the path velocity.
 inline RackConfig router(const std::string& profile = "trapezoid") {
     RackConfig config = *read_rack_text(*rack_template("router")).config;
     config.controller.profile = profile;
@@ -25,7 +25,7 @@ struct Done {
     std::uint64_t state_hash = 0;
 };
 
-/// `slice`: called all the time while it runs.
+/// `slice`: called repeatedly during the run.
 inline Done drive(const RackConfig& config, const std::string& program, const std::atomic<bool>* stop = nullptr,
                   const std::function<void(const Rack&)>& slice = {}) {
     Rack rack(config);
@@ -42,8 +42,8 @@ inline Done drive(const RackConfig& config, const std::string& program, const st
     return done;
 }
 
-/// `jump`: times the start speed that an axis' speed may change by at once; 0: not looked at, where pieces are so short
-/// that a pulse more or less in one is itself a jump of its mean rate.
+/// `jump`: allowed velocity step of an axis, relative to its limit. 0: not checked, for moves so short that one pulse
+/// more or less changes their mean rate by that much.
 inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
     EXPECT_TRUE(outcome.position_trusted);
     for (const AxisOutcome& axis : outcome.axes) {
@@ -51,7 +51,7 @@ inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
         EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
         EXPECT_EQ(axis.lost_pulses, 0) << axis.index;
         EXPECT_LE(axis.top.peak_velocity, axis.limits.max_velocity * 1.001) << axis.index;
-        // What four samples can tell: one speed step of the chip more or less.
+        // Resolution of four samples: one speed step of the chip.
         EXPECT_LE(axis.top.peak_accel, axis.limits.max_accel * 1.02) << axis.index;
         if (jump > 0) {
             EXPECT_LE(axis.top.peak_velocity_step, axis.limits.max_velocity_step * jump) << axis.index;

@@ -1,4 +1,4 @@
-// The first journey where it is not smooth: wrong programs, stops on the way, rewinding, very many lines.
+// The first journey under difficult conditions: wrong programs, stops on the way, rewinding, very many lines.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -50,7 +50,7 @@ TEST(Journey, AWrongLineLaterEndsTheStreamWhereTheLineBeforeItEnds) {
     EXPECT_NE(outcome.ended.error().text().find("X"), std::string::npos) << "the word to blame";
 }
 
-/// Asks for a stop in the middle of an arc and compares where the axes came to rest with the circle.
+/// Requests a stop in the middle of an arc and compares the final positions with the circle.
 TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
     std::atomic<bool> stop{false};
     JobSettings settings = settings_of("G21 G90 F1800\nG0 X100 Y100\nG2 X100 Y100 I30 J0 P3\nM2\n");
@@ -80,7 +80,7 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
     EXPECT_LE(outcome.worst.mm, 3.0 / 640);
 }
 
-/// Does to the card what the log says, up to `until`.
+/// Applies the log to the card, up to `until`.
 void act_out(Rack& rack, const std::vector<sim::Input>& inputs, Instant from, Instant until) {
     std::vector<sim::Input> part;
     for (const sim::Input& input : inputs)
@@ -126,7 +126,7 @@ TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
 TEST(Journey, AHundredThousandShortLinesEndExactly) {
     std::string program = "G21 G90 G64 P0.01 F3000\nG0 X150 Y100\n";
     char line[64];
-    // A flower that closes: 0.03 mm a line.
+    // A closed flower: 0.03 mm a line.
     constexpr int count = 100'000;
     double angle = 0;
     for (int i = 1; i <= count; ++i, angle = 62.83185307179586 * i / count) {

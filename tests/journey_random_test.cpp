@@ -1,5 +1,5 @@
-// Random part programs: all kinds of moves and modes, one to four axes, big pieces and tiny ones.
-// MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many of each kind.
+// Random part programs: all kinds of moves and modes, one to four axes, large and tiny moves. MOTIONRACK_SEED=N selects
+// the first program, MOTIONRACK_PROGRAMS=N the number of each kind.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -11,13 +11,13 @@
 namespace motionrack::rack {
 namespace {
 
-/// The rounding to pulses, the chip's half pulse and the whole centre of an arc; the error of chords; and the part of
-/// the path tolerance that blended corners (limited jerk) or merged short moves may take.
+/// Sums the rounding to pulses, the chip's half pulse, the integer centre of an arc, and the chord error. Adds the
+/// share of the path tolerance for blended corners (limited jerk) or merged short moves.
 double max_deviation(const RackConfig& config, const test::RandomProgram& program, const JobOutcome& outcome) {
     return 3.0 / 640 + (program.chords ? 0.0021 : 0) + (config.jerk_limited() ? 1 : 0.25) * outcome.tolerance_mm;
 }
 
-/// Drives them one after the other; returns the part that the reader took (an arc may bulge beyond the travel).
+/// Executes them one after the other; returns the share that the reader accepted (an arc may leave the travel).
 double drive_random(const std::string& profile, test::ProgramSize size) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", thorough() ? 40 : 10);
     const RackConfig config = router(profile);
@@ -27,7 +27,7 @@ double drive_random(const std::string& profile, test::ProgramSize size) {
         if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program.text);
         const Done done = drive(config, program.text);
-        // Rounding makes two chords one or one longer: then the next takes the turn of both.
+        // Rounding merges two chords or lengthens one: the next one then has the corners of both.
         expect_exact(done.outcome, size == test::ProgramSize::tiny ? 0 : program.chords ? 1.6 : 1.15);
         EXPECT_LE(done.outcome.worst.mm, max_deviation(config, program, done.outcome))
             << "line " << done.outcome.worst.line;
@@ -76,7 +76,7 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
             << "line " << done.outcome.worst.line;
         if (done.outcome.ended) continue;
         EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::stopped) << done.outcome.ended.error().text();
-        // The next joint of what the chip has, and the longest way from the greatest speed to rest.
+        // The next junction in the chip's queue, and the longest deceleration from the maximum velocity.
         EXPECT_LE(to_seconds(done.outcome.time), at + 2.5);
         ++stopped;
         if (testing::Test::HasFailure()) break;
@@ -84,7 +84,7 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
     EXPECT_GE(4 * stopped, count) << "most last longer than until their stop";
 }
 
-/// X, Y, Z and A in each line.
+/// Makes lines with X, Y, Z and A each.
 std::string four_axes(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto somewhere = [&](double low, double high) {

@@ -1,4 +1,4 @@
-// The first journey, whole: G-code in, pulses on the card, the machine where it should be.
+// The whole first journey: from G-code to pulses on the card and the correct position of the machine.
 #include "journey.hpp"
 
 #include <gtest/gtest.h>

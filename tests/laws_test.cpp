@@ -1,5 +1,4 @@
-// The laws of the house: who may include whom, how long a file may be, what must not appear in rooms that are
-// deterministic.
+// The laws of the code base: allowed includes, file sizes, and constructs that deterministic modules must not use.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +22,7 @@ std::vector<fs::path> sources(const fs::path& folder) {
     return out;
 }
 
-/// Of the operator panel's page: what was written by hand.
+/// Returns the handwritten sources of the operator panel's page.
 std::vector<fs::path> page_sources() {
     static const std::set<std::string> written = {".ts", ".tsx", ".mjs", ".css", ".html"};
     std::vector<fs::path> out;
@@ -40,7 +39,8 @@ std::vector<std::string> lines_of(const fs::path& path) {
     return out;
 }
 
-/// "cards/mcx314/chip/chip.hpp" -> "mcx314/chip"; a card's map and arithmetic are its "mcx314/map".
+/// Returns the module of a file: "cards/mcx314/chip/chip.hpp" -> "mcx314/chip"; the map and arithmetic of a card are in
+/// "mcx314/map".
 std::string room_of(const std::string& path) {
     if (path.find("/test/") != std::string::npos) return "test";
     if (path.rfind("cards/", 0) == 0) {

@@ -1,4 +1,4 @@
-// How many shared libraries a command loads: each is time at the start, and code that others wrote.
+// Counts the shared libraries that a command loads: each one costs start-up time and adds foreign code.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -10,7 +10,7 @@ namespace {
 
 class ACommand : public InFolder {
   protected:
-    /// Those that the loader has initialised, at the start or later.
+    /// Returns those that the loader has initialised, at the start or later.
     std::set<std::string> libraries_of(const std::string& arguments) const {
         const Ran ran = shell("LD_DEBUG=libs " MOTIONRACK_PROGRAM " " + arguments);
         std::istringstream lines(ran.out);

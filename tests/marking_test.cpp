@@ -1,4 +1,4 @@
-// The commands `mark` and `calibrate` as a user calls them, and their page.
+// The commands `mark` and `calibrate` from the command line, and their page.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ const std::string square = "[drawing]\nsvg = 'examples/marking/square.svg'\nanch
 class MarkCommand : public InFolder {
   protected:
     bool there(const std::string& name) const { return std::filesystem::exists(folder / name); }
-    /// Marks a job that is wrong: its exit code, that it says so, and that nothing was written.
+    /// Marks an invalid job: expects its exit code, its error message, and no output file.
     void refused(const std::string& job, int code, const std::string& said) const {
         write("job.toml", job);
         const Ran ran = motionrack("mark job.toml --picture p.svg --report r.html");
@@ -28,7 +28,7 @@ class MarkCommand : public InFolder {
     }
 };
 
-/// A number of a PNG's header, at a byte.
+/// Returns a big-endian number of a PNG header, at a byte.
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
     std::uint32_t out = 0;
     for (std::size_t i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(bytes.at(at + i));
@@ -230,7 +230,7 @@ TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
           "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_speed_mm_s = 0.4\n[belt]\nvelocity_mm_s = "
           "0.02\n[fly]\nmode "
           "= 'encoder'\n[galvo]\nideal_mirrors = false\n");
-    // A terminal of its own, where progress is shown, and Ctrl-C once it was.
+    // A separate terminal, which shows progress, and Ctrl-C once it has appeared.
     const Ran ran = shell(
         "{ for i in $(seq 3000); do grep -qs ' %  marking' seen && break; sleep 0.02; done; printf '\\003'; } | "
         "script -qefc '" MOTIONRACK_PROGRAM " mark long.toml --report r.html' seen > /dev/null");

@@ -1,4 +1,4 @@
-// The programs of the DataBoard 4002's description, run as they are printed.
+// The programs in the description of the DataBoard 4002, executed as printed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ std::string run_again(const std::string& folder, const std::string& ran) {
 
 class OldHosts : public InFolder {
   protected:
-    /// Writes the listing as a file and gives what the command says about it.
+    /// Writes the listing to a file and returns the output of the command.
     Ran about(const std::string& command, const std::string& name, const std::string& listing) const {
         write(name, listing);
         return shell(command + " " + name);

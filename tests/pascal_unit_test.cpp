@@ -24,7 +24,7 @@ TEST_P(RackUnit, EveryFunctionDoesWhatItSays) {
     EXPECT_EQ(ran.code, 0);
 }
 
-/// What the first group of the expression is, wherever it fits.
+/// Returns all matches of the first group of the expression.
 std::set<std::string> all_of(const std::string& text, const char* expression) {
     const std::regex searched(expression);
     std::set<std::string> out;

@@ -23,7 +23,8 @@ TEST_F(PlanCommand, PageShowsWhatItPrints) {
     EXPECT_EQ(run_page("docs/howto/plan.md").size(), 1u);
 }
 
-/// Each shape: the page's row is what is planned, no axis is asked too much, and it takes no longer than with exact
+/// For each shape: the row of the page equals the plan, no axis exceeds its limits, and exact stops would not be
+/// faster.
 /// stops.
 TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
     const std::string page = text_of(source_root / "docs/howto/plan.md");

@@ -1,8 +1,8 @@
-// Judges a motion by nothing but the instants of the pulses on an axis' wires.
+// Judges a motion only by the instants of the pulses on the wires of an axis.
 //
-//   pulses   | | | ||||||||||||      |     n(t, t + w) - n(t - w, t): what the speed changed by from one window of w to
-//            [--- w ---][--- w ---]        the next; less what the acceleration limit explains, and the two pulses by
-//                       t                  which counting may be off, it was a jump
+//   pulses   | | | ||||||||||||     |     n(t, t + w) - n(t - w, t): change of the velocity from one window of w to the
+//            [--- w ---][--- w ---]        next; the part beyond the acceleration limit and the two pulses of counting
+//                       t                  error is a velocity step
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace motionrack::test {
 
-/// A change of speed at once.
+/// A velocity step.
 struct SpeedJump {
-    double speed = 0;    ///< of it, units a second
-    double seconds = 0;  ///< when, since the rack was started
+    double speed = 0;    ///< size, units a second
+    double seconds = 0;  ///< time since the start of the rack
 };
 
-/// The pulses of one axis, each with its instant and its direction.
+/// The pulses of one axis, each with its instant and direction.
 class PulseLog final : public sim::EdgeListener {
   public:
     void edges(const sim::EdgeBatch& batch) override {
@@ -32,7 +32,7 @@ class PulseLog final : public sim::EdgeListener {
 
     std::size_t size() const { return at_.size(); }
 
-    /// The greatest jump, `window` s before and after each pulse. `accel`: pulses/s2.
+    /// Returns the largest step, from `window` s before and after each pulse. `accel`: pulses/s2.
     SpeedJump max_jump(double window, double accel) const {
         SpeedJump worst;
         std::size_t before = 0, after = 0;
@@ -66,13 +66,13 @@ class PulseReferee {
     PulseReferee(const PulseReferee&) = delete;
     PulseReferee& operator=(const PulseReferee&) = delete;
 
-    /// The greatest jump of an axis over any of the windows, in parts of its start speed.
+    /// The largest velocity step of an axis over all windows, relative to its limit.
     struct Verdict {
         double parts = 0;
         int axis = 0;
         SpeedJump jump;
     };
-    /// `accel_parts`: of each axis' acceleration limit, what explains a change of its speed.
+    /// `accel_parts`: share of each axis' acceleration limit that explains a velocity change.
     Verdict verdict(double accel_parts = 1) {
         Verdict worst;
         for (std::size_t i = 0; i < logs_.size(); ++i) {

@@ -1,4 +1,4 @@
-// The program as a user calls it, in a folder of its own that has the project's examples.
+// Runs the program as from the command line, in a temporary folder with the examples of the project.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Ran {
     std::string out;
 };
 
-/// What a command of the shell prints in a folder, and its exit code; -1 where it was killed. `errors`: what becomes of
+/// Returns the output of a shell command in a folder, and its exit code; -1 if it was killed. `errors`: destination of
 /// its error messages, "&1" or "/dev/null".
 inline Ran run_in(const std::filesystem::path& folder, const std::string& command, const std::string& errors = "&1") {
     Ran ran;
@@ -33,8 +33,8 @@ inline Ran run_in(const std::filesystem::path& folder, const std::string& comman
     return ran;
 }
 
-/// For run_in: the command, interrupted once it listens to Ctrl-C and `seconds` later; ends with its exit code. Before
-/// it becomes the program, the shell's own copy listens too.
+/// Returns a command for run_in: it is interrupted `seconds` after it has installed its handler for Ctrl-C, and ends
+/// with its exit code. The copy of the shell before the exec has a handler, too.
 inline std::string interrupted(const std::string& command, const std::string& seconds) {
     return command +
            " & job=$!; until grep -q '^Name:.motionrack$' /proc/$job/status && "
@@ -52,10 +52,11 @@ class InFolder : public testing::Test {
     }
     void TearDown() override { std::filesystem::remove_all(folder); }
 
-    /// Runs a command of the shell; what it says to the terminal, warnings too.
+    /// Runs a shell command; returns its terminal output, including warnings.
     Ran shell(const std::string& line) const { return run_in(folder, line); }
     Ran motionrack(const std::string& arguments) const { return shell(MOTIONRACK_PROGRAM " " + arguments); }
-    /// Runs each command of a page, which must print what the page says; the exit codes by the commands' arguments.
+    /// Runs each command of a page and expects the output shown; returns the exit codes by the arguments of the
+    /// commands.
     std::map<std::string, int> run_page(const std::string& path) const {
         const std::string page = text_of(source_root / path), begin = "```\n$ motionrack ";
         std::map<std::string, int> codes;

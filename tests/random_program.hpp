@@ -1,4 +1,4 @@
-// Random part programs of all kinds for a router with X Y Z and a rotary axis A, always within its travel.
+// Random part programs of all kinds for a router with X Y Z and a rotary axis A, always within its limits.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@ struct RandomProgram {
     std::string text;
     std::array<double, 4> end = {};  ///< X Y Z mm, A degrees
     bool curves = false;             ///< has arcs or helices
-    bool chords = false;             ///< perhaps one that the chip does not draw itself
+    bool chords = false;             ///< may have one that the chip does not draw itself
 };
 
-/// How far a move goes: up to 100, 2 or 0.05 mm; `mixed`: 100 or 2.
+/// Largest length of a move: 100, 2 or 0.05 mm; `mixed`: 100 or 2.
 enum class ProgramSize { big, small, tiny, mixed };
 
-/// Lines, arcs, helices, rapids and dwells; one to four axes; big and tiny moves; G61, G61.1 and G64.
+/// Makes lines, arcs, helices, rapids and dwells; one to four axes; large and tiny moves; G61, G61.1 and G64.
 class ProgramMaker {
   public:
     ProgramMaker(std::uint64_t seed, ProgramSize size) : random_(seed), size_(size) {}
@@ -74,8 +74,8 @@ class ProgramMaker {
         out_.text += rapid ? fmt::format("G0{}\n", words) : fmt::format("G1{} F{}\n", words, feed());
     }
 
-    /// By its radius, so that it is always possible; the whole circle around the chord's middle stays within the
-    /// travel.
+    /// Adds an arc by its radius, so that it is always possible; the full circle around the middle of the chord is
+    /// within the limits.
     void add_curve() {
         const int plane = axes_ < 3 ? 0 : pick(4) < 3 ? 0 : 1 + pick(2);
         const int first = std::array{0, 2, 1}[plane], second = std::array{1, 0, 2}[plane], third = 3 - first - second;

@@ -1,5 +1,5 @@
 // Recordings of whole runs: every pulse with its tick, the same page again, the same run again bit for bit, whatever
-// came from outside.
+// the external inputs were.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>

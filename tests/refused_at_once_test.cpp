@@ -1,4 +1,4 @@
-// Orders that cannot be meant: each gets its sentence in its answer, and nothing moves.
+// Commands that cannot be intended: each answer has an explanation, and nothing moves.
 #include <gmock/gmock.h>
 
 #include <tests/ran.hpp>

@@ -1,5 +1,5 @@
-// What is left of a run that was killed: nothing that was acknowledged is lost, and the next run knows what ran, where,
-// and that no position is to be trusted.
+// State after a run was killed: no acknowledged command is lost. The next run knows the executed program and its line,
+// and that no axis position is valid.
 #include <gmock/gmock.h>
 
 #include <motionrack/journal/journal.hpp>
@@ -36,7 +36,7 @@ class AServedRack : public InFolder {
         for (const journal::Entry& entry : *read) out.push_back(entry.text + " " + entry.data);
         return out;
     }
-    /// Enabled, with control, and trusted.
+    /// Enables the machine, takes control, and makes the positions valid.
     static void make_ready(Served& served) {
         EXPECT_TRUE(served.post("take_control").contains("done"));
         EXPECT_TRUE(served.post("enable", {{"on", true}}).contains("done"));
@@ -77,7 +77,7 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
             if (served.post("set_overrides", {{"feed", feed}}).contains("done"))
                 acknowledged.push_back(json(feed).dump());
         }
-        // Half of the kills come while an order is on its way.
+        // Half of the kills happen while a command is in progress.
         if (among(0, 1) == 1) (void)served.send("POST", "set_overrides", json{{"feed", 1.5}}.dump());
         ASSERT_EQ(served.end(SIGKILL), -SIGKILL);
     }

@@ -1,4 +1,4 @@
-// The served program as a process: signals, and an output that stands or is closed.
+// The served program as a process: signals, and a blocked or closed output.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
@@ -20,7 +20,7 @@ class AServedProcess : public InFolder {
     std::vector<std::string> arguments() const {
         return {(folder / "one.toml").string(), "--port", "0", "--users", (folder / "users.json").string()};
     }
-    /// By the code that was printed, whose successor is printed then.
+    /// Pairs with the printed code; the next code is printed then.
     static json pair(Served& served) {
         const std::size_t at = served.said.find("#pair=");
         return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", "anna"}});

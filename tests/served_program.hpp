@@ -1,4 +1,4 @@
-// `motionrack serve` as a process of its own, with connections to it.
+// `motionrack serve` as a separate process, with connections to it.
 #pragma once
 
 #include <arpa/inet.h>
@@ -37,7 +37,7 @@ class ServedLink {
             "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
         return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
     }
-    /// The body of the next answer; discarded if the server is gone.
+    /// Returns the body of the next answer; discarded if the server has closed the connection.
     nlohmann::json answer() {
         std::string text;
         for (char c; text.size() < 4 || text.compare(text.size() - 4, 4, "\r\n\r\n") != 0; text += c)
@@ -55,7 +55,7 @@ class ServedLink {
     nlohmann::json post(const std::string& name, const nlohmann::json& fields = nlohmann::json::object()) {
         return send("POST", name, fields.dump()) ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
     }
-    /// A query, as "card?name=motion".
+    /// Sends a query, as "card?name=motion".
     nlohmann::json get(const std::string& query) {
         return send("GET", query, "") ? answer() : nlohmann::json(nlohmann::json::value_t::discarded);
     }
@@ -63,7 +63,7 @@ class ServedLink {
         const nlohmann::json all = get("status");
         return all.is_object() ? all.value("status", nlohmann::json()) : nlohmann::json();
     }
-    int port() const { return port_; }  ///< 0: it is not connected
+    int port() const { return port_; }  ///< 0: not connected
 
   protected:
     void connect(int port) {
@@ -111,7 +111,7 @@ class Served : public ServedLink {
     Served(const Served&) = delete;
     Served& operator=(const Served&) = delete;
 
-    /// The exit code, or minus the signal.
+    /// Returns the exit code, or minus the signal.
     int end(int signal) {
         if (child_ <= 0) return 0;
         ::kill(child_, signal);
@@ -122,7 +122,7 @@ class Served : public ServedLink {
         if (output_ >= 0) ::close(output_);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
-    /// From now on its output stands: the pipe is full.
+    /// Blocks its output by filling the pipe.
     void fill_output() const {
         const int in = ::open(("/proc/self/fd/" + std::to_string(output_)).c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
         const std::string block(4096, '.');
@@ -130,7 +130,7 @@ class Served : public ServedLink {
         while (::write(in, ".", 1) > 0) continue;
         ::close(in);
     }
-    /// Nothing reads its output any more.
+    /// Closes the reading end of its output.
     void close_output() { ::close(std::exchange(output_, -1)); }
     pid_t process() const { return child_; }
 

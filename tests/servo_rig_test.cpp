@@ -1,4 +1,4 @@
-// The rig of the DataBoard 4002's appendix 1 has the numbers that its page says.
+// The rig of appendix 1 of the DataBoard 4002 has the numbers shown on its page.
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/session.hpp>
@@ -9,7 +9,7 @@
 namespace motionrack {
 namespace {
 
-/// At 3 V the rig of rig.toml, with or without its [wires] row, for one second; counts and degrees.
+/// The rig of rig.toml at 3 V, with or without its [wires] row, for one second; counts and degrees.
 struct Turned {
     double counts, degrees;
 };

@@ -1,4 +1,4 @@
-// The name of the tree: the one source of the tests that depends on it.
+// The path of the tree, in the only test source that depends on it.
 #include <tests/source_root.hpp>
 
 namespace motionrack {

@@ -6,8 +6,8 @@
 
 namespace motionrack {
 
-/// The tree that the tests were built from, without a slash at its end. Its name stands in a source of its own, so that
-/// all others are the same whatever folder they are built in, and come out of a compiler's cache.
+/// Returns the tree from which the tests were built, without a trailing slash. A source file of its own holds the path,
+/// so that a compiler cache can reuse all other files in any folder.
 std::string source_dir();
 
 inline const std::filesystem::path source_root = source_dir();

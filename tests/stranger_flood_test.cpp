@@ -1,4 +1,4 @@
-// Floods by those who have no token: what they fill, and how long STOP takes beside them.
+// Floods by clients without a token: their resource use, and the delay of STOP under load.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -44,7 +44,7 @@ class Stranger {
     bool send(const std::string& text) const {
         return there_ && ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
     }
-    /// The first bytes that come; empty: it was closed.
+    /// Returns the first received bytes; empty if the connection was closed.
     std::string hear() const {
         std::string text(4096, '\0');
         const ssize_t got = ::recv(socket_, text.data(), text.size(), 0);
@@ -91,10 +91,10 @@ class AFlood : public InFolder {
         return resident * ::sysconf(_SC_PAGESIZE);
     }
 
-    /// Pairing by long names, tokens that are made up, STOPs, half requests, WebSockets that say rubbish and read
-    /// nothing, connections that come and go: each from many addresses.
+    /// Floods with pairing by long names, invented tokens, STOPs, incomplete requests, WebSockets that send invalid
+    /// data and read nothing, and short-lived connections: each from many addresses.
     static void flood(int port, unsigned kind, const std::atomic<bool>& quit, std::atomic<std::int64_t>& asked) {
-        // It stands for other computers: this one's time is not theirs.
+        // The flood represents other computers, so it must not use the CPU time of the server.
         ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), 19);
         std::mt19937 random(kind);
         std::vector<std::unique_ptr<Stranger>> held;
@@ -123,7 +123,7 @@ class AFlood : public InFolder {
         }
     }
 
-    /// Beside so many STOPs, and so long.
+    /// Runs a flood for `time` and sends this number of STOPs meanwhile.
     Seen flood_beside(std::size_t stops, std::chrono::seconds time) {
         Seen seen;
         Served served({(folder / "one.toml").string(), "--port", "0", "--journal", (folder / "one.journal").string(),
@@ -179,7 +179,7 @@ TEST_F(AFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
     EXPECT_LT((*book)->read({0, "", 10000})->size(), 400u);
 }
 
-/// Or of MOTIONRACK_FLOOD_SECONDS.
+/// The duration is MOTIONRACK_FLOOD_SECONDS if set.
 TEST_F(AFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
     const Seen seen = flood_beside(0, std::chrono::seconds(from_environment("MOTIONRACK_FLOOD_SECONDS", 60)));
     tell(seen);

@@ -1,5 +1,5 @@
-// A program that comes line by line, held, slowed and let go on at random instants: it ends where it would have ended,
-// on its path, within all limits. MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many.
+// A program that arrives line by line, with holds, overrides and resumes at random instants: it reaches the same end,
+// on its path, within all limits. MOTIONRACK_SEED=N selects the first program, MOTIONRACK_PROGRAMS=N their number.
 #include <cstdlib>
 #include <motionrack/control/stream_executor.hpp>
 #include <random>
@@ -14,14 +14,14 @@ namespace {
 using control::ExecutionState;
 using control::StreamExecutor;
 
-/// A rack whose axes are driven by a StreamExecutor, watched all the time.
+/// A rack whose axes a StreamExecutor drives, with a monitor.
 struct Watched {
     Rack rack;
     Monitor monitor;
     control::AxisGroup* axes = nullptr;
     std::unique_ptr<StreamExecutor> stream;
     std::vector<control::Geometry> programmed;
-    double tolerance = 0;  ///< mm, by which blended corners or merged short moves may leave the path
+    double tolerance = 0;  ///< mm, tolerance of blended corners or merged short moves
     std::function<void()> on_slice;
 
     explicit Watched(const RackConfig& config)
@@ -65,7 +65,8 @@ struct Watched {
             const int i = axis.config.index();
             const control::AxisLimits limits = rack.config().limits()[static_cast<std::size_t>(i)];
             const AxisStatistics& top = monitor.statistics(i);
-            // A steered segment begins with the speed of the one before it, of which an axis may have a little more.
+            // An auxiliary segment starts with the velocity of the previous one, in which an axis may have a little
+            // more.
             EXPECT_LE(top.peak_velocity, limits.max_velocity * 1.005) << i;
             EXPECT_LE(top.peak_accel, limits.max_accel * 1.02) << i;
             EXPECT_LE(top.peak_velocity_step, limits.max_velocity_step * jump) << i;
@@ -93,7 +94,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return out;
 }
 
-/// Feeds a program line by line until all of it is done.
+/// Feeds a program line by line until all of it is executed.
 void drive_all(Watched& w, const std::string& program, const std::function<void()>& between = {}) {
     const std::vector<std::string> lines = lines_of(program);
     std::size_t next = 0;
@@ -239,7 +240,7 @@ TEST_P(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
     EXPECT_NEAR(w.seconds(), 2 + 80 / 5.0, 1.0);
 }
 
-/// Drives a program in its whole language; how long that takes, s.
+/// Executes a program in the complete language; returns its duration, s.
 double seconds_of(Watched& w, const std::string& program) {
     control::gcode::ProgramFlow walk(program, w.stream->fresh_settings(), "part.ngc");
     const double begun = w.seconds();
@@ -294,7 +295,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
     EXPECT_NEAR(at_once_place, 10, 0.8);
     const auto [with_move, with_move_place] = run("M62 P1");
     EXPECT_GT(with_move, 15);
-    // With limited jerk the two lines are one piece of the path, behind which it is told.
+    // With limited jerk the two lines are one segment of the path, and the event is reported behind it.
     if (std::string_view(GetParam()) == "jerk_limited")
         EXPECT_NEAR(with_move_place, 20, 0.8);
     else

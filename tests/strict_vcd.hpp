@@ -1,5 +1,5 @@
-// A reader of VCD files that takes what IEEE 1364 says and nothing else: the grammar of the head, each change in the
-// form of its variable, times that rise.
+// A strict reader of VCD files, limited to IEEE 1364: the grammar of the header, each change in the form of its
+// variable, ascending times.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ struct StrictVcd {
     struct Variable {
         std::string name;  ///< with its scopes: "X.X_step"
         bool is_real = false;
-        std::int64_t rises = 0;  ///< of a wire, from 0 to 1
+        std::int64_t rises = 0;  ///< edges of a wire from 0 to 1
         char level = 'x';
         double number = 0;
         std::int64_t changes = 0;
     };
-    std::map<std::string, Variable> variables;  ///< by their codes
+    std::map<std::string, Variable> variables;  ///< by identifier code
     std::string unit;                           ///< "100 ns"
     std::int64_t end = -1;                      ///< the last time
-    std::string wrong;                          ///< what is not as it should be; empty: nothing
+    std::string wrong;                          ///< first violation; empty: none
 
     explicit StrictVcd(const std::string& text) : words_(text) {
         read_head();
         if (wrong.empty()) read_changes();
     }
 
-    /// The variable of this name; nullptr if there is none.
+    /// Returns the variable of this name; nullptr if there is none.
     const Variable* find(const std::string& name) const {
         for (const auto& [code, variable] : variables)
             if (variable.name == name) return &variable;

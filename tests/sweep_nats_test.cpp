@@ -1,5 +1,5 @@
-// A sweep over several processes through a real nats-server: the same table as on one machine, though a worker is
-// killed on the way.
+// A sweep over several processes with a real nats-server: the same table as on one machine, although a worker is
+// killed.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
@@ -38,7 +38,7 @@ class Process {
         if (child_ > 0 && ::waitpid(child_, &status_, WNOHANG) != 0) child_ = 0;
         return child_ > 0;
     }
-    /// The exit code, or minus the signal.
+    /// Returns the exit code, or minus the signal.
     int wait() {
         if (child_ > 0) ::waitpid(std::exchange(child_, 0), &status_, 0);
         return WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_);
@@ -60,7 +60,7 @@ class NatsSweep : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
-        // Where Debian has it, which is not in everybody's path.
+        // Path of the Debian package, which is not in every user's PATH.
         ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
         if (shell("command -v nats-server").code != 0) GTEST_SKIP() << "nats-server is not installed";
         start_server("-1");
@@ -76,7 +76,7 @@ class NatsSweep : public InFolder {
         server_.reset();
         InFolder::TearDown();
     }
-    /// `port`: -1 is a free one, which the server tells in a file.
+    /// `port`: -1 selects a free one, which the server writes to a file.
     void start_server(const std::string& port) {
         server_ = std::make_unique<Process>(
             folder, "nats-server -js -sd store -a 127.0.0.1 -p " + port + " --ports_file_dir .", "server.txt");
@@ -131,7 +131,7 @@ TEST_F(NatsSweep, IsTheSameTableThoughAWorkerIsKilledInTheMiddle) {
     EXPECT_EQ(gather->wait(), 0) << said("gatherer");
     EXPECT_THAT(said("gatherer"), HasSubstr("10 points: "));
     EXPECT_EQ(text_of(folder / "out.csv"), local_table());
-    // On request a worker gives back what it has.
+    // On request a worker returns its points.
     EXPECT_EQ(one->end(SIGINT), 130) << said("one");
     EXPECT_EQ(three->end(SIGTERM), 130) << said("three");
     EXPECT_THAT(said("one"), HasSubstr(" points done"));
@@ -174,7 +174,7 @@ TEST_F(NatsSweep, RowsThatCameWhileNobodyGatheredAreTaken) {
     EXPECT_EQ(gather->end(SIGINT), 130);
     EXPECT_THAT(said("gatherer"), HasSubstr("the same command goes on"));
     one.reset();
-    // Nobody gathers: the worker ends when the queue is empty.
+    // Without a coordinator the worker ends when the queue is empty.
     auto two = worker("two", "--idle 8");
     EXPECT_EQ(two->wait(), 0) << said("two");
     EXPECT_EQ(motionrack("sweep sweep.toml -o out.csv --nats " + url_).code, 0);

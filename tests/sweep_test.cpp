@@ -1,5 +1,5 @@
-// `motionrack sweep`: its page and its examples, the same table whatever the threads and however often it was killed,
-// and every refusal with its place.
+// `motionrack sweep`: its page and its examples, the same table for any number of threads and kills, and every error
+// message with its position.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
@@ -40,8 +40,8 @@ class SweepCommand : public InFolder {
               "to = 4000, steps = 8 }\n"
               "text.TOLERANCE = [0.01, 0.05, 0.1, 0.2]\nfault = [\"\", \"X.limit_plus=0@500ms\"]\n");
     }
-    /// A sweep in the background that gets a signal once it has so many rows. Its exit code, or minus the signal; what
-    /// it said is in said.txt.
+    /// Sends a signal to a sweep in the background once it has this number of rows. Returns its exit code, or minus the
+    /// signal; its output is in said.txt.
     int signal_after(int signal, const std::string& arguments, std::size_t rows) const {
         const pid_t child = ::fork();
         if (child == 0) {
@@ -89,7 +89,7 @@ TEST_F(SweepCommand, GivesTheSameTableWhateverTheThreadsAndTheKills) {
     for (const std::size_t rows : {3, 20, 21, 40})
         EXPECT_EQ(signal_after(SIGKILL, "sweep.toml -o out.csv --jobs 2", rows), -SIGKILL);
     EXPECT_FALSE(std::filesystem::exists(folder / "out.csv"));
-    // A row that was cut off by a full disk or a power cut is made again.
+    // A row truncated by a full disk or a power failure is computed again.
     std::ofstream(folder / "out.csv.part", std::ios::app) << "0123456789abcdef0123456789abcdef,63,4000,0.2,,ok,1.0";
     const Ran rest = motionrack("sweep sweep.toml -o out.csv");
     EXPECT_EQ(rest.code, 0);
@@ -226,7 +226,7 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
 }
 
 TEST_F(SweepCommand, RowsTellWhatWentWrongInAPoint) {
-    // The travel of one point is too short for the program: that is a result.
+    // The travel of one point is too short for the program, which is a valid result.
     write("travel.toml",
           "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_limit_mm = [100, "
           "300]\ntext.TOLERANCE = "

@@ -1,4 +1,4 @@
-// A file of the tree as text.
+// Reads a file of the tree as text.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace motionrack {
 
-/// The bytes of `path`; "" if it cannot be read.
+/// Returns the bytes of `path`; "" if it cannot be read.
 inline std::string text_of(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::stringstream text;

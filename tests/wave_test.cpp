@@ -1,4 +1,4 @@
-// What a job records as waves, counted by a stranger: sigrok-cli reads the VCD file of a run.
+// Waves of a job, counted by independent software: sigrok-cli reads the VCD file of a run.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@
 namespace motionrack::rack {
 namespace {
 
-/// The last number that a sigrok decoder tells.
+/// Returns the last number that a sigrok decoder reports.
 int last_number(const std::string& path, const std::string& decoder, const std::string& row) {
     const std::string command = "sigrok-cli -I vcd -i " + path + " -P " + decoder + " -A " + row + " 2>/dev/null";
     std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -59,7 +59,7 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
         ASSERT_TRUE((*recorder)->finish());
     }
-    // 2 mm there and 1.5 mm back: 640 pulses and 800 encoder counts a millimetre.
+    // 2 mm out and 1.5 mm back: 640 pulses and 800 encoder counts a millimetre.
     EXPECT_EQ(outcome.axes[0].pulses_sent, 2240);
     EXPECT_EQ(last_number(path, "counter:data=X_step:data_edge=rising", "counter=edge_count"), 2240);
     EXPECT_EQ(last_number(path, "stepper_motor:step=X_step:dir=X_dir", "stepper_motor=position"), 321)
@@ -69,12 +69,12 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     std::filesystem::remove(path);
 }
 
-/// Edges that sigrok's counter sees on a line; -1: it does not read the file.
+/// Returns the edges that sigrok's counter finds on a line; -1: it does not read the file.
 int edges_by_sigrok(const std::string& path, const std::string& line) {
     return last_number(path, "counter:data=" + line + ":data_edge=rising", "counter=edge_count");
 }
 
-/// A recording that has run for some time, of all that a rack has.
+/// A recording in progress, with all signals of a rack.
 struct RecordedRack {
     const char* rack;
     std::string signals;
@@ -145,7 +145,7 @@ TEST(Waves, AreReadWholeByEveryReader) {
     }
 }
 
-/// Runs a move of X and Y with a recording of `signals` and gives the file's text.
+/// Runs a move of X and Y with a recording of `signals` and returns the text of the file.
 std::string recorded(const std::string& ending, const std::vector<std::string>& signals) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("motionrack_waves_" + std::to_string(::getpid()) + ending)).string();
