@@ -1,4 +1,5 @@
-// Whole-number rules of the card that its library needs too: 24-bit positions, rate to frequency and voltage.
+// Integer arithmetic shared by the card's model and its function library: 24-bit positions, rate to frequency and
+// voltage.
 #pragma once
 
 #include <array>
@@ -33,20 +34,20 @@ constexpr double hz_of(int rate) {
 
 // ---- Voltage
 
-/// What the frequency/voltage converter gives at a rate.
+/// Output of the frequency/voltage converter at a rate.
 struct TrimRow {
     std::int32_t microvolts = 0;
     std::int32_t rate = 0;
 };
 
-/// A card's trim table: at most 64 rows, voltages and rates rising.
+/// Trim table of a card: at most 64 rows, voltages and rates ascending.
 struct Trim {
     std::array<TrimRow, 64> rows{};
     int size = 0;
 };
 
-/// The table in the maker's description; its first row is read as 0.01 V and its row 15745 as 14745, as their
-/// neighbours ask for.
+/// The table in the maker's description. Its first row is read as 0.01 V and its row 15745 as 14745, to fit the
+/// neighbouring rows.
 inline constexpr Trim default_trim = {
     {{{10'000, 13'799},    {25'000, 14'051},    {50'000, 14'339},    {75'000, 14'565},    {100'000, 14'745},
       {150'000, 15'014},   {200'000, 15'207},   {250'000, 15'351},   {300'000, 15'463},   {350'000, 15'547},
@@ -57,7 +58,7 @@ inline constexpr Trim default_trim = {
       {9'500'000, 16'341}, {10'000'000, 16'345}}},
     32};
 
-/// 1 to 64 rows, 1 uV .. 10 V, rates 1 .. 16383, both rising from row to row.
+/// 1 to 64 rows, 1 uV .. 10 V, rates 1 .. 16383, both ascending from row to row.
 constexpr bool sound(const Trim& trim) {
     if (trim.size < 1 || trim.size > static_cast<int>(trim.rows.size())) return false;
     TrimRow before{0, 0};
@@ -71,8 +72,8 @@ constexpr bool sound(const Trim& trim) {
 }
 static_assert(sound(default_trim));
 
-/// The converter's voltage in uV at a rate 0 .. 16383: linear in the frequency between rows and below the first, level
-/// above the last; halves are rounded up.
+/// Voltage of the converter in uV at a rate 0 .. 16383: linear in the frequency between rows and below the first,
+/// constant above the last. Halves are rounded up.
 constexpr std::int32_t microvolts_of(int rate, const Trim& trim) {
     if (rate <= 0) return 0;
     const std::int64_t n = divisor_of(rate);

@@ -1,5 +1,5 @@
-// The DataBoard 4002's ports, words, commands, states and pins as constants; model, driver, documents and tests read
-// them here. The tables are in map/.
+// The DataBoard 4002's ports, words, commands, states and pins as constants, shared by model, driver, documents and
+// tests. The tables are in map/.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -8,7 +8,7 @@
 
 namespace motionrack::databoard4002 {
 
-/// A port's number by its name; names that are not declared do not compile.
+/// Number of a port by its name; undeclared names do not compile.
 consteval std::uint8_t port(std::string_view name) {
     return static_cast<std::uint8_t>(register_named(map::registers, name).offset);
 }
@@ -35,7 +35,7 @@ inline constexpr std::uint8_t REF = bit("STAT", "REF"), EMS = bit("STAT", "EMS")
 inline constexpr std::uint8_t ESL = bit("STAT", "ESL"), READY = bit("STAT", "READY");
 }  // namespace stat
 
-/// Bits of the EVENT word and of C4, where they mean the same.
+/// Bits that mean the same in the EVENT word and in C4.
 namespace event {
 inline constexpr std::uint8_t POSITION = bit("EVENT", "POSITION"), ZERO = bit("EVENT", "ZERO");
 inline constexpr std::uint8_t REF = bit("EVENT", "REF"), STOP = bit("EVENT", "STOP");

@@ -22,7 +22,7 @@ struct SlopeEntry {
     friend bool operator==(const SlopeEntry&, const SlopeEntry&) = default;
 };
 
-/// What is wrong with a table; the card takes it all the same.
+/// Flaws of a table; the card accepts it anyway.
 enum class SlopeFlaw : std::uint8_t { none, speed_zero, descending, too_far };
 
 class SlopeTable {
@@ -43,7 +43,7 @@ class SlopeTable {
     constexpr std::uint8_t byte(int i) const { return bytes_[static_cast<std::size_t>(i)]; }
     constexpr void set_byte(int i, std::uint8_t value) { bytes_[static_cast<std::size_t>(i)] = value; }
 
-    /// A rate and the distances between which it holds: least <= distance <= greatest.
+    /// A rate and the distances over which it holds: least <= distance <= greatest.
     struct Step {
         int rate = 0;
         std::int64_t min = 0;
@@ -55,7 +55,7 @@ class SlopeTable {
     constexpr Step accelerating(std::int64_t travelled) const { return find(half, travelled, 0); }
     /// The deceleration's interval at `to_go` counts (> 0) from the target.
     constexpr Step decelerating(std::int64_t to_go) const { return find(0, to_go, 1); }
-    /// The first flaw, and the interval that has it.
+    /// The first flaw and its interval.
     constexpr SlopeFlaw flaw(int& interval) const {
         for (interval = 0; interval < entries; ++interval) {
             const SlopeEntry here = entry(interval);

@@ -1,4 +1,4 @@
-// The states of the search, one look at a time.
+// State transitions of the homing search, one poll at a time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
                 fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
 }
 
-// ---- beginning and ending
+// ---- start and end
 
 void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& frame, Instant now) {
     order_ = order;
@@ -77,7 +77,7 @@ void HomeSearch::leave(Instant now) {
         {std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, way_});
 }
 
-/// Turns ways into places, which are known from here on.
+/// Converts distances along the search into positions, which are valid from here on.
 void HomeSearch::finish(State state, std::string sentence, Instant now) {
     leave(now);
     state_ = state;
@@ -94,7 +94,7 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
 
 // ---- entering a state
 
-/// The events that make the counter 0 in the present state.
+/// Events that set the counter to 0 in the present state.
 std::uint8_t HomeSearch::marks() const {
     if (!marking()) return 0;
     const bool index = order_.type == control::HomingMethod::index_after_switch ||
@@ -106,7 +106,7 @@ Result<void> HomeSearch::drive(bool towards, int rate) {
     forward_ = towards == order_.towards_plus;
     const Status status = driver_.status();
     if (status.end_stop(forward_)) {
-        stop_seen_ = host_.now();  // no edge comes of it
+        stop_seen_ = host_.now();  // causes no edge
         return {};
     }
     const std::int64_t far =
@@ -135,21 +135,21 @@ Result<void> HomeSearch::enter(State state, Instant now) {
         case State::slow:
             return drive(true, frame_.slow_rate);
         default:
-            return driver_.quit();  // the stops
+            return driver_.quit();  // stops the motor
     }
 }
 
-// ---- looking
+// ---- polling
 
 void HomeSearch::step(Instant now) {
     if (!running()) return;
     if (const Result<void> looked = look(now); !looked) fail_with(looked.error(), now);
 }
 
-/// The way since the last look; where the counter was set to 0 meanwhile, from the pace before.
+/// Distance since the last poll; if the counter was set to 0 in between, estimated from the previous velocity.
 Result<void> HomeSearch::count(Instant now) {
     MOTIONRACK_TRY(const std::int64_t counts, driver_.position());
-    // Perhaps the counter has just become 0, and perhaps after it was read: the next look knows.
+    // The counter may have become 0 just now, perhaps after it was read: the next poll decides.
     if (marking() && !marked_ && driver_.status().event()) return {};
     const double seconds = to_seconds(now - looked_);
     double step = static_cast<double>(counts - counts_);
@@ -158,7 +158,7 @@ Result<void> HomeSearch::count(Instant now) {
         counted_ = true;
         home_way_ = way_ + step - static_cast<double>(counts);
     } else if (seconds > 0) {
-        pace_ += (step / seconds - pace_) / 8;  // a look sees whole counts
+        pace_ += (step / seconds - pace_) / 8;  // a poll sees whole counts
     }
     if (counts != counts_) still_since_ = now;
     way_ += step;
@@ -175,7 +175,7 @@ Result<void> HomeSearch::check_set_up(const Events& seen) const {
 
 Result<void> HomeSearch::look_at_events(Instant now) {
     if (!driver_.status().event()) return {};
-    // Without the marks: a bounce of the reference must not set the counter to 0 once more.
+    // Without the event marks: a bounce of the reference must not set the counter to 0 again.
     constexpr auto others = static_cast<std::uint8_t>(event::POSITION | event::STOP);
     MOTIONRACK_TRY(const Events seen, driver_.enable_events(others));
     MOTIONRACK_CHECK(check_set_up(seen));
@@ -190,11 +190,11 @@ Result<void> HomeSearch::look_at_events(Instant now) {
     }
     if (!marking() || marked_) return {};
     MOTIONRACK_CHECK(driver_.enable_events(static_cast<std::uint8_t>(marks() | others)));
-    // It may have become active between the two.
+    // It may have become active between the two reads.
     return driver_.status().reference() && !driver_.status().event() ? enter(State::back, now) : Result<void>{};
 }
 
-/// The contacts of a stop are at rest: does it hold the axis?
+/// Called when the contacts of a stop have settled: does the stop block the axis?
 Result<void> HomeSearch::look_at_stop(Instant now) {
     stop_seen_ = never;
     const Status status = driver_.status();
@@ -243,7 +243,7 @@ Result<void> HomeSearch::look_back(Instant now) {
     return enter(State::back_stop, now);
 }
 
-/// The reference has become active between two looks. A way that the counter's 0 hides is known to a look's.
+/// The reference became active between two polls. A distance hidden by the zeroing is known to within one poll.
 Result<void> HomeSearch::check_edge(double way) {
     const auto conflict = edges_.acted(towards(way) + step_, 2 * step_);
     if (!conflict) return {};

@@ -1,7 +1,7 @@
-// Finding home with the card's own zeroing: the reference input (a cam, a switch), the encoder's zero pulse, or both at
-// once make the counter 0 at that instant.
+// Homing with the card's own zeroing: the reference input (a cam, a switch), the encoder's zero pulse, or both at once
+// set the counter to 0 at that instant.
 //
-//   type 1  SEARCH ─ref─► STOP ─► HOMED            the counter is 0 at the edge, the axis stands behind it
+//   type 1  SEARCH ─ref─► STOP ─► HOMED            the counter is 0 at the edge, the axis stops behind it
 //   type 2  SEARCH ─ref─► STOP ─► BACK ─off─► STOP ─► SLOW ─ref─► STOP ─► HOMED
 //   type 3, 4 as 1, 2, but the counter is 0 at the zero pulse under the cam
 //
@@ -18,16 +18,16 @@
 
 namespace motionrack::databoard4002 {
 
-/// What a search needs to know of its axis.
+/// Data that a search needs from its axis.
 struct HomeFrame {
     std::string name;
     std::string_view unit;
     double counts_per_unit = 100;
-    int speed_rate = 1;       ///< of the search
-    int slow_rate = 1;        ///< of the second approach
-    std::int64_t travel = 0;  ///< counts: the longest way of a state
-    double offset = 0;        ///< what the counter's 0 is called before
-    Duration settle{};        ///< without a count: the axis stands
+    int speed_rate = 1;       ///< search speed
+    int slow_rate = 1;        ///< speed of the second approach
+    std::int64_t travel = 0;  ///< counts: the longest distance travelled in one state
+    double offset = 0;        ///< value of the counter's 0 before homing
+    Duration settle{};        ///< the axis is at standstill after this time without a count
 };
 
 class HomeSearch {
@@ -35,18 +35,18 @@ class HomeSearch {
     HomeSearch(Driver& driver, Interrupt& host) : driver_(driver), host_(host) {}
 
     void begin(const control::HomingRequest& order, const HomeFrame& frame, Instant now);
-    /// One look; commands take the card's time.
+    /// Executes one poll; commands take the card's time.
     void step(Instant now);
-    /// Ends it: the output is 0 at once.
+    /// Ends the search: the output is 0 at once.
     void stop();
 
     bool running() const { return state_ != State::idle && state_ != State::homed && state_ != State::failed; }
     bool homed() const { return state_ == State::homed; }
     std::string_view state_name() const;
-    /// What the counter's 0 is called once it is homed.
+    /// Position of the counter's 0 after homing.
     double home_position() const { return order_.position; }
     const control::HomingResult& outcome() const { return outcome_; }
-    /// How it failed. Only after it ended without success.
+    /// Reason of the failure. Requires that the search ended without success.
     const Error& error() const { return error_; }
 
   private:
@@ -86,23 +86,23 @@ class HomeSearch {
     bool seen_ = false;        // BACK: the reference has been active
     bool turned_ = false;      // an end stop was met
     bool zeroed_ = false;      // the counter's 0 is home
-    bool marked_ = false;      // the event that the state waits for has come
-    bool counted_ = false;     // and is in the way
+    bool marked_ = false;      // the event that the state waits for has occurred
+    bool counted_ = false;     // and is included in the distance
     bool forward_ = false;     // direction of the present drive
     std::int64_t counts_ = 0;  // the card's counter
-    double way_ = 0;           // counts along the whole search, as if nothing had set the counter to 0
-    double home_way_ = 0;      // where that was
-    double pace_ = 0;          // counts a second at the last look
+    double way_ = 0;           // counts along the whole search, without the zeroing
+    double home_way_ = 0;      // distance at which home was found
+    double pace_ = 0;          // velocity at the last poll, counts/s
     Instant looked_{};
-    double step_ = 0;     // counts from the last look to this one
+    double step_ = 0;     // counts from the last poll to this one
     SwitchEdges edges_;   // in counts
-    bool under_ = false;  // the reference was seen active on the way to the index under it
-    double off_way_ = 0;  // BACK: where the reference was left
+    bool under_ = false;  // the reference was active before the index pulse under it
+    double off_way_ = 0;  // BACK: distance at which the reference was released
     bool off_ = false;
     Instant still_since_{};
     Instant entered_{};
     double entered_way_ = 0;
-    Instant stop_seen_ = never;  // when the contacts of a stop are at rest
+    Instant stop_seen_ = never;  // instant at which the contacts of a stop have settled
     control::HomingResult outcome_;
     Error error_;
 };

@@ -1,4 +1,4 @@
-// Orders of the axis and what they become.
+// Commands of the axis and their translation into commands of the card.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration min_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
-constexpr double count_slack = 1e-6;                       // what is so little off a whole count is one
-constexpr std::int64_t min_progress = 2;                   // a broken line alone goes to and fro by one count
+constexpr double count_slack = 1e-6;                       // a value this close to a whole count is taken as whole
+constexpr std::int64_t min_progress = 2;                   // with one broken line the count alternates by one
 
-/// From one look at the progress to the next, at `speed` counts/s: time for ten times that.
+/// Time between two progress checks: 10 times `min_progress` at `speed` counts/s, at least `min_progress_time`.
 Duration progress_time(double speed) {
     return std::max(min_progress_time, from_seconds(10 * min_progress / std::max(speed, 1e-3)));
 }
@@ -47,7 +47,7 @@ Result<void> PositionAxis::set_up() {
     return {};
 }
 
-// ---- what is refused
+// ---- refused commands
 
 tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& why) const {
     return fail(ErrorKind::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
@@ -179,11 +179,11 @@ Result<void> PositionAxis::jog(double speed, Instant now) {
         return {};
     }
     if (doing_ == Doing::jogging) stop();
-    next_jog_ = speed;  // by way of a stop
+    next_jog_ = speed;  // after a stop
     return {};
 }
 
-/// The speed follows the wish with the axis' acceleration.
+/// Changes the velocity towards the jog command with the axis' acceleration.
 void PositionAxis::jog_on(Instant now) {
     if (now - renewed_ > settings_.hold) return stop();
     const double change = settings_.limits.max_accel * settings_.counts_per_unit * to_seconds(now - at_);
@@ -196,7 +196,7 @@ void PositionAxis::jog_on(Instant now) {
         end_with(set.error());
 }
 
-/// A motor that is held or has no voltage, or an encoder whose counts stand or go the other way.
+/// Detects a blocked or unpowered motor, and an encoder whose counts stand still or run the wrong way.
 void PositionAxis::look_at_progress(Instant now) {
     const auto here = counts();
     if (!here) return end_with(here.error());
@@ -215,7 +215,7 @@ void PositionAxis::look_at_progress(Instant now) {
 
 // ---- stops
 
-/// A search that runs; its motor comes to a stop. False if none did.
+/// Aborts a running search; its motor stops. Returns false if no search was running.
 bool PositionAxis::stop_search() {
     if (!search_.running()) return false;
     search_.stop();
@@ -255,13 +255,13 @@ void PositionAxis::ramp_down(Instant now) {
     if (rate == 0) rest(now);
 }
 
-/// The output is 0; the motor comes to a stop.
+/// Sets the output to 0; the motor stops.
 void PositionAxis::rest(Instant now) {
     doing_ = Doing::settling;
     still_since_ = now;
 }
 
-/// `counted`: the card answers and counts, so that the axis knows where it is.
+/// `counted`: the card answers and counts, so the position stays valid.
 void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
     trusted_ = trusted_ && counted;
@@ -279,7 +279,7 @@ Result<void> PositionAxis::set_position(double position) {
         return refuse("Position",
                       fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
-    // Its events tell whether its watchdog has reset the card meanwhile.
+    // The card's events show whether its watchdog has reset the card in the meantime.
     if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));
     if (unanswered_ || driver_.met_reset()) MOTIONRACK_CHECK(set_up());
     MOTIONRACK_TRY(const std::int64_t here, counts());
@@ -311,7 +311,7 @@ Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now
     error_.reset();
     search_.begin(order, frame, now);
     if (!driver_.met_reset()) return {};
-    MOTIONRACK_CHECK(set_up());  // the card was reset since, which it told just now
+    MOTIONRACK_CHECK(set_up());  // the card was reset in between, as it has just reported
     search_.begin(order, frame, now);
     return {};
 }

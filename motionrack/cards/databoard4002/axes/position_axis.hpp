@@ -1,11 +1,11 @@
-// The card's axis as the controller sees it: orders in mm (degrees) and seconds become commands of the card.
+// The card's axis as the controller sees it: commands in mm (degrees) and seconds become commands of the card.
 //
-//   move_to ─► O, R, P, G ─► slope of the table ─► "position reached" ─► comes to rest ─► D, L where it is to be held
+//   move_to ─► O, R, P, G ─► slope of the table ─► "position reached" ─► standstill ─► D, L if it is to be locked
 //   stop    ─► R, R, R .. Q      the rate is lowered by the axis' acceleration, then the output is 0
 //
-// The card counts what the encoder says, so its position stays trusted whatever stops the axis; it is lost with the
-// card's memory (a reset, its watchdog), and where the counts do not go on as the card drives: then motor or encoder do
-// not do what they should, and the card, which has no watch for that, would drive on for ever.
+// The card counts the encoder, so its position stays valid whatever stops the axis. The position becomes invalid if the
+// card loses its memory (a reset, its watchdog), or if the counts do not follow the drive. In that case the motor or
+// the encoder has failed. The card does not supervise this and would drive on without end.
 #pragma once
 
 #include <motionrack/cards/databoard4002/axes/home_search.hpp>
@@ -22,21 +22,22 @@ namespace motionrack::databoard4002 {
 struct PositionAxisSettings {
     std::string name = "X";
     std::string_view unit = "mm";
-    control::AxisLimits limits;    ///< max_accel is that of both ramps, start_speed the creep speed at their ends
+    control::AxisLimits
+        limits;  ///< max_accel applies to both ramps, max_velocity_step is the creep velocity at their ends
     double counts_per_unit = 100;  ///< of the card's counter, > 0
     SpeedScale scale;              ///< counts a second at a rate
     double lag_s = 0;              ///< the motor's time constant, with its load
     std::optional<double>
-        hold_window;  ///< mm or degrees: after a move the card keeps the axis within; absent: it lets go
-    Duration settle = milliseconds(20);  ///< without a count: the axis stands
-    Duration hold = milliseconds(250);   ///< of a jog that is not renewed
+        hold_window;  ///< mm or degrees: in-position window of the card's position lock after a move; absent: no lock
+    Duration settle = milliseconds(20);  ///< the axis is at standstill after this time without a count
+    Duration hold = milliseconds(250);   ///< a jog ends after this time without renewal
 };
 
 class PositionAxis final : public control::Axis {
   public:
     PositionAxis(Driver& driver, Interrupt& host, const PositionAxisSettings& settings);
 
-    /// Looks for the card and gives it the slope table of the axis' limits. Errors: those of Driver::connect, of
+    /// Connects to the card and loads the slope table for the axis limits. Errors: those of Driver::connect and of
     /// design_slope.
     Result<void> set_up();
 
@@ -93,18 +94,18 @@ class PositionAxis final : public control::Axis {
     bool unanswered_ = false;  // the card may have been reset since set_up()
     Instant set_up_at_{};
     bool forward_ = true;
-    bool hold_after_ = false;  // a move, not a stop: it is to be held
+    bool hold_after_ = false;  // a move (not a stop) that ends with the position lock
     Doing doing_ = Doing::nothing;
-    double speed_ = 0;     // counts/s that a jog or a ramp has now
-    double wanted_ = 0;    // and is to have
-    double next_jog_ = 0;  // after the stop, with its sign
-    Instant at_{};         // of the last change of the rate
-    Instant renewed_{};    // of the jog
+    double speed_ = 0;     // present velocity of a jog or a ramp, counts/s
+    double wanted_ = 0;    // target velocity, counts/s
+    double next_jog_ = 0;  // velocity after the stop, with its sign
+    Instant at_{};         // instant of the last rate change
+    Instant renewed_{};    // instant of the last jog renewal
     Instant still_since_{};
-    Instant stop_seen_ = never;       // when the contacts of a stop are at rest
-    Instant progress_due_ = never;    // when the counts must have gone on
-    Duration progress_time_{};        // from look to look
-    std::int64_t progress_from_ = 0;  // the counts at the last one
+    Instant stop_seen_ = never;       // instant at which the contacts of a stop have settled
+    Instant progress_due_ = never;    // deadline by which the counts must have advanced
+    Duration progress_time_{};        // between two progress checks
+    std::int64_t progress_from_ = 0;  // the counts at the last check
     std::optional<Error> error_;
 };
 

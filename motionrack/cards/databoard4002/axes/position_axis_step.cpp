@@ -1,4 +1,4 @@
-// How the axis carries on from look to look: what it sees, and how it ends.
+// Polling of the axis: supervision of the motion and its end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-// A card that hangs is reset after a second, and the motor runs out.
+// The watchdog resets a hung card after one second; the motor coasts to a stop.
 constexpr Duration watchdog_rest = milliseconds(1'500);
 
 }  // namespace
@@ -31,7 +31,7 @@ void PositionAxis::look_at_events(Instant now) {
         rest(now);
 }
 
-/// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
+/// Called when the contacts of a stop have settled: does the stop block the axis? A stop on the other side does not.
 void PositionAxis::look_at_stop() {
     stop_seen_ = never;
     const Status status = driver_.status();

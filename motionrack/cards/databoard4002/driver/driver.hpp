@@ -1,5 +1,5 @@
-// The DataBoard 4002's function library: every command with its handshake, events by polling and by interrupt. It knows
-// the card only by its ports, so it cannot tell a virtual card from a real one.
+// The DataBoard 4002's function library: every command with its handshake, events by polling and by interrupt. It
+// accesses the card only through its ports, so it works with a virtual card as with a real one.
 //
 //   wait Ready ─► C2 letter ─► (wait Ready ─► DATA) per byte          each wait has a time-out
 //   wait Ready ─► C4 enables ─► wait Ready ─► INP DATA = EVENT word
@@ -14,14 +14,14 @@
 
 namespace motionrack::databoard4002 {
 
-/// After the edge of a stop its contacts bounce so long at most.
+/// Maximum bounce time of a stop's contacts after an edge.
 inline constexpr Duration contacts_rest = milliseconds(5);
 
 struct DriverSettings {
     std::uint8_t select = 13;                    ///< the card's number on the bus
-    Duration ready_timeout = milliseconds(127);  ///< > 0: longest wait for Ready before an access; `never`: no limit
-    Duration poll = microseconds(20);            ///< > 0: between two looks at STAT
-    Duration bounce = contacts_rest;             ///< >= 0: after the edge of a stop, until its contacts are at rest
+    Duration ready_timeout = milliseconds(127);  ///< > 0: maximum wait for Ready before an access; `never`: no limit
+    Duration poll = microseconds(20);            ///< > 0: interval between two reads of STAT
+    Duration bounce = contacts_rest;             ///< >= 0: settling time of a stop's contacts after an edge
     double counts_per_mm = 1000;                 ///< > 0; for positions in mm
 };
 
@@ -33,7 +33,7 @@ struct Status {
     bool interrupt() const { return (word & stat::INT) != 0; }
     bool end_stop_left() const { return (word & stat::ESL) != 0; }
     bool end_stop_right() const { return (word & stat::ESR) != 0; }
-    /// The one in that direction.
+    /// The end stop in that direction.
     bool end_stop(bool forward) const { return forward ? end_stop_right() : end_stop_left(); }
     bool emergency() const { return (word & stat::EMS) != 0; }
     bool reference() const { return (word & stat::REF) != 0; }
@@ -58,16 +58,15 @@ class Driver {
   public:
     Driver(BytePort& port, Interrupt& interrupt, const DriverSettings& settings = {});
 
-    /// Looks for the card, clears the mark of the reset, reads the version. Errors: machine if no card answers or it is
-    /// never Ready.
+    /// Connects to the card, clears the reset mark and reads the version. Errors: machine if no card answers or it
+    /// never becomes Ready.
     Result<int> connect();
-    /// C3: hardware reset; position, rate and table are gone.
+    /// C3: hardware reset; clears position, rate and table.
     void reset();
     Status status();
 
-    // ---- commands, one each; counts and rates as the card has them. Errors of all: refused (out of range, nothing
-    // written), machine
-    // ---- (not Ready in time)
+    // ---- commands, one each; counts and rates in the card's units. Common errors: refused (out of range, nothing was
+    // written), machine (not Ready in time)
     Result<void> athome();                            ///< A
     Result<void> set_deviation(std::int64_t counts);  ///< D out, 0 .. 8,388,607
     Result<std::int64_t> deviation();                 ///< D in: present minus requested
@@ -81,35 +80,35 @@ class Driver {
     Result<std::int64_t> position();                  ///< P in
     Result<void> quit();                              ///< Q
     Result<void> set_rate(int rate);                  ///< R out, 0 .. 16383; 0 switches the relay off
-    Result<int> rate();                               ///< R in, negative backwards, 0 while standing
+    Result<int> rate();                               ///< R in, negative backwards, 0 at standstill
     Result<void> set_slope(const SlopeTable& table);  ///< S
     Result<int> version();                            ///< V
     Result<void> clear_watch_out();                   ///< W
 
     // ---- events
-    /// Writes the enables (bits of C4) and returns the EVENT word that was freed by it.
+    /// Writes the enables (bits of C4) and returns the EVENT word that this releases.
     Result<Events> enable_events(std::uint8_t enables);
-    /// An EVENT word told of a reset since connect(): the card has no table any more, and nothing moves it.
+    /// True if an EVENT word has reported a reset since connect(): the card has lost its table and is stationary.
     bool met_reset() const { return met_reset_; }
-    /// Waits until one of `wanted` (01h, 02h, 04h, 20h) has happened and returns the word, with the same enables
-    /// afterwards. Errors: machine after `timeout` or if the card was reset meanwhile; stopped where the user asked to
-    /// stop.
+    /// Waits until one of the `wanted` events (01h, 02h, 04h, 20h) has occurred and returns the word; restores the
+    /// enables. Errors: machine after `timeout` or if the card was reset meanwhile; stopped if the user requested a
+    /// stop. stop.
     Result<Events> wait_event(std::uint8_t wanted, Duration timeout, Waiting how = Waiting::polling);
 
-    // ---- moves, from beginning to end; a `timeout` of `never` waits for ever, also in wait_event
-    /// Goes to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) does no
-    /// harm. Errors: machine if a stop holds the move, the card is reset or `timeout` passes (the move is then ended by
-    /// Q); stopped.
+    // ---- complete moves; a `timeout` of `never` waits without limit, also in wait_event
+    /// Moves to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) is ignored.
+    /// Errors: machine if a stop blocks the move, the card is reset or `timeout` passes (Q then ends the move);
+    /// stopped.
     Result<void> move_to(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_by(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_to_mm(double mm, Duration timeout, Waiting how = Waiting::polling);
     Result<double> position_mm();
-    /// Slowly (`rate`) towards `far` until reference, zero pulse or both (`marks`: 02h, 04h, 06h) make the counter 0;
-    /// then stands.
+    /// Moves slowly (`rate`) towards `far` until reference, zero pulse or both (`marks`: 02h, 04h, 06h) set the counter
+    /// to 0; then stops.
     Result<void> find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout,
                            Waiting how = Waiting::polling);
 
-    /// Errors: refused if it is not finite or beyond the card's counts.
+    /// Errors: refused if the value is not finite or is beyond the card's counts.
     Result<std::int64_t> to_counts(double mm) const;
     double to_mm(std::int64_t counts) const { return static_cast<double>(counts) / settings_.counts_per_mm; }
 

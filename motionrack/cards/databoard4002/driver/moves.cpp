@@ -1,4 +1,4 @@
-// Events, and moves from beginning to end.
+// Events, and complete moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
                                     "time-out.",
                                     settings_.select, wanted, to_seconds(timeout)));
         const bool polls = how == Waiting::polling || now.interrupt() || (enables_ & event::ON_EVENT) == 0;
-        // The line is shared: it may be another card's.
+        // The line is shared: the interrupt may come from another card.
         if (polls || (interrupt_.wait(std::min(until - interrupt_.now(), milliseconds(100))) && !status().interrupt()))
             interrupt_.pass(settings_.poll);
     }
@@ -52,7 +52,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
 
 // ---- moves
 
-/// Ends the move after an error, and adds to it which stops are active.
+/// Ends the move after an error and appends the active stops to the error.
 Result<void> Driver::end_move(const Error& error) {
     Error out = error;
     if (out.kind == ErrorKind::machine) {
@@ -63,14 +63,14 @@ Result<void> Driver::end_move(const Error& error) {
     return tl::unexpected<Error>(std::move(out));
 }
 
-/// After the edge of a stop: whether it keeps the move from going on.
+/// Returns whether a stop blocks the move; called after its edge.
 Result<bool> Driver::held(bool forward) {
     interrupt_.pass(settings_.bounce);
     const Status now = status();
-    if (now.event()) return false;  // more has happened; it is looked at first
+    if (now.event()) return false;  // further events are handled first
     if (now.emergency() || now.end_stop(forward)) return true;
     MOTIONRACK_TRY(const int present, rate());
-    return present == 0 && !status().event();  // the emergency stop was active for a moment
+    return present == 0 && !status().event();  // the emergency stop was active only briefly
 }
 
 Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how) {

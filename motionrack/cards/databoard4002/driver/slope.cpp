@@ -1,4 +1,4 @@
-// Steps of the ramps, and the walk through a table.
+// Steps of the ramps, and the traversal of a table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ int SpeedScale::rate_for(double counts_s) const {
     return low;
 }
 
-// ---- from demand to table
+// ---- from requirements to table
 
 namespace {
 
@@ -54,8 +54,8 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
     return {};
 }
 
-/// One half of the table: slowest interval first; each is as long as the next step of speed takes. A motor that follows
-/// `lag` seconds late is told everything by so much earlier.
+/// One half of the table, slowest interval first. Each interval lasts as long as its velocity step takes. A motor with
+/// the time constant `lag` gets every step that much earlier.
 Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, double ramp, double lag,
                        const SpeedScale& scale) {
     const double creep = d.creep_speed > 0 ? d.creep_speed : d.top_speed / SlopeTable::half;

@@ -1,11 +1,11 @@
-// Slope tables from what a machine may do, and back: which motion a table gives, with its legs and times, before
+// Slope tables from the limits of a machine, and the reverse: the motion of a table, with its legs and times, before
 // anything moves.
 //
 //   top speed, acceleration, deceleration, load ──► SlopeTable ──► SlopeMotion: legs, times, distances
 //
-//   speed ^      ___________ top           24 even steps of speed; each lasts as long as the
+//   speed ^      ___________ top           24 equal steps of speed; each lasts as long as the
 //         |    _|           |__            acceleration needs for it, so that the staircase
-//         |  _|                |__         rises by the acceleration asked for
+//         |  _|                |__         rises with the requested acceleration
 //         +-------------------------> time
 #pragma once
 
@@ -16,39 +16,39 @@
 
 namespace motionrack::databoard4002 {
 
-/// How fast the machine goes at a rate: counts for a pulse of FOUT, or counts a second for a volt.
+/// Speed of the machine at a rate: counts for a pulse of FOUT, or counts/s for a volt.
 struct SpeedScale {
     bool analog = false;
-    double counts_per_pulse = 1;  ///< > 0, where the motor follows FOUT
-    double counts_per_volt = 0;   ///< > 0, counts/s, where it follows the voltage
+    double counts_per_pulse = 1;  ///< > 0 if the motor follows FOUT
+    double counts_per_volt = 0;   ///< > 0, counts/s, if the motor follows the voltage
     Trim trim = default_trim;
 
     /// Counts a second at a rate 0 .. 16383.
     double speed(int rate) const;
-    /// The greatest rate that is not faster than that; 0 if even rate 1 is.
+    /// The highest rate whose speed does not exceed the value; 0 if rate 1 is already faster.
     int rate_for(double counts_s) const;
 };
 
-/// What the machine may do; counts and seconds.
+/// Limits of the machine, in counts and seconds.
 struct SlopeDemand {
     double top_speed = 10'000;     ///< counts/s
     double acceleration = 20'000;  ///< counts/s2 of the empty machine
     double deceleration = 20'000;  ///< counts/s2 of the empty machine
-    double load = 0;         ///< >= 0: inertia of the load in units of the empty machine's; makes both ramps longer
-    double creep_speed = 0;  ///< counts/s of the first and last step; 0: a 24th of the top speed
-    double lag_s = 0;  ///< s, >= 0: time constant of the empty machine's speed; braking begins so much earlier, and the
-                       ///< last step lasts four times as much longer
+    double load = 0;               ///< >= 0: inertia of the load relative to the empty machine; makes both ramps longer
+    double creep_speed = 0;        ///< counts/s of the first and last step; 0: 1/24 of the top speed
+    double lag_s = 0;  ///< s, >= 0: time constant of the empty machine's speed; deceleration begins that much earlier,
+                       ///< and the last step lasts four time constants longer
 };
 
-/// Errors: refused, with the number and its limit: not positive or not finite, faster than the card's rates, a creep
-/// speed not below the top speed, ramps longer than 8,388,607 counts.
+/// Errors: refused, with the number and its limit, if a value is not positive or not finite, is faster than the card's
+/// rates, the creep speed is not below the top speed, or a ramp is longer than 8,388,607 counts.
 Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& scale);
 
-/// A stretch at one rate.
+/// A leg at one rate.
 struct SlopeLeg {
     int rate = 0;
     double speed = 0;       ///< counts/s
-    std::int64_t from = 0;  ///< counts travelled
+    std::int64_t from = 0;  ///< counts travelled before it
     std::int64_t to = 0;
     double start_s = 0;
     double duration_s = 0;
@@ -63,12 +63,12 @@ struct SlopeMotion {
     std::int64_t decelerating = 0;  ///< counts after the last one
 };
 
-/// What the card does with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at `rate_limit`, if
-/// the motor follows at once. Errors: refused if an interval that is passed has the speed 0, so that the move would
+/// The motion of the card with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at `rate_limit`,
+/// if the motor follows without delay. Errors: refused if an interval on the way has the speed 0, so the move would
 /// never end.
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale);
 
-/// The motion as lines to draw: two points for each leg. Positions are counts travelled.
+/// The motion as polylines: two points for each leg. Positions are counts travelled.
 struct SlopeSeries {
     std::vector<double> seconds;
     std::vector<float> speed;

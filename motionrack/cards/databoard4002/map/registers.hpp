@@ -1,8 +1,7 @@
-// The DataBoard 4002's ports and words, declared once. What the host reads of EVENT and writes of ENABLE goes through
-// ports.
+// The DataBoard 4002's ports and words, declared once. The host reads EVENT and writes ENABLE through ports.
 //
 //   port     0     1     2    3    4    5    7
-//   OUT      OUT   CS    C1   C2   C3   C4            CS is the bus' own: it chooses a card
+//   OUT      OUT   CS    C1   C2   C3   C4            CS belongs to the bus: it selects a card
 //   INP      INP   STAT                      RST      RST resets all cards
 #pragma once
 

@@ -1,7 +1,7 @@
-// The DataBoard bus: OUT 1 chooses one of up to 32 cards; the others neither answer nor listen.
+// The DataBoard bus: OUT 1 selects one of up to 32 cards; the others ignore all accesses.
 //
-//   host ── OUT 1 ──► chosen number                card 13 ── int ──┐
-//        ── OUT 0, 2..5, INP 0, 1 ──► that card    card 14 ── int ──┴─► BUS.int (1 while any card asks)
+//   host ── OUT 1 ──► selected number               card 13 ── int ──┐
+//        ── OUT 0, 2..5, INP 0, 1 ──► that card    card 14 ── int ──┴─► BUS.int (1 while a card requests)
 //        ◄───────────────────── csb ── that card
 //        ── INP 7 ──► all cards
 #pragma once
@@ -20,10 +20,10 @@ class Bus final : public sim::Device, public sim::ByteDevice {
 
     /// Adds the bus and its wire "<name>.int" to the kernel.
     Bus(sim::Kernel& kernel, const std::string& name);
-    /// Puts a card on the bus under a number of its own, before the kernel starts.
+    /// Puts a card on the bus under a unique number; before the kernel starts.
     void plug(Card& card, std::uint8_t select);
 
-    /// What no card answers reads FFh.
+    /// An unanswered read returns FFh.
     std::uint8_t in(std::uint8_t port) override;
     void out(std::uint8_t port, std::uint8_t value) override;
     std::uint8_t peek(std::uint8_t port) const override;
@@ -39,7 +39,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     struct Slot {
         Card* card = nullptr;
         std::uint8_t select = 0;
-        sim::WireId csb{};  ///< of the card: it is the chosen one
+        sim::WireId csb{};  ///< chip select of the card
     };
     struct State {
         std::int32_t chosen = -1;  ///< the number written to port 1; -1: none yet

@@ -1,4 +1,4 @@
-// Time, ports, resets: what of the card is neither firmware nor hardware at the pins.
+// Card timing, port access and resets.
 #include <algorithm>
 #include <motionrack/cards/databoard4002/model/card.hpp>
 
@@ -43,7 +43,7 @@ void Card::reschedule() {
     kernel_.schedule(id_, next);
 }
 
-/// How the world is at power-up.
+/// State of the inputs at power-up.
 void Card::begin() {
     if (state_.begun) return;
     const Instant now = kernel_.now();
@@ -76,7 +76,7 @@ void Card::watchdog() {
     reset();
 }
 
-/// Power-up, C3, INP 7, watchdog.
+/// Reset by power-up, C3, INP 7 or the watchdog.
 void Card::reset() {
     const Instant now = kernel_.now();
     state_.firmware = Firmware{};

@@ -1,4 +1,4 @@
-// The virtual DataBoard 4002: ports in front, an 8748's firmware behind, exact to the pass (RULES.md).
+// The virtual DataBoard 4002: ports in front, an 8748's firmware behind, exact to the pass of the firmware (RULES.md).
 //
 //          C2, C4, DATA  ┌───────────┐ rate, dir ┌─────────┐ pulses   fout
 //   host ───────────────►│ firmware  ├──────────►│ divider ├────────►
@@ -7,8 +7,8 @@
 //               counter ◄──┘   │   └── stops ◄──────────────────── ems
 //               o1, o2   zero, ref
 //
-// Nothing polls: between two passes that could do anything (an access is due, the counter leaves the interval of the
-// table, a wire changes) nothing happens. A move costs its slope steps, not its counts.
+// The model does not poll. It computes only the passes that can have an effect: an access is due, the counter leaves
+// the interval of the table, or a wire changes. The cost of a move depends on its slope steps, not on its counts.
 #pragma once
 
 #include <array>
@@ -33,30 +33,30 @@ class Card final : public sim::DeferringDevice,
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
 
-    // ---- the bus: the card is chosen here
+    // ---- the bus: valid while the card is selected
     std::uint8_t in(std::uint8_t port) override;
     void out(std::uint8_t port, std::uint8_t value) override;
     std::uint8_t peek(std::uint8_t port) const override;
 
-    // ---- the machine's side
+    // ---- the machine side
     /// FOUT as a position over time: pulses since power-up, signed by SIGN.
     sim::PositionFunction& pulses() { return train_; }
-    /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts.
-    /// Without it the wires o1 and o2 are counted.
+    /// The source that turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel
+    /// starts. Without a source the card counts the wires o1 and o2.
     void connect_encoder(sim::PositionFunction& counts);
-    /// Cuts what is connected off and forces the wires o1 and o2 to the levels that it has (`taken`), or releases them
-    /// and puts it back. In between what the wires are forced to counts.
+    /// Disconnects the source and forces the wires o1 and o2 to its present levels (`taken`), or releases them and
+    /// reconnects it. While disconnected, the card counts the forced levels.
     void take_encoder(bool taken);
 
-    // ---- looking inside
+    // ---- inspection
     /// The counter, -8,388,608 .. 8,388,607.
     std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter(kernel_.now()))); }
     bool moving() const { return state_.firmware.move.on != 0; }
     bool locked() const { return state_.firmware.lock != 0; }
     bool hung() const { return state_.hung != 0; }
-    /// Rate at the output, negative backwards; 0 while standing.
+    /// Rate at the output, negative backwards; 0 at standstill.
     int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
-    /// FOUT in Hz, 0 while no pulses come.
+    /// FOUT in Hz, 0 without pulses.
     double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
     std::uint8_t event_word() const {
         return state_.firmware.pending ? state_.firmware.latched : state_.firmware.event;
@@ -72,8 +72,8 @@ class Card final : public sim::DeferringDevice,
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant now) override { train_.hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
-    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: the input's wire is broken while not 0, so it is
-    /// active.
+    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: while not 0, the input's wire is broken, so the
+    /// input is active.
     bool fault(std::string_view name, double value, Instant now) override;
     static std::span<const std::string_view> fault_names();
 
@@ -93,7 +93,7 @@ class Card final : public sim::DeferringDevice,
         rst_pin,
         interrupt_pin,
         direct_pin,
-        chosen_pin,  // the bus drives it
+        chosen_pin,  // driven by the bus
         pin_count
     };
 

@@ -1,4 +1,4 @@
-// What the firmware does for one access: commands, arguments, answers, event enables.
+// Firmware actions of one access: commands, arguments, answers, event enables.
 #include <algorithm>
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -37,7 +37,7 @@ void Card::open(std::uint8_t code, Collecting collecting) {
     f.argument = 0;
 }
 
-/// Opens the answer `value` of that many bytes; its first byte is in the latch at once.
+/// Begins the answer `value` of that many bytes; the first byte enters the latch at once.
 void Card::open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes) {
     open(code, collecting);
     Firmware& f = state_.firmware;
@@ -46,7 +46,7 @@ void Card::open_answer(std::uint8_t code, Collecting collecting, std::int64_t va
     f.answer_left = static_cast<std::uint8_t>(bytes - 1);
 }
 
-/// The present position becomes 0; the distance that a move has travelled stays.
+/// Sets the present position to 0; the distance travelled in a move is kept.
 void Card::zero_counter(Instant now) {
     state_.firmware.move.start -= counter(now);
     set_counter(0, now);

@@ -1,4 +1,4 @@
-// Sentences for the card's conditions.
+// Messages for the card's conditions.
 #include <fmt/format.h>
 
 #include <motionrack/cards/databoard4002/model/conditions.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-/// A command byte as a person reads it.
+/// A command byte as readable text.
 std::string byte_text(std::int64_t code) {
     return code > 0x20 && code < 0x7F ? fmt::format("'{}'", static_cast<char>(code)) : fmt::format("{:02X}h", code);
 }

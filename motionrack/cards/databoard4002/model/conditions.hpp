@@ -1,4 +1,4 @@
-// What the card reports as conditions, and the sentences.
+// Conditions that the card reports, and their messages.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 namespace motionrack::databoard4002 {
 
 enum class CardCondition : std::uint16_t {
-    access_lost = 1,        ///< a: port, b: the byte written, -1: it was an INP
+    access_lost = 1,        ///< a: port, b: the byte written, or -1 for an INP
     unknown_command = 2,    ///< a: the byte
-    arguments_dropped = 3,  ///< a: the command they were for, b: how many bytes had come
+    arguments_dropped = 3,  ///< a: their command, b: number of bytes received
     data_unexpected = 4,    ///< a: the byte
     during_move = 5,        ///< a: the command
     move_refused = 6,       ///< a: the target, b: the position
@@ -20,7 +20,7 @@ enum class CardCondition : std::uint16_t {
     table_flawed = 9,       ///< a: SlopeFlaw, b: the interval
     position_wrapped = 10,  ///< a: the counter
     rate_exceeded = 11,     ///< a: counts a second
-    counts_lost = 12,       ///< a: how many, signed
+    counts_lost = 12,       ///< a: number of counts, signed
     line_too_quick = 13,    ///< a: 1 or 2 (O1, O2)
     watchdog_reset = 14     ///< the firmware hung
 };

@@ -1,4 +1,4 @@
-// The counter: in closed form behind a motion that is connected as a whole, edge by edge behind the wires o1 and o2.
+// The counter: in closed form for a connected motion, edge by edge for the wires o1 and o2.
 #include <motionrack/cards/databoard4002/model/card.hpp>
 
 namespace motionrack::databoard4002 {
@@ -20,7 +20,7 @@ void Card::set_counter(std::int64_t value, Instant now) {
 }
 
 void Card::watch_counter(std::int64_t below, std::int64_t above) {
-    if (!encoder_) return;  // every counted edge asks for a pass
+    if (!encoder_) return;  // every counted edge requests a pass
     if (state_.counter.frozen || state_.counter.cut)
         encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
     else
@@ -39,7 +39,7 @@ void Card::take_encoder(bool taken) {
     begin();
     const Instant now = kernel_.now();
     const std::int64_t count = encoder_->count(now), value = counter(now);
-    // With up and down pulses both lines are at rest between two of them.
+    // With up and down pulses, both lines are idle between two pulses.
     const unsigned levels = settings_.counting == Counting::quadrature ? sim::lines_of(count) : 0;
     c.count = value;
     c.frozen = 0;
@@ -62,7 +62,7 @@ void Card::take_encoder(bool taken) {
     reschedule();
 }
 
-// ---- the limit of a motion
+// ---- the rate limit of a motion
 
 bool Card::too_quick(double rate) const {
     const double counts = rate < 0 ? -rate : rate;
@@ -111,7 +111,7 @@ void Card::look_at_lines(Instant now) {
     }
 }
 
-/// The line's level is counted; for half a period of the limit it is not looked at then.
+/// Counts the level of the line; for half a period of the rate limit, the line is then ignored.
 void Card::take_line(int line, Instant at) {
     auto& lines = state_.counter.lines;
     const auto before = static_cast<std::uint8_t>(lines[0].taken | lines[1].taken << 1);

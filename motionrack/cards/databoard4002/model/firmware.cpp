@@ -1,4 +1,4 @@
-// One pass of the firmware, and when the next one can matter.
+// One pass of the firmware, and the instant of the next relevant pass.
 #include <algorithm>
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -103,7 +103,8 @@ void Card::note_turn(Instant now) {
     report(CardCondition::position_wrapped, u);
 }
 
-/// Watches the counter for the next place where a pass does something, and asks for the next pass that does so anyway.
+/// Watches the counter for the next position at which a pass has an effect, and requests the next pass that is due
+/// anyway.
 void Card::aim(Instant now) {
     const Firmware& f = state_.firmware;
     if (f.access != Work::none) state_.pass_at = std::min(state_.pass_at, f.access_due);
@@ -112,7 +113,7 @@ void Card::aim(Instant now) {
     if (f.move.on) {
         const Move& move = f.move;
         const std::int64_t to_go = signed24(move.target - u) * move.direction;
-        std::int64_t forward = to_go, back = half_turn - to_go;  // further back the 24-bit difference changes its sign
+        std::int64_t forward = to_go, back = half_turn - to_go;  // beyond it the 24-bit difference changes its sign
         if (move.sloped) {
             const std::int64_t travelled = signed24(u - move.start) * move.direction;
             const SlopeTable::Step slower = move.table.decelerating(to_go);

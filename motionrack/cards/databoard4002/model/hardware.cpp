@@ -1,7 +1,7 @@
 // The pins: inputs, events and zeroing, the gate, the outputs.
 //
 //   rate ─► divider ─► fout            sign: direction of the last move
-//        └► volts ─┬► vdirect          gate: shut while an end stop in this direction is active
+//        └► volts ─┬► vdirect          gate: closed while an end stop in this direction is active
 //                  └► relay ─► vout
 #include <motionrack/cards/databoard4002/model/card.hpp>
 
@@ -9,12 +9,12 @@ namespace motionrack::databoard4002 {
 
 // ---- inputs
 
-/// An opto-isolated input is active without current, so a broken wire is active.
+/// An opto-isolated input is active without current, so a broken wire reads as active.
 bool Card::input(Pin pin, std::uint8_t stat_bit) const {
     return (state_.broken & stat_bit) != 0 || kernel_.level(wires_[pin]) != 0;
 }
 
-/// The STAT bits of the inputs.
+/// STAT bits of the inputs.
 std::uint8_t Card::inputs() const {
     unsigned out = 0;
     if (kernel_.level(wires_[zero_pin]) != 0) out |= stat::ZERO;
@@ -25,7 +25,7 @@ std::uint8_t Card::inputs() const {
     return static_cast<std::uint8_t>(out);
 }
 
-/// A zero pulse that nobody waits for is not asked for, so that an encoder's costs nothing.
+/// A zero pulse is computed only while it is awaited, so an idle encoder costs no time.
 void Card::set_wants() {
     kernel_.subscribe(wires_[zero_pin], id_, (state_.firmware.armed & event::ZERO) != 0);
 }
@@ -72,7 +72,7 @@ bool Card::fault(std::string_view name, double value, Instant now) {
         if (wire.name != name) continue;
         state_.broken = static_cast<std::uint8_t>(value != 0 ? state_.broken | wire.bit : state_.broken & ~wire.bit);
         if (value != 0)
-            kernel_.force(wires_[wire.pin], 1);  // the pin shows it to everything else that listens
+            kernel_.force(wires_[wire.pin], 1);  // the pin shows the forced level to all other listeners
         else
             kernel_.release(wires_[wire.pin]);
         look_at_zero(now);
@@ -136,7 +136,7 @@ bool Card::gate_open() const {
 }
 
 void Card::put_out(Instant now) {
-    show_fout(now);  // a pulse of this very instant has the sign as it was
+    show_fout(now);  // a pulse at this very instant keeps the old sign
     const Firmware& f = state_.firmware;
     const int rate = f.out_rate, direction = f.move.direction;
     const bool driven = rate > 0 && gate_open();
@@ -163,7 +163,7 @@ void Card::wanted_changed(int, bool wanted, Instant now) {
     reschedule();
 }
 
-/// Sets the wire fout, if anybody follows it.
+/// Sets the wire fout while a listener follows it.
 void Card::show_fout(Instant now) {
     if (!state_.fout_wanted || state_.fout_at > now) return;
     kernel_.set_wire(wires_[fout_pin], train_.level(now));

@@ -1,4 +1,4 @@
-// What is set on the card by straps, by its trimming and by the version of its program.
+// Settings of the card by straps, by its trimming and by its firmware version.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace motionrack::databoard4002 {
 
-/// How O1 and O2 are counted.
+/// Counting method of O1 and O2.
 enum class Counting : std::int32_t {
     up_down,    ///< method 1, straps J and K: O1 down pulses, O2 up pulses
     quadrature  ///< method 2, straps A to H
@@ -17,15 +17,15 @@ enum class Counting : std::int32_t {
 
 struct Settings {
     std::int32_t pass_ticks = 1;               ///< one pass of the firmware, in ticks of 2.5 us, 1 .. 4,000
-    Duration byte_time = microseconds(100);    ///< the firmware's time for an access, 2.5 us .. 100 ms
-    std::uint8_t version = 0x20;               ///< what V answers
+    Duration byte_time = microseconds(100);    ///< firmware time for an access, 2.5 us .. 100 ms
+    std::uint8_t version = 0x20;               ///< answer to V
     bool zeroing = true;                       ///< enabling the zero or reference event arms the counter's zeroing
-    bool quit_zeroes = true;                   ///< Q zeroes what P and N have set
+    bool quit_zeroes = true;                   ///< Q zeroes the values set by P and N
     Counting counting = Counting::quadrature;  ///< strap field
-    sim::Edges folding = sim::Edges::all;      ///< method 2: 4, 2 or 1 counts for a period of the encoder
+    sim::Edges folding = sim::Edges::all;      ///< method 2: 4, 2 or 1 counts per encoder period
     std::int32_t first_pair = 0;  ///< method 2: the strap pair 0 A-B, 1 C-D, 2 E-F, 3 G-H; with folding 2: 0 or 1
-    bool single_ended = false;    ///< limit 50 kHz a line instead of 100 kHz
-    Trim trim = default_trim;     ///< of the frequency/voltage converter
+    bool single_ended = false;    ///< limit of 50 kHz per line instead of 100 kHz
+    Trim trim = default_trim;     ///< trim of the frequency/voltage converter
 };
 
 /// Errors: refused, with the setting, its value and its range.

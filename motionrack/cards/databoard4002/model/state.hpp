@@ -1,4 +1,4 @@
-// All that the card remembers; a trivially copyable whole, so that a snapshot is an assignment.
+// The complete state of the card; trivially copyable, so a snapshot is one assignment.
 #pragma once
 
 #include <array>
@@ -16,15 +16,15 @@ inline constexpr Duration tick = Duration{25'000};  ///< one period of the 400 k
 inline constexpr Duration watchdog_time = whole_seconds(1);
 inline constexpr Duration reset_pulse = microseconds(10);
 
-/// An access that the firmware has not worked on yet.
+/// An access that the firmware has not processed yet.
 enum class Work : std::uint8_t { none, in_data, out_data, command, enables };
 
-/// What the next access to DATA means.
+/// Meaning of the next access to DATA.
 enum class Collecting : std::uint8_t { idle, either, collecting, answering };
 
 struct Move {
     std::int64_t target = 0;  ///< -8,388,608 .. 8,388,607
-    std::int64_t start = 0;   ///< of the counter
+    std::int64_t start = 0;   ///< start of the move by the counter
     std::int32_t direction = 1;
     std::uint8_t on = 0;
     std::uint8_t sloped = 0;
@@ -32,53 +32,53 @@ struct Move {
     SlopeTable table;
 };
 
-/// What a reset clears.
+/// The part of the state that a reset clears.
 struct Firmware {
     // handshake and collector
     std::uint8_t ready = 1;
     Work access = Work::none;
     std::uint8_t access_value = 0;
-    std::uint8_t latch = 0;  ///< what INP DATA gives
+    std::uint8_t latch = 0;  ///< value that INP DATA returns
     Collecting collecting = Collecting::idle;
     std::uint8_t collector = 0;    ///< the command whose arguments or answer are open
-    std::uint8_t answer_left = 0;  ///< bytes still to be put into the latch
+    std::uint8_t answer_left = 0;  ///< bytes that still have to enter the latch
     std::uint8_t reserved0 = 0;
-    std::int32_t collected = 0;  ///< argument bytes so far
+    std::int32_t collected = 0;  ///< argument bytes received
     std::uint32_t argument = 0;
-    std::uint32_t answer = 0;  ///< what is left of it
+    std::uint32_t answer = 0;  ///< remaining part of the answer
     std::int32_t reserved1 = 0;
     Instant access_due = never;
     // registers
     std::int64_t target = 0, number = 0, window = 0, requested = 0;
     std::int32_t rate = 0;
-    std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G has been done
+    std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G was executed
     SlopeTable table;
     Move move;
     // events
     std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
     std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
                  stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
-    // what the last pass put out
+    // outputs of the last pass
     std::int32_t out_rate = 0;
     std::int32_t reserved2 = 0;
-    std::int64_t turn = 0;  ///< in which interval of 2^24 counts the counter was
+    std::int64_t turn = 0;  ///< index of the counter's interval of 2^24 counts
 };
 
 /// A line O1 or O2 that is driven as a wire.
 struct Line {
-    std::uint8_t taken = 0;     ///< the level as counted
-    std::uint8_t raw = 0;       ///< the wire's
-    std::uint16_t changes = 0;  ///< since the line was last taken
+    std::uint8_t taken = 0;     ///< the counted level
+    std::uint8_t raw = 0;       ///< the level of the wire
+    std::uint16_t changes = 0;  ///< changes since the line was last counted
     std::uint32_t reserved = 0;
-    Instant free_at{};  ///< from here on it is looked at again
+    Instant free_at{};  ///< the line is evaluated again from here on
 };
 
 struct CounterState {
-    sim::ClosedFormCounter closed;  ///< behind a motion
-    std::int64_t count = 0;         ///< behind wires; or while frozen
-    std::int64_t frozen_from = 0;   ///< the motion's count when it became too quick
+    sim::ClosedFormCounter closed;  ///< count of a connected motion
+    std::int64_t count = 0;         ///< count of the wires, or while frozen
+    std::int64_t frozen_from = 0;   ///< count of the motion when it exceeded the rate limit
     std::uint32_t frozen = 0;
-    std::uint32_t cut = 0;  ///< the motion is cut off, the wires are counted instead
+    std::uint32_t cut = 0;  ///< the motion is disconnected; the wires are counted instead
     std::array<Line, 2> lines{};
 };
 
@@ -86,7 +86,7 @@ struct State {
     Firmware firmware;
     CounterState counter;
     sim::PulseTrainState train;
-    Instant pass_at = never;      ///< the next pass that may do something
+    Instant pass_at = never;      ///< the next pass that can have an effect
     Instant watchdog_at = never;  ///< the firmware hangs until then
     Instant reset_pulse_end = never;
     Instant fout_at = never;  ///< the next edge of the followed wire fout
