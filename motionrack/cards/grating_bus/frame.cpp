@@ -1,4 +1,4 @@
-// The frame's CRC and comparisons.
+// CRC and comparisons of frames.
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace motionrack::grating_bus {
 
 namespace {
 
-/// Appends the low `bytes` bytes of `value`, the low one first.
+/// Appends the low `bytes` bytes of `value`, low byte first.
 std::uint8_t* put(std::uint8_t* at, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) *at++ = static_cast<std::uint8_t>(value >> (8 * i));
     return at;

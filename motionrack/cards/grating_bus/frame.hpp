@@ -1,9 +1,9 @@
-// The frame: what all cards of a grating bus hold of one instant, and how long it takes to read it.
+// The frame: the scale positions of one instant, as all cards of a grating bus hold them, and its reading time.
 //
 //   0          4        12   14          15        19
 //   +----------+--------+----+-----------+---------+---- - -+----------+
-//   | sequence | time   | N  | address 0 | count 0 |        | CRC-32   |   low bytes first
-//   +----------+--------+----+-----------+---------+---- - -+----------+   the CRC is that of all bytes before it
+//   | sequence | time   | N  | address 0 | count 0 |        | CRC-32   |   low byte first
+//   +----------+--------+----+-----------+---------+---- - -+----------+   the CRC covers all bytes before it
 #pragma once
 
 #include <array>
@@ -16,49 +16,49 @@
 
 namespace motionrack::grating_bus {
 
-inline constexpr int max_scales = 128;  ///< seven lines of addr
+inline constexpr int max_scales = 128;  ///< the seven lines of addr
 
-/// Positions of one instant. Trivially copyable; counts and addresses beyond `words` mean nothing.
+/// Positions of one instant. Trivially copyable; counts and addresses beyond `words` are undefined.
 struct Frame {
-    std::int64_t time = 0;       ///< of HOLD, ticks of 0.1 ns since the start of the card
-    std::uint32_t sequence = 0;  ///< counts the periods of the bus, wraps
-    std::uint32_t crc = 0;       ///< as the card computed it
+    std::int64_t time = 0;       ///< instant of HOLD, ticks of 0.1 ns since the start of the card
+    std::uint32_t sequence = 0;  ///< counts the periods of the bus, wraps around
+    std::uint32_t crc = 0;       ///< as computed by the card
     std::uint32_t words = 0;     ///< N, 1 .. 128
-    std::uint32_t reserved = 0;  ///< always 0: there is no padding
+    std::uint32_t reserved = 0;  ///< always 0; avoids padding
     std::array<std::uint32_t, max_scales> counts{};
-    std::array<std::uint8_t, max_scales> addresses{};  ///< of the scale that each word is of, 0 .. 127
+    std::array<std::uint8_t, max_scales> addresses{};  ///< address of the scale of each word, 0 .. 127
 
     Instant instant() const { return Instant{time}; }
     std::span<const std::uint32_t> positions() const { return {counts.data(), words}; }
 };
 
-/// CRC-32 of a frame's content.
+/// CRC-32 of the content of a frame.
 std::uint32_t crc_of(const Frame& frame);
-/// Whether the CRC is that of the content, there are 1 to 128 words, and each has an address of 0 to 127.
+/// True if the CRC matches the content, there are 1 to 128 words, and each address is 0 to 127.
 bool sound(const Frame& frame);
-/// Same content, sequence and time included.
+/// True if the contents are equal, including sequence and time.
 bool same(const Frame& a, const Frame& b);
-/// The word of the scale with this address; nothing if the frame has none of it.
+/// The word of the scale with this address; empty if the frame does not contain it.
 std::optional<std::uint32_t> word_of(const Frame& frame, std::uint64_t address);
 
-/// `now`, extended to 64 bits: the count next to `before` that has these low 32 bits. Right while a scale moves less
+/// Extends `now` to 64 bits: the count nearest to `before` that has these low 32 bits. Correct while a scale moves less
 /// than 2^31 counts between two frames.
 constexpr std::int64_t unwrapped(std::int64_t before, std::uint32_t now) {
     return before + static_cast<std::int32_t>(now - static_cast<std::uint32_t>(before));
 }
 
-/// The waits of the host's sequence and the logic's clock.
+/// Waits of the host's sequence, and the clock of its logic.
 struct Timing {
-    Duration t1 = nanoseconds(20);  ///< the decoder latches; S1, S7
-    Duration t2 = nanoseconds(30);  ///< address to stable data; S2, S8
-    Duration t3 = nanoseconds(30);  ///< the data is latched; S3, S9
+    Duration t1 = nanoseconds(20);  ///< the decoder latches (S1, S7)
+    Duration t2 = nanoseconds(30);  ///< address to stable data (S2, S8)
+    Duration t3 = nanoseconds(30);  ///< the data is latched (S3, S9)
     Duration clock = nanoseconds(10);
 
-    /// From one word's sample to the next one's.
+    /// Time from the sample of one word to that of the next.
     constexpr Duration word_time() const { return t1 + t2 + t3 + 3 * clock; }
-    /// From entering S1 to re-entering S0 with `words` (1 .. 128) scales.
+    /// Time from entering S1 to re-entering S0 with `words` (1 .. 128) scales.
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
-    /// From entering S1 to the sample of word `k`.
+    /// Time from entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
     friend constexpr bool operator==(const Timing&, const Timing&) = default;
 };

@@ -1,11 +1,11 @@
-// The grating bus' registers, states and pins as constants; model, driver, documents and tests read them here.
+// The grating bus' registers, states and pins as constants, shared by model, driver, documents and tests.
 //
 // The motion card's processor reads its logic through a 16-bit interface (the source's processor has one beside its
 // 64-bit one). The source names no registers; the map is the project's own. Offsets are byte offsets; values of more
 // than 16 bits are several registers, _L the low one.
 //
-//   00h .. 1Fh   the card: role, state, what to do
-//   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
+//   00h .. 1Fh   the card: role, state, control
+//   20h .. 3Fh   error counters; each is 16 bits and stays at FFFFh
 //   40h .. 4Fh   the claimed frame: sequence, time, N, CRC
 //  100h .. 2FEh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
 //  300h .. 3FEh  the claimed frame: address of the scale of its word k at 300h + 2k
@@ -125,15 +125,15 @@ inline constexpr PinInfo pins[] = {
 };
 static_assert(declared<pins_flaw(pins)>());
 
-// ---- connector P2: what the source prints of it
+// ---- connector P2, as printed in the source
 
-/// A pin of connector P2. The source's scan has broken characters; readings are guesses.
+/// A pin of connector P2. The source's scan has broken characters, so the readings are guesses.
 struct ConnectorPin {
-    std::string_view printed;  ///< as the scan has it
+    std::string_view printed;  ///< text of the scan
     std::string_view likely;   ///< the likeliest reading
-    std::string_view or_else;  ///< another reading; empty: none is near
-    std::string_view line;     ///< of the bus; which address line has which pin is not stated
-    std::string_view doubt;    ///< why the reading is a guess
+    std::string_view or_else;  ///< another reading; empty: no similar one
+    std::string_view line;     ///< the bus line; the source does not assign pins to address lines
+    std::string_view doubt;    ///< reason why the reading is a guess
 };
 inline constexpr ConnectorPin connector_pins[] = {
     {"F2E12", "P2C12", "P2E12", "clk", "F for P; a VME connector of three rows has no row E"},
@@ -151,8 +151,8 @@ struct SignalLevels {
     std::string_view side;
     std::string_view family;
     double supply_v;
-    double max_low_in_v;   ///< an input takes what is below as low
-    double min_high_in_v;  ///< and what is above as high
+    double max_low_in_v;   ///< an input reads a lower voltage as low
+    double min_high_in_v;  ///< and a higher voltage as high
 };
 inline constexpr SignalLevels signal_levels[] = {
     {"bus, connector P2", "TTL", 5.0, 0.8, 2.0},
@@ -197,7 +197,7 @@ consteval std::array<PinName, 2 * max_scales> scale_pin_names() {
     return out;
 }
 inline constexpr std::array<PinName, 2 * max_scales> scale_pins = scale_pin_names();
-/// Of each scale.
+/// Pins of each scale.
 inline constexpr PinInfo decoder_pins[] = {
     {"a*", PinDirection::input, false, "scale n, line A"},
     {"b*", PinDirection::input, false, "scale n, line B"},
@@ -221,14 +221,14 @@ inline constexpr std::uint16_t signature = 0x4742;
 inline constexpr std::uint16_t decoder_signature = 0x4744;
 inline constexpr int output_count = 4;  ///< analog outputs of a motion card
 
-/// A register's offset by its name; names that are not declared do not compile.
+/// Offset of a register by its name; undeclared names do not compile.
 consteval std::uint32_t offset(std::string_view name) {
     return register_named(map::registers, name).offset;
 }
 consteval std::uint32_t decoder_offset(std::string_view name) {
     return register_named(map::decoder_registers, name).offset;
 }
-/// Offset of the first count, of a motion card and of a decoder.
+/// Offset of the first count of a motion card and of a decoder.
 inline constexpr std::uint32_t counts_at = offset("COUNT_L");
 static_assert(decoder_offset("COUNT_L") == counts_at);
 /// Offset of the first address of the claimed frame.

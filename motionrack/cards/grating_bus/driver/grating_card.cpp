@@ -1,4 +1,4 @@
-// Register accesses, one a statement.
+// Register accesses, one per statement.
 #include <fmt/format.h>
 
 #include <motionrack/cards/grating_bus/driver/grating_card.hpp>

@@ -1,9 +1,9 @@
-// The function library of a motion card on a grating bus: what the processor's program calls to have the positions of
-// one instant. It knows the card only by a register port, so it cannot tell a virtual card from a real one.
+// The function library of a motion card on a grating bus: the processor's program calls it to read the positions of one
+// instant. It accesses the card only through a register port, so it works with a virtual card as with a real one.
 //
 //   wait: FRAME? ─► CLAIM ─► header, counts, CRC ─► RELEASE ─► Reading
 //
-// The claimed buffer is not written by the card, so a reading is never torn, whatever time it takes.
+// The card does not write the claimed buffer, so a reading is never torn, however long it takes.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace motionrack::grating_bus {
 
-/// How a card is set, as its registers say.
+/// Configuration of a card, as its registers report it.
 struct CardInfo {
     bool host = false;
     bool checks = false;
@@ -28,9 +28,9 @@ struct CardInfo {
     std::span<const std::uint8_t> addresses() const { return {list.data(), static_cast<std::size_t>(scales)}; }
 };
 
-/// What went wrong on the bus since the last clear_errors(), each at most 65,535.
+/// Bus errors since the last clear_errors(), each at most 65,535.
 struct CardErrors {
-    std::uint16_t broken = 0;  ///< frames that were not published
+    std::uint16_t broken = 0;  ///< unpublished frames
     std::uint16_t missed_words = 0;
     std::uint16_t alien = 0;
     std::uint16_t lines = 0;
@@ -43,7 +43,7 @@ struct Reading {
     Frame frame;
     std::array<std::int64_t, max_scales> positions{};  ///< counts, extended beyond 32 bits from reading to reading
     std::span<const std::int64_t> counts() const { return {positions.data(), frame.words}; }
-    /// Address of the scale of each word, 0 .. 127: those that the host addressed.
+    /// Address of the scale of each word, 0 .. 127, as the host addressed them.
     std::span<const std::uint8_t> addresses() const { return {frame.addresses.data(), frame.words}; }
 };
 
@@ -51,20 +51,20 @@ class GratingCard {
   public:
     GratingCard(RegisterPort& port, Interrupt& interrupt) : port_(port), interrupt_(interrupt) {}
 
-    /// Looks whether such a card answers. Errors: refused, with what answered.
+    /// Checks that a motion card answers. Errors: refused, with the answer.
     Result<CardInfo> open();
 
-    /// The frame published last. Errors: refused if there is none yet, if it is stale (two periods old), or if its CRC
-    /// is wrong; the last positions are kept.
+    /// Reads the frame published last. Errors: refused if there is none yet, if it is stale (two periods old), or if
+    /// its CRC is wrong; the last positions are kept.
     Result<Reading> read();
-    /// Waits for a frame that was not read yet, and reads it. Errors: refused after `timeout`, stopped where the user
-    /// asked to stop, and those of read().
+    /// Waits for an unread frame and reads it. Errors: refused after `timeout`, stopped if the user requested a stop,
+    /// and those of read().
     Result<Reading> wait(Duration timeout);
-    /// From now on the scale with the address `n` (0 .. 127) counts from `count` on where the next reading's low 32
-    /// bits allow it.
+    /// Sets the 64-bit count of the scale with the address `n` (0 .. 127) near `count`; the low 32 bits come from the
+    /// next reading.
     void set_position(int n, std::int64_t count) { before_[static_cast<std::size_t>(n)] = count; }
 
-    /// Of the frame read last, the address of the scale of each word; empty before the first.
+    /// Address of the scale of each word of the frame read last; empty before the first frame.
     std::span<const std::uint8_t> addresses() const { return {addresses_.data(), words_}; }
 
     bool stale();
@@ -77,7 +77,7 @@ class GratingCard {
 
     RegisterPort& port_;
     Interrupt& interrupt_;
-    std::array<std::int64_t, max_scales> before_{};  // of each scale by its address
+    std::array<std::int64_t, max_scales> before_{};  // count of each scale by its address
     std::array<std::uint8_t, max_scales> addresses_{};
     std::uint32_t words_ = 0;
 };

@@ -1,4 +1,4 @@
-// State by state: the order of an instant.
+// Processing of one instant, state by state.
 #include <algorithm>
 #include <bit>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
@@ -7,7 +7,7 @@ namespace motionrack::grating_bus {
 
 namespace {
 
-/// The line of a wire of one or more bits, and the bits of it that the wire shows.
+/// The line of a wire of one or more bits, and the bits of the line that the wire shows.
 struct Part {
     Line line;
     std::uint32_t mask;
@@ -16,7 +16,7 @@ struct Part {
 
 constexpr Part part_of(int pin) {
     if (pin < Bus::vector_pins) return {static_cast<Line>(pin), bits_of(static_cast<Line>(pin)), 0};
-    if (pin == Bus::conflict_pin) return {Line::clk, 0, 0};  // of no line
+    if (pin == Bus::conflict_pin) return {Line::clk, 0, 0};  // belongs to no line
     const bool of_addr = pin < Bus::data_pins;
     const Line line = of_addr ? Line::addr : Line::data;
     const int bit = pin - (of_addr ? Bus::addr_pins : Bus::data_pins);
@@ -88,7 +88,7 @@ void Bus::on_scheduled(Instant now) {
     schedule();
 }
 
-// 1. samples, 2. drives, 3. edges: what follows from each within the same instant.
+// 1. samples, 2. outputs, 3. edges: the consequences of each within the same instant.
 void Bus::step(Instant now) {
     if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->state_.pulse_at == now && regular())
         return begin_span(now);
@@ -103,7 +103,7 @@ void Bus::settle(Instant now) {
     if (give_addresses()) drive();
     if (state_.lines.level(Line::clk) != 0 && state_.clk_was == 0) {
         for (Card* card : cards_) card->clock_rose(now);
-        drive();  // what was in reset may drive again
+        drive();  // a card that was in reset may drive again
     }
     state_.clk_was = state_.lines.level(Line::clk);
     for (std::size_t i = 0; i < decoders_.size(); ++i) decoders_[i]->follow(state_.lines, decoder_driver_[i], now);
@@ -114,7 +114,7 @@ void Bus::settle(Instant now) {
         state_.told |= 1u << i;
         const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
         const int high = std::countr_zero(conflict.high);
-        const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one may drive both, bit by bit
+        const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one driver may do both, bit by bit
         kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
                        high * max_drivers + std::countr_zero(others != 0 ? others : conflict.low));
     }
@@ -191,7 +191,7 @@ void Bus::wanted(bool is_wanted, Instant now) {
     state_.wanted = is_wanted ? state_.wanted + 1 : state_.wanted - 1;
 }
 
-// A bit that is held wins over its whole line.
+// A forced bit takes precedence over its whole line.
 void Bus::forced_changed(int changed, bool, int, Instant now) {
     if (changed == conflict_pin) return;
     interrupt_span(now);

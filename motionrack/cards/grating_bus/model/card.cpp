@@ -1,4 +1,4 @@
-// Building, wires, faults.
+// Construction, wires and faults.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
@@ -58,7 +58,7 @@ void Card::count(Counter which, std::uint32_t by) {
 
 // ---- reset and faults
 
-// Buffers, what is claimed, and how old it is outlive it.
+// The buffers, the claim and the frame age survive a reset.
 void Card::reset() {
     if (state_.buffers.begun()) state_.buffers.abandon();
     Data begun;

@@ -1,8 +1,8 @@
-// The motion card: the logic that reads frames, two buffers, and the registers through which the processor reads them.
+// The motion card: the logic that reads frames, two buffers, and the registers of the processor.
 //
 //   bus ◄── shifters ──► [ sequence S0 .. S12 ] ──► [ A | B ] ──claim──► registers ──► processor
 //
-// A card does nothing by itself: the bus steps it, or, while the bus runs as it should, tells it of whole frames.
+// The bus steps the card, or, in undisturbed operation, passes whole frames to it.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@ namespace motionrack::grating_bus {
 class Bus;
 class Card;
 
-/// Counts of all scales of a decoder, by their addresses.
+/// Counts of all scales of a decoder, by address.
 using Latched = std::array<std::uint32_t, max_scales>;
 
-/// Which addresses a frame has.
+/// Set of the addresses in a frame.
 class TakenAddresses {
   public:
-    /// Whether the frame did not have it yet.
+    /// Adds an address; returns true if it was not in the set.
     bool add(std::uint32_t address) {
         std::uint32_t& word = bits_[address / 32];
         const std::uint32_t bit = 1u << address % 32;
@@ -39,10 +39,10 @@ class TakenAddresses {
     std::array<std::uint32_t, max_scales / 32> bits_{};
 };
 
-/// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.
+/// Delay of pulse `n` of a host with this seed, 0 .. most; the same on every machine.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
 
-/// Hears of every frame of a card; what it does there runs in virtual time.
+/// Listener for every frame of a card; it runs in virtual time.
 class FrameListener {
   public:
     virtual ~FrameListener() = default;
@@ -54,8 +54,8 @@ class FrameListener {
 
 class Card final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the card, its wires "<name>.<pin>" and itself to the bus, before the kernel starts. `settings` must pass
-    /// check().
+    /// Adds the card and its wires "<name>.<pin>" to the kernel, and plugs it into the bus; before the kernel starts.
+    /// `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings = {});
 
     // ---- the processor's interface: offsets of the map
@@ -63,28 +63,28 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
 
-    // ---- looking inside
+    // ---- inspection
     const CardSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return int_wire_; }
     bool is_host() const { return settings_.role == Role::host; }
     bool is_remote() const { return settings_.role == Role::remote; }
-    /// What was published last; nullptr: nothing yet, or it is being overwritten.
+    /// The frame published last; nullptr: none yet, or it is being overwritten.
     const Frame* last() const { return state_.buffers.last(); }
     bool stale() const { return state_.stale != 0; }
-    /// From when on the frame published last ages: its time, of a remote card the instant at which it came.
+    /// Instant from which the frame published last ages: its time; on a remote card, its arrival.
     Instant held_since() const { return state_.held_since; }
     bool off() const { return state_.off != 0; }
     Moment moment() const;
-    /// Frames published, bad frames, and what else was counted.
+    /// Counters of published frames, bad frames and errors.
     std::uint32_t frames() const { return state_.frames; }
     enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
     std::uint16_t counter(Counter which) const { return state_.counters[which]; }
 
-    /// Of a remote card, between two runs of the kernel: a frame of its bus has come. A frame whose CRC or number of
-    /// scales is wrong is a bad one.
+    /// Delivers a frame of another crate's bus to a remote card, between two runs of the kernel. A frame with a wrong
+    /// CRC or a wrong number of scales is bad.
     void take(const Frame& frame, Instant now);
-    /// The processor puts an analog output (0 .. 3) to `microvolts`, +-10 V at most.
+    /// Sets the analog output (0 .. 3) to `microvolts`, +-10 V at most.
     void put_out(int output, int microvolts);
 
     void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
@@ -103,41 +103,40 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         sim::PingPong<Frame> buffers;
         // the sequence
         State fsm = State::S0;
-        std::uint8_t bad = 0;      // of the frame under way: bits of BadFrame
-        std::uint8_t was_bad = 0;  // the last frame was, and was told of
+        std::uint8_t bad = 0;      // bits of BadFrame of the present frame
+        std::uint8_t was_bad = 0;  // the last frame was bad and was reported
         std::uint8_t stale = 1;
         std::int32_t word = 0;
         Instant state_ends = never;
-        Instant starts = never;  // a late slave
+        Instant starts = never;  // start of a late slave
         Instant frame_time{};
         std::uint32_t frame_sequence = 0;
         // pulses and edges
-        std::uint32_t sequence = 0;  // of the last one
+        std::uint32_t sequence = 0;  // of the last pulse
         Instant last_edge{-1};       // -1: none yet
-        std::int64_t pulse = 0;      // host: number of the next one
+        std::int64_t pulse = 0;      // host: number of the next pulse
         Instant pulse_at = never;
-        Instant fall_at = never;  // of its clk
-        // what it drives through its shifters
+        Instant fall_at = never;  // instant at which its clk falls
+        // outputs through the shifters
         std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
-        std::uint32_t quiet = 0;  // in reset: drives nothing
+        std::uint32_t quiet = 0;  // in reset: all outputs are off
         std::uint32_t off = 0;
         Instant stale_at = never;
-        Instant held_since{};  // the frame published last: its time, of a remote card when it came
+        Instant held_since{};  // age origin of the frame published last: its time; on a remote card, its arrival
         std::uint32_t published_sequence = 0;
-        std::uint32_t any = 0;       // one was published
-        std::uint32_t bad_word = 0;  // the word under way was counted as bad
-        std::uint32_t asks = 0;      // a host pulls READ low and has not yet looked at it
-        std::uint16_t other =
-            0;  // of the frame under way: 1 + the first word whose scale is not that of the card's list
-        std::uint16_t was_other = 0;  // of the frame published last
-        TakenAddresses taken;         // by a slave's frame under way
+        std::uint32_t any = 0;       // a frame was published
+        std::uint32_t bad_word = 0;  // the present word was counted as bad
+        std::uint32_t asks = 0;      // a host has pulled READ low and not yet sampled it
+        std::uint16_t other = 0;     // 1 + the first word of the present frame whose scale differs from the card's list
+        std::uint16_t was_other = 0;  // the same of the frame published last
+        TakenAddresses taken;         // addresses in the present frame of a slave
         // counters
         std::uint32_t frames = 0;
         std::array<std::uint16_t, counter_count> counters{};
         std::uint32_t told_overrun = 0;
         std::uint32_t fresh = 0;  // STATUS.FRAME
         // faults
-        std::uint32_t miss = 0;  // edges that are not seen
+        std::uint32_t miss = 0;  // number of edges to miss
         Duration late{};
         Duration jitter{};
     };
@@ -145,7 +144,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     static_assert(std::has_unique_object_representations_v<Data>, "padding would get into the state's hash");
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
-    /// The next instant at which anything of this card is due.
+    /// Next instant at which the card is due.
     Instant next() const;
 
     // sequence.cpp: called by the bus, in this order at one instant
@@ -158,22 +157,22 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void tell_begin(Instant now) {
         for (FrameListener* listener : listeners_) listener->began(*this, now);
     }
-    /// A pulse or an edge: sequence and what was missed.
+    /// Updates the sequence number and the missed edges at a pulse or an edge.
     void note_edge(Instant now);
     void begin_frame(Instant now);
     void put_words(const Latched& latched, int words);
     void publish(Instant now, const Frame* like);
-    /// The frame under way was bad: nobody gets it. `why`: bits of BadFrame.
+    /// Drops the present frame as bad. `why`: bits of BadFrame.
     void give_up(std::uint32_t sequence, std::uint8_t why);
-    /// The current buffer is whole, and its age counts from `since`.
+    /// Publishes the current buffer; its age counts from `since`.
     void hand_out(Instant now, Instant since);
-    /// Takes up a frame that began at `start` where it is at `now`.
+    /// Continues a frame that began at `start` from its state at `now`.
     void take_up(Instant start, const Latched& latched, Instant now);
 
     void enter(State state, Instant now);
     void pulse(Instant now);
     void next_pulse();
-    /// Where the next pulse is without jitter.
+    /// Instant of the next pulse without jitter.
     Instant grid() const { return settings_.offset + state_.pulse * settings_.period; }
     void spoil(Counter why, std::uint8_t bad);
     void overrun_edge();

@@ -1,4 +1,4 @@
-// Sentences for the conditions of cards and bus.
+// Messages for the conditions of cards and bus.
 #include <fmt/format.h>
 
 #include <motionrack/cards/grating_bus/map.hpp>

@@ -1,4 +1,4 @@
-// What the cards and their bus report as conditions, and the sentences.
+// Conditions that the cards and their bus report, and their messages.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@ namespace motionrack::grating_bus {
 enum class BusCondition : std::uint16_t {
     wrong_direction = 1,  ///< a: 1 host, 0 slave, b: bit 0 the clock's shifter drives, bit 1 the address'
     bad_frame = 2,        ///< a: sequence, b: bits of BadFrame
-    missed_edges = 3,     ///< a: how many, b: sequence
+    missed_edges = 3,     ///< a: number of edges, b: sequence
     overrun = 4,          ///< a: sequence; once until CLEAR_ERRORS
     stale = 5,            ///< a: sequence of the frame published last, -1: none yet, b: its time, 0.1 ns
-    conflict = 6,         ///< by the bus, once a line; a: Line, b: numbers of two drivers, high * max_drivers + low
-    no_register = 7,      ///< a: the offset, b: the word written, -1: it was a read
+    conflict = 6,         ///< by the bus, once per line; a: Line, b: numbers of two drivers, high * max_drivers + low
+    no_register = 7,      ///< a: the offset, b: the word written, or -1 for a read
     other_scale = 8       ///< a: the word, b: the address on the bus * 256 + that of the card's own list
 };
 
-/// What was wrong with a frame, a bit each.
+/// Reasons for a bad frame, one bit each.
 enum BadFrame : std::uint8_t {
     bad_missed = 1,  ///< words with read_n high
-    bad_alien = 2,   ///< another address than the expected one
+    bad_alien = 2,   ///< another address than expected
     bad_lines = 4,   ///< clk, hold or read_n at a wrong level
-    bad_content = 8  ///< from outside: its CRC, or the number of scales
+    bad_content = 8  ///< remote frames: wrong CRC or number of scales
 };
 
 /// "card c1: at 0.012 s ...". `card`: its name.
 std::string describe(const sim::Condition& condition, std::string_view card);
 class Bus;
-/// Of the bus' own: "bus: at 0.012 s ...".
+/// The same for conditions of the bus: "bus: at 0.012 s ...".
 std::string describe(const sim::Condition& condition, const Bus& bus);
 
 }  // namespace motionrack::grating_bus

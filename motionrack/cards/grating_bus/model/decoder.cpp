@@ -1,4 +1,4 @@
-// Latching and putting out.
+// Latching and output of counts.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/decoder.hpp>
@@ -32,7 +32,7 @@ void Decoder::latch(Instant now) {
     for (int n = 0; n < settings_.scales; ++n) state_.latched[static_cast<std::size_t>(n)] = count(n, now);
 }
 
-/// When the addressed count comes out.
+/// Instant at which the addressed count is output.
 void Decoder::ask(Instant now) {
     const Instant from = state_.frozen != 0 ? std::max(state_.asked, state_.valid) : state_.asked;
     state_.output = answers(state_.addr) ? std::max(now, from + settings_.output) : never;

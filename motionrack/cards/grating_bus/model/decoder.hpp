@@ -1,9 +1,9 @@
-// The decoder card: counts scales, freezes all of them at an instant, and puts one after the other on the bus.
+// The decoder card: counts scales, freezes all counts at an instant, and outputs them one by one on the bus.
 //
 //   scale 0 ──► [ count ] ──hold──► [ latch ]──┐
 //   scale 1 ──► [ count ] ──hold──► [ latch ]──┼── addr, read_n ──► data
 //
-// A scale is a Motion as a whole, or the lines a<n> and b<n> as wires.
+// A scale is a connected Motion, or the wires a<n> and b<n>.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ class Bus;
 
 class Decoder final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the card, its wires NAME.a0, NAME.b0 .. and itself to the bus, before the kernel starts. `settings` must
-    /// pass check().
+    /// Adds the card and its wires NAME.a0, NAME.b0 .. to the kernel, and plugs it into the bus; before the kernel
+    /// starts. `settings` must pass check().
     Decoder(sim::Kernel& kernel, const std::string& name, Bus& bus, const DecoderSettings& settings = {});
 
-    /// Scale `n` counts what this one counts; nullptr: the wires a<n> and b<n>.
+    /// Connects scale `n` to this source; nullptr: to the wires a<n> and b<n>.
     void connect(int n, sim::PositionFunction* scale) { scales_[static_cast<std::size_t>(n)] = scale; }
-    /// The count of scale `n` (0 .. scales - 1) now, not wrapped.
+    /// Present count of scale `n` (0 .. scales - 1), unwrapped.
     std::int64_t position(int n, Instant now) const;
     std::uint32_t count(int n, Instant now) const { return static_cast<std::uint32_t>(position(n, now)); }
 
@@ -38,7 +38,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
 
     const DecoderSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
-    /// It has no interrupt: always 1.
+    /// Always 1: the decoder has no interrupt.
     sim::WireId interrupt_wire() const { return int_wire_; }
 
     void on_scheduled(Instant) override {}
@@ -50,14 +50,14 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     friend class Bus;
     struct State {
         std::array<std::uint32_t, max_scales> latched{};
-        std::uint32_t out = 0;  // what it drives, or drove last
+        std::uint32_t out = 0;  // present or last output
         std::uint32_t no_latch = 0;
-        std::uint32_t high = 0;                                          // high word kept by a read of a low one
-        std::uint32_t frozen = 0;                                        // a latch is being held
-        Instant valid{};                                                 // when the latch became, or becomes, valid
-        Instant asked{};                                                 // when read_n fell or addr changed last
-        Instant output = never;                                          // when the addressed count comes out
-        std::uint32_t hold = 0, read_n = 1, addr = rest_of(Line::addr);  // as it reacted to them last
+        std::uint32_t high = 0;    // high word latched by a read of a low word
+        std::uint32_t frozen = 0;  // a latch is held
+        Instant valid{};           // instant at which the latch became, or becomes, valid
+        Instant asked{};           // instant of the last fall of read_n or change of addr
+        Instant output = never;    // instant at which the addressed count is output
+        std::uint32_t hold = 0, read_n = 1, addr = rest_of(Line::addr);  // levels at the last reaction
         std::uint32_t reserved = 0;
         std::uint32_t lines[max_scales] = {};  // bit 0: A, bit 1: B
         std::array<sim::QuadratureDecoder, max_scales> counters;
@@ -65,9 +65,9 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
     bool answers(std::uint32_t addr) const { return addr < static_cast<std::uint32_t>(settings_.scales); }
-    /// All scales of a frame at one instant.
+    /// Latches all scales of a frame at one instant.
     void latch(Instant now);
-    /// Follows hold, read_n and addr.
+    /// Reacts to hold, read_n and addr.
     void follow(Lines& lines, int driver, Instant now);
     void ask(Instant now);
     bool is_count(std::uint32_t at) const {

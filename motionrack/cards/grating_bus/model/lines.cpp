@@ -38,7 +38,8 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
         in_conflict_ &= ~bit;
         return 0;
     }
-    const bool again = (in_conflict_ & bit) == 0 && ended_now(i, now);  // at this instant: the same one
+    const bool again =
+        (in_conflict_ & bit) == 0 && ended_now(i, now);  // a conflict that ended at this instant continues
     const bool begins = (in_conflict_ & bit) == 0 && !again;
     in_conflict_ |= bit;
     if (again) list_[open_[i] % slots].end = never;
@@ -71,7 +72,7 @@ void Lines::end_conflict(std::size_t i, Instant now) {
         conflict.end = now;
         return;
     }
-    // Of no length: none. Those that began after it, at this instant too, move up.
+    // A conflict of no length is removed. Later conflicts, also those of this instant, move up.
     for (std::uint64_t n = open_[i] + 1; n < count_; ++n) {
         list_[(n - 1) % slots] = list_[n % slots];
         open_[list_[n % slots].line] = n - 1;

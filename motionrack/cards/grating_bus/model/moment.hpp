@@ -1,5 +1,5 @@
-// Where the sequence of a card is so long after it entered S1: what nobody needs to step through can be told from the
-// time alone.
+// State of a card's sequence at a time after it entered S1. It depends on that time only, so unobserved states need no
+// stepping.
 #pragma once
 
 #include <motionrack/cards/grating_bus/map.hpp>
@@ -11,10 +11,10 @@ namespace motionrack::grating_bus {
 struct Moment {
     State state = State::S0;
     int word = 0;
-    Duration until{};  ///< since S1 was entered: when the state ends; nothing in S0
+    Duration until{};  ///< time from entering S1 to the end of the state; 0 in S0
 };
 
-/// How long a card stays in a state; S0 has no end.
+/// Duration of a state; S0 has no end.
 constexpr Duration time_in(const Timing& timing, State state) {
     switch (state) {
         case State::S1:
@@ -31,7 +31,7 @@ constexpr Duration time_in(const Timing& timing, State state) {
     }
 }
 
-/// The state after `state` with `left` words not read yet; the state machine of the map.
+/// Next state after `state` with `left` words unread, by the state machine of the map.
 constexpr State after(State state, bool words_left) {
     switch (state) {
         case State::S4:
@@ -47,7 +47,7 @@ constexpr State after(State state, bool words_left) {
     }
 }
 
-/// `elapsed` >= 0 since S1 was entered, in a frame of `words`.
+/// Computes the state at `elapsed` >= 0 after entering S1, in a frame of `words`.
 constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
     const Duration word_time = timing.word_time();
     const auto word = static_cast<int>(elapsed / word_time);
@@ -63,7 +63,7 @@ constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
     return {state, word, until};
 }
 
-/// What a host has on its lines in a state.
+/// Levels that a host drives in a state.
 struct Outputs {
     std::uint32_t hold, read_n, addr;
 };

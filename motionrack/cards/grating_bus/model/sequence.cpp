@@ -1,4 +1,4 @@
-// The sequence S0 .. S12 of a card, step by step, and what comes of a frame.
+// The sequence S0 .. S12 of a card, step by step, and the end of a frame.
 #include <algorithm>
 #include <motionrack/base/hash_bits.hpp>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
@@ -48,12 +48,12 @@ void Card::sample(const Lines& lines, Instant now) {
     if (is_host() ? address != wanted : !state_.taken.add(address)) return spoil(alien, bad_alien);
     if (line_wrong) spoil(line_faults, bad_lines);
     if (address == wanted) return;
-    // A slave takes what the host addresses; that its own list has another scale there is counted.
+    // A slave takes the words that the host addresses, and counts a scale that differs from its own list.
     count(alien);
     if (state_.other == 0) state_.other = static_cast<std::uint16_t>(1 + state_.word);
 }
 
-/// The word that is being read is no good; it is counted once.
+/// Counts the present word as bad, once.
 void Card::spoil(Counter why, std::uint8_t bad) {
     if (state_.bad_word == 0) count(why);
     state_.bad_word = 1;
@@ -61,7 +61,7 @@ void Card::spoil(Counter why, std::uint8_t bad) {
 }
 
 void Card::advance(Instant now) {
-    if (state_.off != 0) {  // pulses keep their grid
+    if (state_.off != 0) {  // pulses keep their period
         if (state_.pulse_at == now) next_pulse();
         return check_stale(now);
     }
@@ -95,7 +95,7 @@ void Card::pulse(Instant now) {
     begin(now);
 }
 
-/// The instant of pulse number `pulse`.
+/// Instant of pulse number `pulse`.
 void Card::next_pulse() {
     ++state_.pulse;
     state_.pulse_at = grid() + Duration{scatter(settings_.seed, state_.pulse, state_.jitter.count())};
@@ -161,7 +161,7 @@ void Card::enter(State state, Instant now) {
         case State::S2:
         case State::S8:
             state_.read_n = 0;
-            state_.asks = 1;  // the address comes when READ is seen low: Bus::give_addresses
+            state_.asks = 1;  // the address follows when READ is sampled low: Bus::give_addresses
             break;
         case State::S4:
         case State::S10:
@@ -193,7 +193,7 @@ void Card::drive(Lines& lines, int driver) const {
 
 // ---- frames
 
-/// The first `words` words from what the decoder has latched.
+/// Takes the first `words` words from the decoder's latch.
 void Card::put_words(const Latched& latched, int words) {
     for (int k = 0; k < words; ++k) {
         const auto address = static_cast<std::uint32_t>(settings_.address(k));
@@ -202,7 +202,7 @@ void Card::put_words(const Latched& latched, int words) {
     }
 }
 
-/// `like`: a frame with the same counts whose CRC is known; may be nullptr.
+/// `like`: a frame with the same counts and a known CRC, or nullptr.
 void Card::publish(Instant now, const Frame* like) {
     if (state_.bad != 0) return give_up(state_.frame_sequence, state_.bad);
     Frame& frame = state_.buffers.current();

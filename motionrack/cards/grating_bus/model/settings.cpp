@@ -1,4 +1,4 @@
-// Ranges of the settings, and what does not fit together.
+// Ranges and consistency of the settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ Result<void> within(const char* name, int value, int least, int most) {
 
 constexpr Duration min_wait{1}, max_wait = microseconds(6);
 
-/// Each address in range and only once.
+/// Checks that each address is in range and unique.
 Result<void> check_list(const std::vector<int>& addresses) {
     if (addresses.size() > max_scales)
         return fail(ErrorKind::invalid_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
@@ -42,7 +42,7 @@ Result<void> check_list(const std::vector<int>& addresses) {
     return {};
 }
 
-/// The scales of a card in a sentence.
+/// The scales of a card as a phrase.
 std::string scales_text(const CardSettings& card) {
     if (!card.addresses.empty()) return fmt::format("the scales {}", fmt::join(card.addresses, ", "));
     return fmt::format("the scales {} to {}", card.first, card.first + card.scales - 1);

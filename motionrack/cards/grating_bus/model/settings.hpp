@@ -1,4 +1,4 @@
-// How the cards of a grating bus are set.
+// Settings of the cards of a grating bus.
 #pragma once
 
 #include <cstdint>
@@ -10,29 +10,29 @@
 
 namespace motionrack::grating_bus {
 
-/// remote: a slave whose bus is in another crate: its frames come from outside (Card::take).
+/// remote: a slave whose bus is in another crate; its frames arrive through Card::take.
 enum class Role : std::uint8_t { host, slave, remote };
-/// Which way a level shifter works; as_role: out on a host, in on a slave.
+/// Direction of a level shifter; as_role: out on a host, in on a slave.
 enum class Shifter : std::uint8_t { as_role, out, in };
 
-/// Of a motion card.
+/// Settings of a motion card.
 struct CardSettings {
     Role role = Role::slave;
-    int scales = 4;                       ///< N, 1 .. 128: scales of a frame
-    int first = 0;                        ///< 0 .. 128 - N: address of the first one, without a list
-    std::vector<int> addresses;           ///< the list: 0 .. 127 each, N of them, each once; empty: from `first` on
-    Timing timing;                        ///< waits and clock, 0.1 ns .. 6 us each
-    Duration period = microseconds(200);  ///< of the frames, 1 us .. 100 ms
-    Duration offset{0};                   ///< host: its first pulse, 0 .. period
-    Shifter clock_shifter = Shifter::as_role;    ///< of clk, hold and read_n
-    Shifter address_shifter = Shifter::as_role;  ///< of addr
-    bool checks = true;                          ///< frames whose lines are not as they should be are not published
-    std::uint32_t seed = 1;                      ///< of jitter
+    int scales = 4;              ///< N, 1 .. 128: scales in a frame
+    int first = 0;               ///< 0 .. 128 - N: address of the first scale, without a list
+    std::vector<int> addresses;  ///< the list: N different addresses, 0 .. 127; empty: consecutive from `first`
+    Timing timing;               ///< waits and clock, 0.1 ns .. 6 us each
+    Duration period = microseconds(200);         ///< frame period, 1 us .. 100 ms
+    Duration offset{0};                          ///< host: instant of its first pulse, 0 .. period
+    Shifter clock_shifter = Shifter::as_role;    ///< direction for clk, hold and read_n
+    Shifter address_shifter = Shifter::as_role;  ///< direction for addr
+    bool checks = true;                          ///< frames with wrong line levels are not published
+    std::uint32_t seed = 1;                      ///< seed of the jitter
 
-    /// Of the scale of word `k` (0 .. N - 1).
+    /// Address of the scale of word `k` (0 .. N - 1).
     int address(int k) const { return addresses.empty() ? first + k : addresses[static_cast<std::size_t>(k)]; }
     bool same_list(const CardSettings& other) const;
-    /// The greatest address of the list.
+    /// Highest address of the list.
     int last_address() const;
 
     bool clock_out() const {
@@ -46,22 +46,22 @@ struct CardSettings {
     }
 };
 
-/// Of a decoder card.
+/// Settings of a decoder card.
 struct DecoderSettings {
     int scales = 4;                     ///< 1 .. 128
     Duration latch = nanoseconds(10);   ///< from HOLD to valid counts, 0 .. 6 us
     Duration output = nanoseconds(20);  ///< from the address to valid data, 0.1 ns .. 6 us
 };
 
-/// The addresses of a list as a rack file has it: "5, 2, 9". Errors: invalid_input with what is wrong: no list of whole
-/// numbers with commas between them, an address beyond 127, more than 128 of them, one that is there twice.
+/// Parses the addresses in a rack file: "5, 2, 9". Errors: invalid_input if the text is not a comma-separated list of
+/// whole numbers, an address is beyond 127 or occurs twice, or the list has more than 128 addresses.
 Result<std::vector<int>> addresses_from_text(std::string_view text);
 
-/// Errors: refused, with the setting, its value and its range; so is a frame that does not fit into its period, with
-/// its time.
+/// Errors: refused, with the setting, its value and its range; also if a frame does not fit into its period, with its
+/// time.
 Result<void> check(const CardSettings& settings);
 Result<void> check(const DecoderSettings& settings);
-/// Whether a card can read its scales from this decoder in its waits. Errors: refused, with the numbers.
+/// Checks that a card can read its scales from this decoder within its waits. Errors: refused, with the numbers.
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder);
 
 }  // namespace motionrack::grating_bus

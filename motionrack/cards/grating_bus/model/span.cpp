@@ -4,7 +4,7 @@
 
 namespace motionrack::grating_bus {
 
-/// Whether a frame that begins now would go as it should, and nobody watches it go.
+/// True if a frame that begins now is undisturbed and unobserved.
 bool Bus::regular() const {
     if (!alike_ || state_.wanted != 0 || state_.lines.any_forced() || decoders_[0]->state_.no_latch != 0) return false;
     for (const Card* card : cards_) {
@@ -52,7 +52,7 @@ void Bus::publish_span(Instant now) {
 Bus::Output Bus::span_output(Instant now) const {
     const Decoder& decoder = *decoders_[0];
     const Timing& timing = host().timing;
-    const Instant first = state_.start + timing.t1 + decoder.settings().output;  // of word 0
+    const Instant first = state_.start + timing.t1 + decoder.settings().output;  // instant of word 0
     if (now < first) return {decoder.state_.out, first};
     const auto words = std::min<std::int64_t>(host().scales, (now - first) / timing.word_time() + 1);
     const std::uint32_t out =
@@ -78,7 +78,7 @@ void Bus::interrupt_span(Instant now) {
     const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host());
     decoder.state_.out = output.out;
     decoder.state_.valid = state_.start + decoder.settings().latch;
-    const Duration since = std::max(Duration{0}, now - state_.start - host().timing.t1);  // the first address
+    const Duration since = std::max(Duration{0}, now - state_.start - host().timing.t1);  // since the first address
     const std::int64_t word = std::min<std::int64_t>(since / host().timing.word_time(), host().scales - 1);
     decoder.state_.asked = state_.start + host().timing.t1 + word * host().timing.word_time();
     const bool owes = lines.read_n == 0 && output.next == decoder.state_.asked + decoder.settings().output;
