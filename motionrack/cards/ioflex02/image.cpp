@@ -1,4 +1,4 @@
-// Making, compressing and unpacking configuration images.
+// Creation, compression and unpacking of configuration images.
 #include <fmt/format.h>
 #include <zlib.h>
 

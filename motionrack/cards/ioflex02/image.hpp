@@ -1,13 +1,13 @@
-// The configuration image of the array: what Init unpacks and feeds to the card.
+// The configuration image of the array, which Init unpacks and writes to the card.
 //
 //   0        8                 24     25   28       32       36
 //   +--------+-----------------+------+----+--------+--------+-------------- - -
-//   | magic  | project's name  |ident | 0  | length | CRC-32 | payload
+//   | magic  | project name    |ident | 0  | length | CRC-32 | payload
 //   +--------+-----------------+------+----+--------+--------+-------------- - -
 //
-// Numbers have their low byte first; the length is the payload's; the CRC-32 is that of bytes 0 to 31 and the payload.
-// A project called "position" begins its payload with the words MODE of the four axes. In a file or a program an image
-// is compressed as a zlib stream (RFC 1950).
+// Numbers are stored low byte first; the length is that of the payload; the CRC-32 covers bytes 0 to 31 and the
+// payload. The payload of a project called "position" begins with the words MODE of the four axes. In a file or a
+// program an image is compressed as a zlib stream (RFC 1950).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr std::size_t image_header = 36;
 inline constexpr std::size_t min_payload = 2 * axis_count;
 inline constexpr std::size_t max_payload = 128 * 1024;
 inline constexpr std::string_view position_project = "position";
-inline constexpr std::uint8_t position_ident = 0x25;  ///< the version that Flex2Pos expects
+inline constexpr std::uint8_t position_ident = 0x25;  ///< version that Flex2Pos expects
 
 struct ImageContent {
     std::string project{position_project};  ///< up to 16 characters
@@ -35,44 +35,44 @@ struct ImageContent {
     std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(min_payload);
 };
 
-/// Header and payload, not compressed. Errors: refused, if the name or the payload is too long or the payload too
+/// Header and payload, uncompressed. Errors: refused, if the name or the payload is too long or the payload is too
 /// short.
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content);
-/// The image compressed, as files have it.
+/// Compresses an image for files.
 std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw);
-/// The reverse. Errors: invalid_input, if it is no whole zlib stream, is damaged, or unpacks to more than the greatest
-/// image.
+/// Unpacks an image. Errors: invalid_input if the zlib stream is incomplete or damaged, or unpacks to more than the
+/// largest image.
 Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file);
 
-/// What an image says of itself.
+/// Information in the header of an image.
 struct ImageInfo {
-    std::string project;  ///< without the zeros that fill it up
+    std::string project;  ///< without the padding zeros
     std::uint8_t ident = 0;
     std::uint32_t payload = 0;  ///< bytes
     std::uint32_t crc = 0;
-    std::array<std::uint16_t, axis_count> modes{};  ///< words MODE of the axes, where the project is "position"
+    std::array<std::uint16_t, axis_count> modes{};  ///< words MODE of the axes if the project is "position"
     bool position() const { return project == position_project; }
 };
-/// Of an image that is not compressed. Errors: invalid_input, with what the card would refuse it for.
+/// Reads the header of an uncompressed image. Errors: invalid_input, with the reason for which the card would refuse
+/// it.
 Result<ImageInfo> inspect(std::span<const std::uint8_t> raw);
 
-/// Whether it is one that Flex2Pos works with. Errors: invalid_input (another project or version: Flex_ErrProject).
+/// Checks that Flex2Pos supports the image. Errors: invalid_input (another project or version: Flex_ErrProject).
 Result<void> check_project(const ImageInfo& info);
 
-/// Bytes as a rack file has them: two hexadecimal digits each.
+/// Formats bytes for a rack file: two hexadecimal digits each.
 std::string hex_text(std::span<const std::uint8_t> bytes);
-/// The reverse. Errors: invalid_input.
+/// Parses such bytes. Errors: invalid_input.
 Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text);
-inline constexpr std::size_t max_image_file = 132'000;  ///< bytes of a compressed image, with room to spare
+inline constexpr std::size_t max_image_file = 132'000;  ///< maximum bytes of a compressed image, with a margin
 
-/// The image that is built into the library: project "position", its axes counting as `modes` say (words MODE).
-/// Compressed.
+/// The built-in image, compressed: project "position", with the counting modes `modes` (words MODE) of its axes.
 std::vector<std::uint8_t> position_image(const std::array<std::uint16_t, axis_count>& modes = {});
 
-/// CRC-32 (IEEE 802.3) of more bytes; begin with 0.
+/// Continues the CRC-32 (IEEE 802.3) over more bytes; begin with 0.
 std::uint32_t crc32_of(std::uint32_t before, const std::uint8_t* bytes, std::size_t size);
 
-/// A header's fields, as they are in its bytes.
+/// Fields of a header, in their byte form.
 struct ImageHeader {
     std::array<std::uint8_t, image_header> bytes{};
     bool ours() const;

@@ -1,5 +1,5 @@
-// The IOFLEX02's registers, commands, states and pins as constants; model, driver, documents and tests read them here.
-// The tables are in map/.
+// The IOFLEX02's registers, commands, states and pins as constants, shared by model, driver, documents and tests. The
+// tables are in map/.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -11,14 +11,14 @@
 namespace motionrack::ioflex02 {
 
 inline constexpr int axis_count = 4;
-inline constexpr Duration sample_time = nanoseconds(100);  ///< the lines are looked at so often
+inline constexpr Duration sample_time = nanoseconds(100);  ///< sampling period of the lines
 inline constexpr Duration time_tick = nanoseconds(1'200);  ///< one count of the time
 inline constexpr std::uint32_t mask_24 = 0xFFFFFF;
-inline constexpr std::uint32_t window = 0x100;  ///< bytes of the bus that a card answers in
+inline constexpr std::uint32_t window = 0x100;  ///< size of a card's address window on the bus, bytes
 inline constexpr std::uint16_t signature = 0x4F49;
-inline constexpr std::uint16_t nobody = 0xFFFF;  ///< what no card or no project answers
+inline constexpr std::uint16_t nobody = 0xFFFF;  ///< answer without a card or a project
 
-/// A register's offset by its name; names that are not declared do not compile.
+/// Offset of a register by its name; undeclared names do not compile.
 consteval std::uint32_t offset(std::string_view name) {
     return register_named(map::registers, name).offset;
 }

@@ -1,4 +1,4 @@
-// From counts of edges and index pulses to findings.
+// Encoder diagnosis from edge and index counts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ void EncoderCheck::look_at_lines(const AxisDetail& now, std::vector<Finding>& ou
 
 // ---- index
 
-/// How far `to` is from the nearest place of the grid through `from`.
+/// Distance from `to` to the nearest point of the grid through `from`.
 std::int64_t EncoderCheck::off_grid(std::int64_t from, std::int64_t to) const {
     const std::int64_t rest = std::llabs(to - from) % settings_.counts_per_index;
     return std::min(rest, settings_.counts_per_index - rest);
@@ -59,7 +59,7 @@ void EncoderCheck::index_came(std::int64_t at, std::vector<Finding>& out) {
     }
     const bool fits = off_grid(index_, at) <= settings_.tolerance;
     if (!doubtful_known_ && !fits) {
-        doubtful_known_ = true;  // the next index tells whether this one was extra
+        doubtful_known_ = true;  // the next index decides whether this one was extra
         doubtful_ = at;
         return;
     }
@@ -76,7 +76,7 @@ void EncoderCheck::index_came(std::int64_t at, std::vector<Finding>& out) {
 void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& out) {
     const std::int64_t turn = settings_.counts_per_index, came = modulo_16(now.indexes, last_.indexes);
     if (turn <= 0) return;
-    // Without an index a turn and an eighth are waited for.
+    // Without an index, waits for one and an eighth revolutions.
     const std::int64_t here = came > 0 ? now.index_at : now.at.raw,
                        patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
     const auto passed = [&] { return std::max<std::int64_t>(0, std::llabs(here - index_) - patience) / turn; };
@@ -94,7 +94,7 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
     if (came > 0) index_came(here, out);
 }
 
-// ---- looks
+// ---- polls
 
 std::vector<Finding> EncoderCheck::look(const AxisDetail& now) {
     std::vector<Finding> out;
@@ -123,7 +123,7 @@ std::vector<Finding> EncoderCheck::check_move(const AxisDetail& before, const Ax
     return out;
 }
 
-// ---- sentences
+// ---- messages
 
 std::string describe(const Finding& f, const AxisDetail& now, const std::string& axis) {
     const std::int64_t from = now.position_of(f.from), to = now.position_of(f.to);

@@ -1,12 +1,11 @@
-// What is wrong with an encoder, which line, and where: from the card's counts of edges, index pulses and illegal
+// Diagnosis of encoder faults, with line and position, from the card's counts of edges, index pulses and illegal
 // transitions.
 //
 //   index    |        |        |     |          |          a grid of counts_per_index
 //                              ^ extra          ^ counts lost: one or more lines are dirty between the two
 //
-// Looks must come often enough that an axis makes less than 65,536 edges between two of them; an index pulse is placed
-// best when there is not more than one between two looks. Places are raw counts (AxisDetail::position_of makes
-// positions of them).
+// Requires polls at intervals in which an axis makes less than 65,536 edges. An index pulse is located best with at
+// most one pulse between two polls. Positions are raw counts (AxisDetail::position_of converts them).
 #pragma once
 
 #include <cstdint>
@@ -17,43 +16,42 @@
 namespace motionrack::ioflex02 {
 
 enum class EncoderFault : std::uint8_t {
-    illegal,         ///< A and B changed at once `number` times, the last time at `to`
-    line_a_missing,  ///< A stood still while B changed `number` times, between `from` and `to`
-    line_b_missing,  ///< B stood still while A changed
-    index_missing,   ///< `number` index pulses did not come between `from` and `to`
-    index_extra,     ///< an index pulse at `to` that is not one of the grid
-    counts_lost,     ///< from one index pulse to the next there are `number` counts too few
+    illegal,         ///< A and B changed simultaneously `number` times, last at `to`
+    line_a_missing,  ///< A was constant while B changed `number` times, between `from` and `to`
+    line_b_missing,  ///< B was constant while A changed
+    index_missing,   ///< `number` index pulses were missing between `from` and `to`
+    index_extra,     ///< an index pulse at `to` outside the grid
+    counts_lost,     ///< `number` counts too few from one index pulse to the next
     counts_extra,    ///< `number` counts too many
-    backwards,       ///< it counted against the move: A and B are swapped, or one of them is inverted
-    too_many_edges   ///< `number` edges more than the counts of the move need: noise
+    backwards,       ///< counted against the move: A and B are swapped, or one of them is inverted
+    too_many_edges   ///< `number` edges more than the move's counts need: noise
 };
 
 struct Finding {
     EncoderFault fault{};
     std::int64_t number = 0;
-    std::int64_t from = 0;  ///< places, raw counts
+    std::int64_t from = 0;  ///< positions, raw counts
     std::int64_t to = 0;
 };
 
-/// A sentence; places are told as positions of `now`. `axis`: its name.
+/// Message of a finding; positions are given as axis positions of `now`. `axis`: its name.
 std::string describe(const Finding& finding, const AxisDetail& now, const std::string& axis);
 
 struct EncoderCheckSettings {
-    std::int64_t counts_per_index =
-        0;                       ///< counts from one index pulse to the next, >= 0; 0: the index is not looked at
-    std::int64_t tolerance = 1;  ///< counts, >= 0, that an index pulse may be off its grid
+    std::int64_t counts_per_index = 0;  ///< counts from one index pulse to the next, >= 0; 0: the index is ignored
+    std::int64_t tolerance = 1;         ///< counts, >= 0: maximum distance of an index pulse from its grid
     int edges_alone =
-        64;  ///< > 0: edges of one line while the other stands still, or more than a move needs, until that is a fault
+        64;  ///< > 0: fault threshold for edges of one line while the other is constant, or beyond the need of a move
 };
 
 class EncoderCheck {
   public:
     explicit EncoderCheck(const EncoderCheckSettings& settings = {}) : settings_(settings) {}
 
-    /// What has come to light since the look before; the first look only begins.
+    /// Returns the findings since the last poll; the first poll only initialises.
     std::vector<Finding> look(const AxisDetail& now);
-    /// After a move in one direction of about `counts` counts (signed, more than 8) from `before` to `now`: did it
-    /// count that way, with hardly more edges than it needs?
+    /// Checks a move in one direction of about `counts` counts (signed, more than 8) from `before` to `now`: the
+    /// direction of counting, and the number of surplus edges.
     std::vector<Finding> check_move(const AxisDetail& before, const AxisDetail& now, std::int64_t counts) const;
 
   private:
@@ -67,13 +65,13 @@ class EncoderCheck {
     bool begun_ = false;
     AxisDetail last_;
     // lines
-    std::int64_t a_alone_ = 0, b_alone_ = 0;  // edges of one line since the last one of the other
+    std::int64_t a_alone_ = 0, b_alone_ = 0;  // edges of one line since the last edge of the other
     std::int64_t alone_from_ = 0;
     bool told_alone_ = false;
     // index
     bool index_known_ = false, doubtful_known_ = false;
-    std::int64_t index_ = 0;     // place of the last good one, or of one that should have been
-    std::int64_t doubtful_ = 0;  // an index off the grid: extra, or counts were lost before it
+    std::int64_t index_ = 0;     // position of the last good or expected index pulse
+    std::int64_t doubtful_ = 0;  // an index off the grid: extra, or preceded by lost counts
 };
 
 }  // namespace motionrack::ioflex02

@@ -1,4 +1,4 @@
-// Finding the card and loading its array.
+// Detection of the card and configuration of its array.
 #include <fmt/format.h>
 
 #include <motionrack/cards/ioflex02/driver/flex02.hpp>

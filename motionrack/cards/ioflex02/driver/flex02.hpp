@@ -1,5 +1,5 @@
 // The card's configuration object, the source's tIOFlex02: loads the array with an image, drives the outputs, reads the
-// inputs. It knows the card only by a register port, so it cannot tell a virtual card from a real one.
+// inputs. It accesses the card only through a register port, so it works with a virtual card as with a real one.
 //
 //   Init: base address      Configure:
 //   signature? ─► one card? ─► unpack ─► CONFIGURE, DATA .. DATA, END ─► RUNNING? ─► Result
@@ -17,19 +17,19 @@
 
 namespace motionrack::ioflex02 {
 
-/// Outcomes of Init; the source names them, the numbers are chosen.
+/// Results of Init; the names are the source's, the numbers are chosen here.
 enum FlexResult : int {
     Flex_Ok = 0,      ///< the array is configured
-    Flex_ErrCfg = 1,  ///< configuration failed: the image is cut short, damaged or foreign, or the array did not start
-    Flex_ErrDevice = 2,  ///< no card at the address, or two
-    Flex_ErrProject = 3  ///< the array runs, but another project or version
+    Flex_ErrCfg = 1,  ///< configuration failed: the image is truncated, damaged or foreign, or the array did not start
+    Flex_ErrDevice = 2,  ///< no card at the address, or two cards
+    Flex_ErrProject = 3  ///< the array runs another project or version
 };
 
 struct FlexSettings {
-    Duration start_timeout = whole_seconds(10);  ///< > 0: longest wait for the configured array
-    Duration poll = milliseconds(10);            ///< > 0: between two looks at STATUS
-    std::uint8_t ident = position_ident;         ///< the project version that is expected
-    std::vector<std::uint8_t> image = {};        ///< compressed; empty: the image that is built in
+    Duration start_timeout = whole_seconds(10);  ///< > 0: maximum wait for the configured array
+    Duration poll = milliseconds(10);            ///< > 0: interval between two reads of STATUS
+    std::uint8_t ident = position_ident;         ///< expected project version
+    std::vector<std::uint8_t> image = {};        ///< compressed; empty: the built-in image
 };
 
 class Flex02 {
@@ -39,25 +39,25 @@ class Flex02 {
     Flex02(const Flex02&) = delete;
     Flex02& operator=(const Flex02&) = delete;
 
-    /// What the last Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing is
-    /// written, and every read gives 0.
+    /// FlexResult of the last Configure; Flex_ErrDevice before the first. Unless it is Flex_Ok, nothing is written and
+    /// every read returns 0.
     int Result = Flex_ErrDevice;
-    /// The sentence to Result; empty if it is Flex_Ok.
+    /// Message of Result; empty if Result is Flex_Ok.
     const std::string& why() const { return why_; }
     bool ok() const { return Result == Flex_Ok; }
 
-    /// Sets the base address and nothing else, as the source's constructor does; Configure comes next.
+    /// Sets only the base address, like the source's constructor; call Configure next.
     virtual void Init(std::uint16_t Addr);
-    /// Looks whether one card answers at the base address, loads its array with a compressed image and checks its
+    /// Checks that exactly one card answers at the base address, loads its array with a compressed image and checks its
     /// project. Takes seconds. Sets Result.
     virtual void Configure(std::span<const std::uint8_t> image);
-    /// The image that Flex2Pos::Init loads from now on; empty: the one that is built in.
+    /// The image that Flex2Pos::Init loads; empty: the built-in one.
     void use_image(std::vector<std::uint8_t> image) { settings_.image = std::move(image); }
     std::uint16_t base_address() const { return base_; }
 
     /// Version of the project in the array.
     std::uint8_t GetIdent();
-    /// Low and high 8 outputs of X5. X7 is not driven by the project "position".
+    /// Low and high 8 outputs of X5. The project "position" does not drive X7.
     void WriteOutL(std::uint8_t Data);
     void WriteOutH(std::uint8_t Data);
     /// Low and high 8 of the 16 inputs: A, B, Z, Cal of axes 0 and 1 from bit 0 on, and of axes 2 and 3.
@@ -68,7 +68,7 @@ class Flex02 {
     std::uint16_t get(std::uint32_t at);
     void put(std::uint32_t at, std::uint16_t value);
     const std::vector<std::uint8_t>& own_image() const { return settings_.image; }
-    /// Both halves of a 24-bit value, without sign.
+    /// Both halves of a 24-bit value, unsigned.
     std::uint32_t get24(std::uint32_t low);
     Instant now() const { return interrupt_.now(); }
     void pass(Duration duration) { interrupt_.pass(duration); }

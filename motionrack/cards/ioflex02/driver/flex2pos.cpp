@@ -1,4 +1,4 @@
-// The source's functions, and readings that are carried on beyond 24 bits.
+// The source's functions, and readings extended beyond 24 bits.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ void Flex2Pos::Configure(std::span<const std::uint8_t> image) {
     forget();
 }
 
-/// The card's counters are at 0, or nearly so: what was carried on begins with what they have.
+/// The card's counters are at or near 0: the extended values begin with them.
 void Flex2Pos::forget() {
     ticks_ = 0;
     last_time_ = 0;
@@ -44,9 +44,9 @@ void Flex2Pos::forget() {
     host_then_ = now();
 }
 
-// ---- carrying on
+// ---- extension beyond 24 bits
 
-/// The host's clock says only how often the counter went round.
+/// The host's clock only determines how often the counter wrapped.
 std::int64_t Flex2Pos::carry_time(std::uint32_t time, bool cleared) {
     const std::int64_t gone = (static_cast<std::int64_t>(time) - last_time_) & mask_24;
     const Instant host = now();
@@ -169,7 +169,7 @@ void Flex2Pos::ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIO
     Sts3 = field("STS", "CAL3").test(word) ? sCal : sNotCal;
 }
 
-// ---- one layer up
+// ---- extended interface
 
 void Flex2Pos::calibrate(const std::array<tIOFlexCmd, axis_count>& commands) {
     WriteCmd(commands[0], commands[1], commands[2], commands[3]);

@@ -1,4 +1,4 @@
-// The two estimates and their bounds.
+// The two velocity estimates and their error bounds.
 #include <algorithm>
 #include <motionrack/cards/ioflex02/driver/speed.hpp>
 
@@ -7,11 +7,11 @@ namespace motionrack::ioflex02 {
 namespace {
 
 const double tick_s = to_seconds(time_tick);
-/// How far the length of a stretch may be off: a tick, and a sample.
+/// Error of an interval's length: one tick and one sample.
 const double stretch_error_s = to_seconds(time_tick + sample_time);
 
-/// `counts` +- `off` over `ticks` ticks, of which as much as above may be missing. Not known if nothing of them is
-/// sure.
+/// Mean velocity of `counts` +- `off` between the ticks `from` and `to`; the interval may be shorter by
+/// `stretch_error_s`. Unknown if the interval is not longer than that.
 SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int64_t to) {
     SpeedEstimate out;
     const double length = static_cast<double>(to - from) * tick_s;
@@ -26,7 +26,7 @@ SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int6
     return out;
 }
 
-/// The place of the edge that made the last count: between two counts.
+/// Position of the edge of the last count: between two counts.
 std::int64_t place_of(const AxisReading& axis) {
     return axis.raw + (axis.down ? 1 : 0);
 }
@@ -34,13 +34,13 @@ std::int64_t place_of(const AxisReading& axis) {
 }  // namespace
 
 SpeedEstimate SpeedMeter::difference(const AxisReading& axis, std::int64_t ticks) const {
-    // Both readings are somewhere within their count.
+    // Each reading may be anywhere within its count.
     return mean(axis.raw - raw_, 1 + 2 * edge_error_, ticks_, ticks);
 }
 
-/// No edge since the last one: less than a count in all that time.
+/// No edge since the last one: less than one count in all that time.
 SpeedEstimate SpeedMeter::silence(const AxisReading& axis, std::int64_t ticks) const {
-    // "None yet" looks as old as can be; sure is only what was seen.
+    // "None yet" reports the maximum age; only the observed time is certain.
     const std::int64_t since = edge_known_ ? ticks - edge_ticks_ : std::min(axis.age, ticks - first_ticks_);
     SpeedEstimate out = mean(0, 1 + 2 * edge_error_, ticks - since, ticks);
     if (!out.known) return out;
@@ -54,7 +54,7 @@ Speed SpeedMeter::update(const AxisReading& axis, std::int64_t ticks) {
     Speed out;
     const bool told = axis.age < oldest_age;
     const std::int64_t edge_ticks = ticks - axis.age, place = place_of(axis);
-    if (!told && edge_known_ && place != edge_place_) edge_known_ = false;  // edges came and are too long ago
+    if (!told && edge_known_ && place != edge_place_) edge_known_ = false;  // edges came and are too old
     if (begun_) {
         out.difference = difference(axis, ticks);
         if (told && edge_known_ && edge_ticks > edge_ticks_) {

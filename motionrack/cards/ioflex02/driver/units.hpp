@@ -11,14 +11,14 @@ namespace motionrack::ioflex02 {
 
 class Units {
   public:
-    /// Counts themselves.
+    /// Plain counts.
     Units() = default;
-    /// A linear scale; negative: the axis counts the other way. Errors: refused (0 or not finite).
+    /// A linear scale; negative: the axis counts in the opposite direction. Errors: refused (0 or not finite).
     static Result<Units> mm(double counts_per_mm) { return of(counts_per_mm, "counts for a mm"); }
     /// A rotary encoder, in degrees. Errors: refused (0 or not finite).
     static Result<Units> degrees(double counts_per_turn) { return of(counts_per_turn / 360, "counts for a degree"); }
 
-    /// Of whole counts of any width, or of a mean of them.
+    /// Converts whole counts of any width, or their mean.
     template <class Counts>
     double of_counts(Counts counts) const {
         return static_cast<double>(counts) / counts_per_unit_;

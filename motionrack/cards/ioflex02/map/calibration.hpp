@@ -1,4 +1,4 @@
-// Calibration of an axis: the source's commands and statuses, and the state table that joins them.
+// Calibration of an axis: the source's commands and statuses, and the state table that connects them.
 //
 //              cNop, cRes            cResNm              cResNmSig
 //                  │                    │                    │
@@ -13,21 +13,21 @@
 
 namespace motionrack::ioflex02 {
 
-/// Command of one axis, as the source has it.
+/// Command of one axis, named as in the source.
 enum tIOFlexCmd : std::uint8_t { cNop, cRes, cResNm, cResNmSig };
-/// Status of one axis, as the source has it.
+/// Status of one axis, named as in the source.
 enum tIOFlexSts : std::uint8_t { sNotCal, sCal };
 
 enum class CalState : std::uint8_t { calibrated, wait_index, wait_cal };
-/// The four commands in their order, then what comes from the encoder.
+/// The four commands in order, then the events of the encoder.
 enum class CalEvent : std::uint8_t { nop, res, res_nm, res_nm_sig, index, cal };
 
 struct CalStep {
     CalState next = CalState::calibrated;
-    bool zero = false;  ///< the position becomes 0
+    bool zero = false;  ///< sets the position to 0
 };
 
-/// [state][event]; what is not told of an event in the rules leaves the state.
+/// [state][event]; an event without a rule leaves the state unchanged.
 struct CalTable {
     static constexpr CalStep done{CalState::calibrated, false}, zero{CalState::calibrated, true};
     static constexpr CalStep index{CalState::wait_index, false}, cal{CalState::wait_cal, false};

@@ -1,7 +1,7 @@
-// The IOFLEX02's pins, in the order in which the model has its wires.
+// The IOFLEX02's pins, in the order of the model's wires.
 //
-// The card has 16 inputs and the project "position" uses all of them: A, B, Z and Cal of four axes. in0 to in15 are the
-// same wires by their bit of IN, that is of ReadInL and ReadInH.
+// The card has 16 inputs, and the project "position" uses all of them: A, B, Z and Cal of four axes. in0 to in15 are
+// the same wires by their bit of IN, as in ReadInL and ReadInH.
 //
 //   bit of IN   15  14  13  12   11  10   9   8    7   6   5   4    3   2   1   0
 //               Cal4 Z   B   A   Cal3 Z   B   A   Cal2 Z   B   A   Cal1 Z   B   A

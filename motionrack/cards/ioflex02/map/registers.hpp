@@ -1,9 +1,9 @@
-// The IOFLEX02's registers, declared once. The map is the project's own: the card's hardware manual is not at hand.
-// Registers are 16 bits wide; offsets are byte offsets from the card's base address.
+// The IOFLEX02's registers, declared once. The map is the project's own, as the card's hardware manual was not
+// available. Registers are 16 bits wide; offsets are byte offsets from the card's base address.
 //
-//   00h .. 08h  the card's fixed logic: answers whether an array is loaded or not
+//   00h .. 08h  the card's fixed logic: answers with or without a loaded array
 //   0Ah .. 45h  the project in the array: FFFFh while no project runs
-//   50h .. 65h  the same of one axis, chosen by AXIS
+//   50h .. 65h  the same for one axis, selected by AXIS
 //
 // 24-bit values are two registers: _L has bits 0 to 15, _H bits 16 to 23 (read as zeros above).
 #pragma once
@@ -129,7 +129,7 @@ inline constexpr RegisterInfo registers[] = {
     {"AGE3_L", 0x40, 16, r, false, "", "captured: axis 3", {}},
     {"AGE3_H", 0x42, 16, r, false, "", "captured: axis 3", {}},
     {"DOWN", 0x44, 16, r, false, "", "captured: directions", down_fields},
-    // ---- one axis, chosen by AXIS
+    // ---- one axis, selected by AXIS
     {"LINES", 0x50, 16, r, true, "", "captured: levels", lines_fields},
     {"EDGES_A", 0x52, 16, r, true, "", "captured: edges of A since the start, modulo 65,536", {}},
     {"EDGES_B", 0x54, 16, r, true, "", "captured: edges of B", {}},

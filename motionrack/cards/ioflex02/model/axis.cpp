@@ -40,7 +40,7 @@ void count(AxisState& axis, unsigned before, unsigned after, std::int64_t sample
     axis.down = change < 0;
 }
 
-/// The sample after which something may change, `none` if nothing is under way.
+/// The sample at which the next change may happen, `none` if no change is pending.
 std::int64_t next_of(const AxisState& axis, std::int64_t none) {
     const auto filter = static_cast<std::int64_t>(mode::FILTER.get(axis.mode));
     std::int64_t next = none;
@@ -69,7 +69,7 @@ void take(AxisState& axis, std::int64_t sample) {
         axis.index_at = axis.raw;
         calibrate(axis, CalEvent::index);
     }
-    // After the index: an index of the same sample does not come after this edge.
+    // After the index: an index of the same sample precedes this edge.
     if ((after & ~before) >> cal_line & 1) calibrate(axis, CalEvent::cal);
 }
 

@@ -1,4 +1,4 @@
-// Base addresses, and what becomes of two cards at one.
+// Base addresses, and address conflicts of two cards.
 #include <algorithm>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 

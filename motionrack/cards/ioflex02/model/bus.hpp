@@ -1,8 +1,8 @@
 // The bus of the IOFLEX02 cards: each answers in 100h bytes from its base address.
 //
-//   host ── address ──► 2300h .. 23FFh: card "c1"     2400h .. 24FFh: card "c2"     elsewhere: nobody, reads FFFFh
+//   host ── address ──► 2300h .. 23FFh: card "c1"     2400h .. 24FFh: card "c2"     elsewhere: no card, reads FFFFh
 //
-// Two cards at one address both listen; what they say is and-ed on the wires, as it is with open collectors.
+// Two cards at one address both accept writes; their answers are ANDed on the wires, as with open collectors.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace motionrack::ioflex02 {
 
 class Bus final : public sim::Device, public sim::RegisterDevice {
   public:
-    /// Adds the bus and its wire "<name>.bus.int" to the kernel; these cards have no interrupt, so it is always 1 (not
-    /// active).
+    /// Adds the bus and its wire "<name>.bus.int" to the kernel. These cards have no interrupt, so it is always 1
+    /// (inactive).
     Bus(sim::Kernel& kernel, const std::string& name);
-    /// Before the kernel starts; the card has its address in its settings.
+    /// Adds a card, whose settings contain its address; before the kernel starts.
     void plug(Card& card) { cards_.push_back(&card); }
 
-    /// Addresses are the card's base address plus a register's offset.
+    /// An address is the card's base address plus the offset of a register.
     std::uint16_t read(std::uint32_t address) override;
     void write(std::uint32_t address, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t address) const override;
@@ -33,7 +33,7 @@ class Bus final : public sim::Device, public sim::RegisterDevice {
 
   private:
     struct State {
-        std::uint64_t told = 0;  ///< bit n: the conflict of the n-th card (from the 64th on: of all those) was reported
+        std::uint64_t told = 0;  ///< bit n: the conflict of the n-th card (bit 63: of all further cards) was reported
     };
     void tell_conflict(std::uint32_t address);
 

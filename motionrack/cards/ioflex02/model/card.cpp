@@ -1,4 +1,4 @@
-// Time and wires: when the project begins, and which samples see what.
+// Time and wires: the start of the project, and the sample of each change.
 #include <algorithm>
 #include <motionrack/cards/ioflex02/model/card.hpp>
 
@@ -49,7 +49,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     if (settings.loaded) preload(settings.image.empty() ? *raw_image({}) : settings.image);
 }
 
-/// How the world is at power-up.
+/// State of the wires at power-up.
 void Card::begin() {
     if (state_.begun) return;
     state_.begun = 1;
@@ -92,8 +92,8 @@ void Card::on_scheduled(Instant now) {
     await_illegal();
 }
 
-/// The present instant's sample is over a moment after it: until then a wire may still change for it. Nothing is
-/// reported at a sync, so that it does not matter how time is cut.
+/// The sample of the present instant ends just after it: until then, a wire may still change for it. Nothing is
+/// reported at a sync, so the result does not depend on the division of time.
 void Card::await_illegal() {
     if (!has_project()) return;
     std::int64_t next = never.count();

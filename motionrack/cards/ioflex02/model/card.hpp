@@ -1,4 +1,4 @@
-// The virtual IOFLEX02: an array that is fed an image and then is the project "position", exact to the sample
+// The virtual IOFLEX02: an array that is loaded with an image and then runs the project "position", exact to the sample
 // (RULES.md).
 //
 //   CONTROL, DATA ──► [ array: image ─► project ]            STATUS, CFG_ERROR, SIGNATURE, SERIAL
@@ -8,8 +8,7 @@
 //   in0 .. in15: the same 16 lines by number ──► IN
 //   OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
 //
-// Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it
-// is asked for.
+// The model neither polls nor schedules: it records a wire's change with its sample, and processes it on demand.
 #pragma once
 
 #include <array>
@@ -33,12 +32,12 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
 
-    // ---- looking inside, at the present instant
+    // ---- inspection at the present instant
     bool running() const { return seen().configuration.array == ArrayState::running; }
     ArrayState array() const { return seen().configuration.array; }
     /// -8,388,608 .. 8,388,607.
     std::int32_t position(int axis) const { return signed24(axis_of(axis).position); }
-    /// Counts since the project began, without bounds.
+    /// Counts since the start of the project, unbounded.
     std::int64_t raw_count(int axis) const { return axis_of(axis).raw; }
     tIOFlexSts status(int axis) const { return status_of(axis_of(axis).cal); }
     CalState calibration(int axis) const { return axis_of(axis).cal; }
@@ -88,11 +87,11 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     State state_{};
 };
 
-/// Begins the project at `at`; all counts and the time are 0.
+/// Starts the project at `at` with all counts and the time at 0.
 void begin_project(State& state, Instant at, std::int64_t done);
-/// Works off what has happened up to `now`; `access`: including the sample at this very instant.
+/// Processes the changes up to `now`; `access`: including the sample at this very instant.
 void catch_up(State& state, Instant now, bool access);
-/// Ticks of 1.2 us since the project began.
+/// Ticks of 1.2 us since the start of the project.
 inline std::int64_t ticks_at(const State& state, Instant t) {
     return (t - state.origin) / time_tick;
 }

@@ -1,4 +1,4 @@
-// What the card and its bus report as conditions, and the sentences.
+// Conditions that the card and its bus report, and their messages.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ enum class CardCondition : std::uint16_t {
     image_refused = 2,       ///< a: CfgError, b: bytes received
     unknown_project = 3,     ///< a: its ident
     no_project = 4,          ///< a: the register's offset; once until a project runs
-    no_register = 5,         ///< a: the offset, b: the word written, -1: it was a read
+    no_register = 5,         ///< a: the offset, b: the word written, or -1 for a read
     address_conflict = 6     ///< a: the base address; by the bus, once
 };
 

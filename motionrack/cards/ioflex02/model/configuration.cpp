@@ -8,7 +8,7 @@ void Card::control(std::uint16_t word) {
     Configuration& c = state_.configuration;
     if (field("CONTROL", "CONFIGURE").test(word)) {
         c = {};
-        begin_project(state_, kernel_.now(), no_sample);  // nothing of the project before is left
+        begin_project(state_, kernel_.now(), no_sample);  // discards the state of the previous project
         c.array = ArrayState::loading;
         put_out(0);
     }
@@ -32,7 +32,7 @@ void Card::refuse(CfgError error) {
 }
 
 void Card::take_word(std::uint16_t word) {
-    // Of an odd number of bytes the last word's high one is not looked at.
+    // If the number of bytes is odd, the high byte of the last word is ignored.
     for (int i = 0; i < 2 && state_.configuration.array == ArrayState::loading; ++i)
         take_byte(static_cast<std::uint8_t>(word >> (8 * i)));
 }
@@ -56,7 +56,7 @@ void Card::take_byte(std::uint8_t byte) {
     accept();
 }
 
-/// From header and payload.
+/// Reads the project and its modes from header and payload.
 void Card::take_project() {
     Configuration& c = state_.configuration;
     c.known = c.header.named(position_project);
@@ -66,7 +66,7 @@ void Card::take_project() {
     c.array = ArrayState::starting;
 }
 
-/// Before the kernel starts; the project begins at instant 0.
+/// Loads the array before the kernel starts; the project begins at instant 0.
 void Card::preload(std::span<const std::uint8_t> image) {
     Configuration& c = state_.configuration;
     std::copy_n(image.begin(), image_header, c.header.bytes.begin());

@@ -1,4 +1,4 @@
-// The registers: what is read, what a write does, and the one instant of STROBE.
+// Reads and writes of the registers, and the common instant of STROBE.
 #include <algorithm>
 #include <motionrack/cards/ioflex02/model/card.hpp>
 

@@ -1,4 +1,4 @@
-// All that the card remembers; a trivially copyable whole, so that a snapshot is an assignment.
+// The complete state of the card; trivially copyable, so a snapshot is one assignment.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@ namespace motionrack::ioflex02 {
 
 enum class ArrayState : std::uint32_t { empty, loading, starting, running, failed };
 
-/// The programmable array and the image that is being taken.
+/// The programmable array and the image that is being received.
 struct Configuration {
     ArrayState array = ArrayState::empty;
-    std::uint32_t crc = 0;  ///< of what came
+    std::uint32_t crc = 0;  ///< of the bytes received
     std::uint32_t received = 0;
     CfgError error = CfgError::none;
-    std::uint16_t known = 0;  ///< the project is one that the model has
+    std::uint16_t known = 0;  ///< the model supports the project
     ImageHeader header;
-    std::array<std::uint8_t, min_payload> payload{};  ///< its beginning
+    std::array<std::uint8_t, min_payload> payload{};  ///< beginning of the payload
     std::array<std::uint8_t, 4> reserved{};
-    Instant starts_at = never;  ///< when the array is configured
+    Instant starts_at = never;  ///< instant at which the array is configured
     std::array<std::uint16_t, axis_count> modes{};
 };
 
-/// What STROBE latches of an axis.
+/// Values of an axis that STROBE latches.
 struct CapturedAxis {
     std::uint32_t position = 0, raw = 0, age = 0;
     std::uint32_t index_at = 0, illegal_at = 0;
@@ -41,12 +41,12 @@ struct Captured {
 
 struct State {
     Configuration configuration;
-    Instant origin{};          ///< when the project began: the time's phase
+    Instant origin{};          ///< start of the project: phase of the time
     std::int64_t cleared = 0;  ///< ticks since origin at the last CLEAR_TIME
     std::array<AxisState, axis_count> axes{};
     Captured captured;
     std::uint16_t outputs = 0;
-    std::uint16_t axis = 0;  ///< chosen by AXIS
+    std::uint16_t axis = 0;  ///< selected by AXIS
     std::uint16_t told_no_project = 0;
     std::uint16_t begun = 0;
 };
