@@ -1,4 +1,4 @@
-// Looks through a list command's parameters before it gets into a list; names of status bits.
+// Validation of a list command's parameters before loading; names of status bits.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The RTC5's commands, status bits, pins and numbers as constants; model, library, documents and tests read them here.
+// The RTC5's commands, status bits, pins and numbers as constants, shared by model, library, documents and tests.
 #pragma once
 
 #include <algorithm>
@@ -16,30 +16,30 @@
 
 namespace motionrack::rtc5 {
 
-inline constexpr Duration tick_time = microseconds(10);                  ///< one output of the card
-inline constexpr int half_us_per_tick = 20;                              ///< laser switching is resolved to 0.5 us
+inline constexpr Duration tick_time = microseconds(10);                  ///< output period of the card
+inline constexpr int half_us_per_tick = 20;                              ///< resolution of laser switching: 0.5 us
 inline constexpr double field_least = -524288, field_greatest = 524287;  ///< the real field, 20 bits
 inline constexpr double z_least = -32768, z_greatest = 32767;
 inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
-inline constexpr int simulated_counts = 10;  ///< a tick: 1 MHz
+inline constexpr int simulated_counts = 10;  ///< per tick: 1 MHz
 inline constexpr std::int64_t min_list_memory = 16, max_list_memory = 1 << 20;
 inline constexpr std::size_t max_depth = 63, calls_per_tick = 64, subroutine_count = 1024;
-inline constexpr double min_resolution = 100;  ///< counts a turn; under it rotary corrections are off
+inline constexpr double min_resolution = 100;  ///< counts per revolution; below it rotary corrections are off
 
 /// Bits of set_control_mode.
 inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_start = 1u << 9,
                                control_equidistant = 1u << 10;
 
-/// A list command with its parameters looked at: NaN, infinities and what is outside a range that is not clipped are
-/// refused (the sentence has the command, the parameter, the number and the range); coordinates and speeds are clipped;
-/// fractions of whole parameters are refused.
+/// A list command with validated parameters. NaN, infinities, fractions of whole parameters and values outside a range
+/// that does not clip are refused; the sentence has the command, the parameter, the number and the range. Coordinates
+/// and speeds are clipped.
 Result<Command> list_command(Op op, std::span<const double> parameters);
 inline Result<Command> list_command(Op op, std::initializer_list<double> parameters) {
     return list_command(op, std::span<const double>(parameters.begin(), parameters.size()));
 }
 
-/// A parameter of a control command: refused (with command, if it is said, parameter, number and range) where it is no
-/// number or outside `least` to `greatest`, or the range of its kind.
+/// Validates a parameter of a control command. Errors: refused (with command, if given, parameter, number and range) if
+/// it is not a number, or is outside `least` to `greatest` or the range of its kind.
 Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
                              double greatest, std::string_view unit = "");
 inline Result<void> check_parameter(std::string_view command, std::string_view name, double value, Kind kind) {
@@ -52,7 +52,7 @@ constexpr double clipped(double value, Kind kind) {
     return std::clamp(value, range.min, range.max);
 }
 
-/// The names of the bits set, for people: "FLY_X_OVERFLOW: the corrected X was above 524287".
+/// The names of the set bits as readable text: "FLY_X_OVERFLOW: the corrected X was above 524287".
 std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits);
 
 /// The whole map, for documents, inspectors and traces.

@@ -1,4 +1,4 @@
-// The whole map in the words that all cards share: list commands with their parameters, status words bit by bit, pins.
+// The whole map in the terms shared by all cards: list commands with their parameters, status words bit by bit, pins.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr auto marking_info_fields = fields_of(marking_info_bits);
 inline constexpr auto startstop_info_fields = fields_of(startstop_info_bits);
 inline constexpr auto list_status_fields = fields_of(list_status_bits);
 
-/// Words that the card answers; it has no bus, and their offsets are numbers only.
+/// Words that the card answers. The card has no bus, so their offsets are only numbers.
 inline constexpr RegisterInfo words[] = {
     {"STATUS", 0, 32, Access::read, false, "", "answer of get_status, no register on a bus", status_fields},
     {"MARKING_INFO", 4, 32, Access::read_clears, false, "",

@@ -1,5 +1,5 @@
-// The RTC5's list commands, declared once: timing class, parameters with their ranges, and what happens outside a
-// range.
+// The RTC5's list commands, declared once: timing class, parameters with their ranges, and the treatment of values
+// outside a range.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace motionrack::rtc5 {
 
-/// Code of a list command. Their numbers are the project's own.
+/// Code of a list command. The numbers are the project's own.
 // clang-format off
 enum class Op : std::uint32_t {
     none, set_end_of_list, list_nop, long_delay, jump_abs, jump_rel, mark_abs, mark_rel, arc_abs, arc_rel,
@@ -31,16 +31,16 @@ enum class Op : std::uint32_t {
 // clang-format on
 inline constexpr std::size_t op_count = static_cast<std::size_t>(Op::count);
 
-/// How long a command takes. A command of the pipeline changes what comes behind the position or asks it.
+/// Timing class of a command. A command of the pipeline changes or reads the processing after the position.
 enum class Timing : std::uint8_t {
-    shortly,   ///< no tick of its own, and the path goes on through it
-    across,    ///< the same, but it looks at what comes behind the position, or changes it
+    shortly,   ///< no tick of its own, and the path continues through it
+    across,    ///< the same, but it reads or changes the processing after the position
     pipeline,  ///< no tick of its own; a polyline ends before it
     normal,    ///< a tick or more; a command of the pipeline
-    motion     ///< a tick or more; moves the position or holds it
+    motion     ///< a tick or more; moves or holds the position
 };
 
-/// What a parameter is; it decides the range.
+/// Kind of a parameter; it determines the range.
 // clang-format off
 enum class Kind : std::uint8_t {
     coordinate, centre, number, count, ticks, half_us, switching, micros, speed, angle, scale, factor, head, index,
@@ -69,8 +69,8 @@ struct ListCommandInfo {
     }
 };
 
-/// One command in the list memory. HeadNo is in `head`; the other parameters are in `p` in their order (whole numbers
-/// too: they fit), a fifth one is in `head`.
+/// One command in the list memory. HeadNo is in `head`; the other parameters are in `p` in order (whole numbers too:
+/// they fit), a fifth parameter is in `head`.
 struct Command {
     Op op = Op::none;
     std::int32_t head = 0;
@@ -78,7 +78,7 @@ struct Command {
 };
 static_assert(sizeof(Command) == 40);
 
-/// Range of a parameter; outside it is clipped or the command is refused.
+/// Range of a parameter; a value outside it is clipped, or the command is refused.
 struct KindInfo {
     double min = 0, max = 0;
     bool clipped = false;  ///< false: refused

@@ -1,4 +1,4 @@
-// The bits of get_last_error and get_error, and which of them an error has.
+// The bits of get_last_error and get_error, and their assignment to errors.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -23,7 +23,7 @@ consteval std::uint32_t error_bit(std::string_view name) {
     return map::bit_named(map::error_bits, name);
 }
 
-/// Of a command that ended so.
+/// Bits for a command that ended with this error.
 constexpr std::uint32_t error_bits_of(ErrorKind trouble) {
     switch (trouble) {
         case ErrorKind::invalid_input:

@@ -1,4 +1,4 @@
-// The RTC5's lines, in the order in which the model has its wires.
+// The RTC5's lines, in the order of the model's wires.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace motionrack::rtc5::map {
 
-/// A line and what its wire shows: a level, or a whole number of so many bits.
+/// A line and the value of its wire: a level, or a whole number of the given bits.
 struct Line {
     PinInfo pin;
     int bits = 1;

@@ -1,5 +1,4 @@
-// The signals that the RTC5 records (set_trigger), answers (get_value) and sends over McBSP (set_mcbsp_out), by their
-// numbers.
+// Signals that the RTC5 records (set_trigger), answers (get_value) and sends over McBSP (set_mcbsp_out), by number.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +8,14 @@
 
 namespace motionrack::rtc5 {
 
-/// What of a tick is taken.
+/// Quantity that a signal takes from a tick.
 enum class Source : std::uint8_t { laser, corrected, z, table, output, transformed, io, count, mark_speed };
 
 struct SignalInfo {
     std::string_view name;
     std::uint32_t number = 0;
     Source source = Source::laser;
-    std::uint8_t head = 0;    ///< 0 A, 1 B; of counts: the encoder
+    std::uint8_t head = 0;    ///< 0 A, 1 B; for counts: the encoder
     std::uint8_t axis = 0;    ///< 0 X, 1 Y
     bool laser_only = false;  ///< -524288 while the laser is off
     std::string_view meaning;
@@ -69,14 +68,14 @@ static_assert(declared<signals_flaw(signals)>());
 
 }  // namespace map
 
-/// nullptr: the card has no signal of that number.
+/// Returns nullptr if the card has no signal of that number.
 constexpr const SignalInfo* signal_info(std::int64_t number) {
     for (const SignalInfo& signal : map::signals)
         if (signal.number == number) return &signal;
     return nullptr;
 }
 
-inline constexpr std::int64_t record_values = 1 << 21;  ///< of all channels: 2 of 2^20, or 4 of 2^19
+inline constexpr std::int64_t record_values = 1 << 21;  ///< over all channels: 2 of 2^20, or 4 of 2^19
 inline constexpr std::int64_t record_channels = 4, sent_signals = 8;
 
 }  // namespace motionrack::rtc5

@@ -1,4 +1,4 @@
-// The bits that the RTC5 answers about itself, by name.
+// Status bits of the RTC5, by name.
 #pragma once
 
 #include <cstdint>
@@ -92,7 +92,7 @@ consteval std::uint32_t list_status_bit(std::string_view name) {
     return map::bit_named(map::list_status_bits, name);
 }
 
-/// These stay when get_marking_info is read; the others are cleared by it.
+/// Reading get_marking_info clears all bits except these.
 inline constexpr std::uint32_t kept_when_read = marking_bit("LIMIT_X_MIN") | marking_bit("LIMIT_X_MAX") |
                                                 marking_bit("LIMIT_Y_MIN") | marking_bit("LIMIT_Y_MAX") |
                                                 marking_bit("LIMIT_Z_MIN") | marking_bit("LIMIT_Z_MAX");

@@ -1,4 +1,4 @@
-// Wires of the rack in, ticks of the engine, wires of the rack out.
+// Inputs from the wires of the rack, ticks of the engine, outputs to the wires of the rack.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/card.hpp>
 
@@ -6,7 +6,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Places of the pins in map::pins.
+/// Indices of the pins in map::pins.
 enum Pin : int { enc0_a, enc0_b, enc1_a, enc1_b, start_n, stop_n, mcbsp, mcbsp_frame, laser_on, xout, yout, busy, io };
 static_assert(map::pins[laser_on].name == "laser_on" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
 
@@ -33,7 +33,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
 
 Engine& Card::engine() {
     caught_up();
-    // What is asked of it may move it: look in the next tick.
+    // A command may start motion: check again in the next tick.
     kernel_.schedule(id_, std::min((kernel_.now() / tick_time + 1) * tick_time,
                                    lines_.change_count > 0 ? Instant{lines_.changes[0]} : never));
     return engine_;
@@ -48,7 +48,7 @@ sim::WireId Card::busy_wire() const {
     return wire(busy);
 }
 
-/// Works off the ticks up to and including `now`.
+/// Executes the ticks up to and including `now`.
 void Card::catch_up(Instant now) {
     engine_.run_until(now / tick_time + 1, this);
     tell();
@@ -71,7 +71,7 @@ void Card::sync(Instant now) {
     put_out();
 }
 
-/// The wires that are driven by events.
+/// Wires that are driven by events.
 void Card::put_out() {
     Lines& l = lines_;
     std::int64_t done = 0;
@@ -89,7 +89,7 @@ void Card::put_out() {
     if (kernel_.wanted(wire(yout))) kernel_.set_wire(wire(yout), engine_.output().a[1]);
 }
 
-/// The next instant at which a wire may change.
+/// Next instant at which a wire may change.
 void Card::plan(Instant now) {
     Instant next = lines_.change_count > 0 ? Instant{lines_.changes[0]} : never;
     const bool looked_at = kernel_.wanted(wire(xout)) || kernel_.wanted(wire(yout));
@@ -132,7 +132,7 @@ void Card::on_wire(int pin, int level, Instant now) {
     plan(now);
 }
 
-/// 00 - 01 - 11 - 10 (B A) counts up. Both lines at one instant are no step but an error.
+/// 00 - 01 - 11 - 10 (B A) counts up. A change of both lines at one instant is an error, not a step.
 void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant now) {
     const std::int64_t before = lines_.levels[encoder],
                        after = level != 0 ? before | 1 << bit : before & ~(std::int64_t{1} << bit);

@@ -1,10 +1,10 @@
 // The RTC5 on the wires of a rack: Engine in virtual time.
 //
-//   enc0_a ─┐ enc0_b ─┐ ..  start_n ─┐ mcbsp ─┐          tick k is at k * 10 us; it sees what changed before
-//   ────────▼─────────▼──────────────▼────────▼──┬──────────┬──    that instant and puts x, y and the laser's
-//                                             tick k     tick k+1  changes of its 10 us out
+//   enc0_a ─┐ enc0_b ─┐ ..  start_n ─┐ mcbsp ─┐          tick k is at k * 10 us; it sees the changes before
+//   ────────▼─────────▼──────────────▼────────▼──┬──────────┬──    that instant and outputs x, y and the laser's
+//                                             tick k     tick k+1  changes of its 10 us
 //
-// While nothing moves and nobody wants x and y it does not act at all; ticks are worked off when somebody asks.
+// While stationary and without listeners for x and y, the card schedules nothing; it executes pending ticks on demand.
 #pragma once
 
 #include <array>
@@ -21,15 +21,17 @@ class Card final : public sim::DeferringDevice, private Sink {
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
 
-    /// The card's commands and answers, at the present instant. Between runs only, and not kept over one.
+    /// The engine for commands and answers, at the present instant. Only between runs; the reference is invalid after a
+    /// run.
     Engine& engine();
-    /// The same to look at only: as it was when the run ended.
+    /// Read-only access: state at the end of the last run.
     const Engine& engine() const { return engine_; }
-    /// The same at the present instant, in a run too.
+    /// Read-only access at the present instant, also during a run.
     const Engine& caught_up();
-    /// What no snapshot holds: see Engine.
+    /// State that a snapshot does not contain: see Engine.
     void copy_beside_state(const Card& other) { engine_.copy_beside_state(other.engine_); }
-    /// Hears of the samples and the laser of every tick worked off; nullptr: nobody. Must not ask the card.
+    /// Sets the receiver of the samples and laser changes of every executed tick; nullptr: none. It must not call the
+    /// card.
     void watch(Sink* sink) { watcher_ = sink; }
     sim::DeviceId id() const { return id_; }
     sim::WireId busy_wire() const;
@@ -42,7 +44,7 @@ class Card final : public sim::DeferringDevice, private Sink {
     std::span<std::byte> state() override { return sim::bytes_of(engine_.mutable_state()); }
 
   private:
-    /// What the wires have done, and what the laser's wire has yet to do.
+    /// State of the input wires, and pending changes of the laser's wire.
     struct Lines {
         std::array<std::int64_t, encoder_count> levels{};  ///< A, B of an encoder as bits 0, 1
         std::array<std::int64_t, encoder_count> changed_at{-1, -1}, last_step{};

@@ -1,4 +1,4 @@
-// Sentences for the card's conditions.
+// Messages for the card's conditions.
 #include <fmt/format.h>
 
 #include <motionrack/cards/rtc5/map.hpp>

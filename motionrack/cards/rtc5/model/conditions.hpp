@@ -1,4 +1,4 @@
-// What the card reports as conditions, and the sentences.
+// Conditions that the card reports, and their messages.
 #pragma once
 
 #include <cstdint>

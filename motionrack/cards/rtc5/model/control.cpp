@@ -1,4 +1,4 @@
-// Control commands: what is set between ticks, and the answers.
+// Control commands: settings made between ticks, and answers.
 #include <fmt/format.h>
 
 #include <algorithm>

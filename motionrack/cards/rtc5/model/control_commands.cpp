@@ -58,7 +58,7 @@ Answered done(const Result<void>& result) {
 Answered taken(Engine&, Numbers) {
     return ControlAnswer{};
 }
-/// A command that is one call of the card, without parameters and without an answer.
+/// A command that is one call of the card, without parameters or answer.
 template <void (Engine::*function)()>
 Answered plain(Engine& engine, Numbers) {
     (engine.*function)();

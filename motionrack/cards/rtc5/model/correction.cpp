@@ -1,4 +1,4 @@
-// .ct5 files: reading with all checks, writing, and tables from lens data.
+// .ct5 files: validated reading, writing, and tables from lens data.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t planes_at = 64, plane_bytes = std::size_t{grid_nodes} * 4;
 constexpr std::int32_t max_node = 1048575;
-constexpr std::int32_t max_gap = 65536;  // between neighbours: 16 steps of the grid
+constexpr std::int32_t max_gap = 65536;  // between neighbours: 16 grid steps
 
 std::int32_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     std::uint32_t out = 0;
@@ -32,7 +32,7 @@ std::vector<std::int32_t> plane(std::span<const std::uint8_t> bytes, std::size_t
     return out;
 }
 
-/// The first node that is out of range or far off the one before it, -1 if none is.
+/// The first node that is out of range or far from the previous one, or -1.
 int strange_node(const std::vector<std::int32_t>& nodes) {
     for (int i = 0; i < grid_nodes; ++i) {
         const std::int32_t node = nodes[static_cast<std::size_t>(i)];
@@ -55,7 +55,7 @@ bool is_one_to_one(const CorrectionFile& file) {
     return true;
 }
 
-/// K of 0 is that of the maker's 1:1 table, which is older than the known sum; in any other file it is wrong.
+/// K = 0 is valid only in the maker's 1:1 table, which is older than the known checksum.
 Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     if (file.header[1] < 0 || file.header[1] > 1'000'000)
         return refusal(name, fmt::format("{} bits/mm in its header; 1 to 1000000 are possible", file.header[1]));
@@ -70,7 +70,7 @@ Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     return {};
 }
 
-/// Known, or not known (and then worth a note), or a refusal.
+/// Checks the checksum: known, unknown (with a note), or refused.
 Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes, const std::string& name) {
     const std::uint32_t sum = ct5_checksum(bytes.first(ct5_bytes - 4)),
                         said = static_cast<std::uint32_t>(word_at(bytes, ct5_bytes - 4));
@@ -85,7 +85,7 @@ Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes
     return {};
 }
 
-/// 1 or -1: in which sense the image of the cell goes round at all its corners; 0: it is flat or folds back.
+/// Orientation of the cell's image at all its corners: 1 or -1; 0: it is flat or folds back.
 int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
     const auto edge = [&](std::size_t from, std::size_t to) {
         return std::pair(std::int64_t{file.x[to]} - file.x[from], std::int64_t{file.y[to]} - file.y[from]);
@@ -101,8 +101,8 @@ int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
     return left_turns == 4 ? 1 : right_turns == 4 ? -1 : 0;
 }
 
-/// The corner of the first cell that goes round otherwise than those before it, -1 if there is none. What the table
-/// puts at the edge, because the mirrors do not reach it, is left out; but not all of it may be there.
+/// The corner of the first cell whose orientation differs from the cells before it, or -1. Cells that the table puts at
+/// the edge, because the mirrors do not reach them, are skipped; but not all cells may be there.
 int folded_cell(const CorrectionFile& file) {
     const auto at_edge = [&](std::size_t node) {
         const auto is_end = [](std::int32_t v) { return v <= 0 || v >= max_node; };
@@ -125,7 +125,7 @@ std::int32_t binary(double bits) {
         std::clamp(std::floor(bits + grid_zero + 0.5), 0.0, static_cast<double>(max_node)));
 }
 
-/// The value of a plane at (x, y) bits inside the field.
+/// Value of a plane at (x, y) bits inside the field.
 double between(const std::vector<std::int32_t>& nodes, double x, double y) {
     const double u = std::clamp((x + grid_zero) / grid_step, 0.0, 255.999999),
                  v = std::clamp((y + grid_zero) / grid_step, 0.0, 255.999999);

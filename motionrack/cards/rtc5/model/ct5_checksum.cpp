@@ -1,8 +1,8 @@
-// The sum of a .ct5 file, and which single damage makes a file of known sum look like one of an older program.
+// The checksum of a .ct5 file, and detection of single damages that make a new file look like one of an older program.
 //
-// The sum is linear: a bit turned over changes it by a number that depends on the bit's place only. Going back from the
-// end of the file gives these numbers one after the other. (Chosen: a file of an older program, whose sum is another,
-// looks damaged once in 500 files; one in 500 refused is better than damage that is marked with.)
+// The checksum is linear: an inverted bit changes it by a number that depends only on the bit's position. Going
+// backwards from the end of the file gives these numbers in sequence. (Chosen: a file of an older program, with its
+// other checksum, looks damaged once in 500 files. Refusing it is better than marking with a damaged file.)
 #include <fmt/format.h>
 
 #include <array>
@@ -23,14 +23,14 @@ constexpr std::array<std::uint32_t, 256> crc_table = [] {
     return out;
 }();
 
-/// The register after another byte.
+/// The register after one more byte.
 std::uint32_t next_crc(std::uint32_t crc, std::uint8_t byte) {
     return crc_table[(crc ^ byte) & 0xFF] ^ crc >> 8;
 }
 
 constexpr std::size_t program_byte = 4 * program_word;
 
-/// Whether a newer program in the header explains the difference: `effects` are those of the word's bits.
+/// True if a newer program version in the header explains the difference: `effects` are those of the word's bits.
 bool newer_program_fits(std::uint32_t said, std::uint32_t difference, const std::array<std::uint32_t, 32>& effects) {
     constexpr std::uint32_t max_origin = 9;
     for (std::uint32_t origin = 0; origin <= max_origin; ++origin)

@@ -1,4 +1,4 @@
-// The sum at the end of a .ct5 file, as programs from version 4.0 on write it.
+// The checksum at the end of a .ct5 file, as programs from version 4.0 on write it.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace motionrack::rtc5 {
 
-/// Where the header has origin * 1000 + version of the program that wrote the file; from `first_summed` on the sum of
-/// the file is the known one, that of older programs is not known.
+/// Header word with origin * 1000 + version of the program that wrote the file. From version `first_summed` on the
+/// checksum is the known one; that of older programs is unknown.
 inline constexpr std::size_t program_word = 10;
 inline constexpr std::int32_t first_summed = 400;
 
-/// CRC-32 as zlib has it, but without the inversion at its end.
+/// CRC-32 as in zlib, without the final inversion.
 std::uint32_t ct5_checksum(std::span<const std::uint8_t> bytes);
 
-/// Of a whole file whose sum does not fit and whose header names an older program: how it is damaged nevertheless, in
-/// words: with one bit turned back, or with a newer program in its header, the known sum would fit. "": that is not so.
+/// Describes the damage of a file whose checksum is wrong and whose header names an older program: the known checksum
+/// would match with one bit inverted, or with a newer program in the header. "": no such damage.
 std::string damage_of_summed_file(std::span<const std::uint8_t> file);
 
 }  // namespace motionrack::rtc5

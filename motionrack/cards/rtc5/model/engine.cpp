@@ -1,4 +1,4 @@
-// How ticks go by: in blocks with somebody looking, from vector to vector without.
+// Advance of ticks: in blocks with a sink, from vector to vector without.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -8,12 +8,12 @@
 namespace motionrack::rtc5 {
 
 void Engine::Free::operator()(void* memory) const {
-    std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): it is calloc's
+    std::free(memory);  // allocated by calloc
 }
 
 Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::make_unique<Scratch>()) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    // NOLINTBEGIN(cppcoreguidelines-no-malloc): zeros are empty places, and pages that no list touches cost nothing
+    // NOLINTBEGIN(cppcoreguidelines-no-malloc): zeros are empty positions, and pages that no list touches use no memory
     static_assert(static_cast<int>(Op::none) == 0);
     memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
     recorded_.reset(static_cast<std::int32_t*>(std::calloc(record_values, sizeof(std::int32_t))));
@@ -66,7 +66,7 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     advance(static_cast<std::int64_t>(n));
 }
 
-/// Positions of the ticks from now on: up to `room`, or to a command of the pipeline.
+/// Computes the positions of the next ticks: up to `room`, or to a command of the pipeline.
 std::size_t Engine::produce(std::size_t room) {
     std::size_t n = 0;
     while (n < room) {
@@ -79,14 +79,14 @@ std::size_t Engine::produce(std::size_t room) {
         }
         if (!next_step(n)) break;
         if (n == 0 && (state_.starts.asked_count > 0 || samples_now())) room = 1;
-        // The tick that finds the end is done, too, whoever looks.
+        // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) room = n + 1;
         n = fill(n, room);
     }
     return n;
 }
 
-/// The commonest of dense lists without detours: micro-vectors that do not switch the laser, one after the other.
+/// Fast path for dense lists: consecutive micro-vectors that do not switch the laser.
 std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
     Lists& l = state_.lists;
     Activity& a = state_.activity;
@@ -162,8 +162,8 @@ Point Engine::position_of(const Activity& a, std::int64_t done) const {
     return {a.to.x + (t.cos * a.from.x - t.sin * a.from.y), a.to.y + (t.sin * a.from.x + t.cos * a.from.y)};
 }
 
-/// Nobody looks: as many ticks at once as the present activity has, if its flags are known without looking at each.
-/// False: nothing was done but taking commands.
+/// Without a sink, advances over all ticks of the present activity at once if its flags are known without evaluating
+/// each tick. Returns false if only commands were taken.
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
@@ -200,7 +200,7 @@ bool Engine::skip(std::int64_t limit) {
     return true;
 }
 
-/// n ticks are over.
+/// Advances the state by n ticks.
 void Engine::advance(std::int64_t n) {
     advance_encoders(n);
     advance_words(n);

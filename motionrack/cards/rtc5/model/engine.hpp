@@ -4,8 +4,8 @@
 //                │                         ▲
 //                └──► laser gate           └── encoder counts, McBSP words                every 10 us, in blocks
 //
-// It needs no kernel: run_until(tick, sink) runs in bulk and hands blocks of samples over; without a sink it skips from
-// vector to vector. Card (card.hpp) is the same on the wires of a rack.
+// The engine needs no kernel: run_until(tick, sink) runs in bulk and passes blocks of samples to the sink; without a
+// sink it skips from vector to vector. Card (card.hpp) is the engine on the wires of a rack.
 #pragma once
 
 #include <memory>
@@ -20,43 +20,42 @@
 
 namespace motionrack::rtc5 {
 
-/// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors goes from the output of tick k-1 to
+/// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors moves from the output of tick k-1 to
 /// that of tick k.
 struct Samples {
     std::int64_t first = 0;                            ///< tick
     std::span<const std::int32_t> x, y;                ///< head A, bits
-    std::span<const std::int32_t> x_b, y_b;            ///< head B, empty while it has no table selected
-    std::span<const std::uint8_t> laser;               ///< half-microseconds on, 0 .. 20
-    std::span<const double> corrected_x, corrected_y;  ///< behind fly, before clipping; empty while no correction is on
+    std::span<const std::int32_t> x_b, y_b;            ///< head B, empty while no table is selected for it
+    std::span<const std::uint8_t> laser;               ///< half-microseconds with the laser on, 0 .. 20
+    std::span<const double> corrected_x, corrected_y;  ///< after fly, before clipping; empty while no correction is on
 };
 
 class Sink {
   public:
     virtual ~Sink() = default;
     virtual void samples(const Samples& block) = 0;
-    /// The gate changes `half_us` half-microseconds after tick 0; before the block that has this tick.
+    /// The gate changes `half_us` half-microseconds after tick 0; called before the block with this tick.
     virtual void laser(std::int64_t half_us, bool on) { (void)half_us, (void)on; }
 };
 
-/// What the card's inputs see, tick by tick, when somebody knows it beforehand.
+/// Inputs of the card tick by tick, if they are known in advance.
 class Inputs {
   public:
     virtual ~Inputs() = default;
     /// Counts (x4, wrapping) of an encoder at `first`, `first` + 1, ..
     virtual void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) = 0;
-    /// The McBSP word that is complete at these ticks; false: none comes by this way.
+    /// The McBSP word that is complete at these ticks; false: this source delivers none.
     virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
 };
 
-/// What an external start came to.
+/// Result of an external start.
 enum class StartFate : std::uint8_t {
     begun,     ///< the list began
-    busy,      ///< lost: when it was due a list was running or the card moved
-    too_many,  ///< lost as it came: eight were waiting
+    busy,      ///< lost: a list was running or the card was moving when the start was due
+    too_many,  ///< lost on arrival: eight starts were waiting
 };
 
-/// Is told of lists that begin by an external start and of lists that end, in the tick itself; must not command the
-/// card.
+/// Notified of lists that begin by an external start and of lists that end, within the tick; must not command the card.
 class ListListener {
   public:
     virtual ~ListListener() = default;
@@ -70,21 +69,21 @@ class Engine {
     explicit Engine(const Settings& settings = {});
 
     // ---- lists (lists.cpp)
-    /// list2 of -1: what is left.
+    /// list2 of -1: the remaining memory.
     Result<void> config_list(std::int64_t list1, std::int64_t list2);
-    /// Where put() goes from here on: list 1 (odd numbers) or 2 (even ones), also while it runs. Positions are 0 ..
-    /// 1048575; behind the list's end they are 0.
+    /// Sets the input pointer of put(): list 1 (odd numbers) or 2 (even numbers), also while the list runs. Positions
+    /// are 0 .. 1048575; behind the list's end they are 0.
     Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
-    /// The same for a list that is not running: 1, 2, or the one that is free (0), free and run to its end (3). The
-    /// list opened, or 0: none, and put() is refused until one is.
+    /// The same for a list that is not running: 1, 2, a free one (0), or a free one that ran to its end (3). Returns
+    /// the opened list; 0: none, and put() is refused until a list is opened.
     Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
-    /// What is put up to list_return becomes subroutine `index` (0 .. 1023) in list 3; with nothing before it there is
-    /// none.
+    /// Stores the commands up to list_return as subroutine `index` (0 .. 1023) in list 3; without commands the
+    /// subroutine is deleted.
     Result<void> load_sub(std::uint32_t index);
-    /// Appends; refused when the list is full (nothing is changed). `command` must come from list_command().
+    /// Appends a command; refused if the list is full (nothing is changed). `command` must come from list_command().
     Result<void> put(const Command& command);
     std::int64_t input_pointer() const { return state_.lists.input; }
-    /// As set_start_list takes them.
+    /// Parameters as set_start_list takes them.
     Result<void> execute_list(std::uint32_t list, std::int64_t position = 0);
     Result<void> execute_at(std::int64_t position);
     void auto_change() { state_.lists.auto_change = 1; }
@@ -93,22 +92,21 @@ class Engine {
     void stop_execution();
     void pause_list();
     void restart_list();
-    /// Jumps at the jump speed while no list runs.
+    /// Jumps at the jump speed; only while no list runs.
     Result<void> goto_xy(double x, double y);
 
     // ---- control commands (control.cpp)
-    /// Resets everything but McBSP location 0, its filling, and the inputs. Lists, tables and settings are as at
-    /// power-up.
+    /// Resets everything except McBSP location 0, its filling, and the inputs. Lists, tables and settings return to
+    /// their power-up state.
     void load_program_file();
-    /// Table 1 to 4; nullptr: 1:1.
+    /// Loads table 1 to 4; nullptr: 1:1.
     Result<void> load_correction(std::shared_ptr<const Table> table, int number);
-    /// Tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
+    /// Selects the tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
     Result<void> select_cor_table(int head_a, int head_b);
     Result<void> set_delays(const Delays& delays);
     void set_jump_speed(double bits_ms);
     void set_mark_speed(double bits_ms);
-    /// at_once 0: with the next tick; 1, 3: the same; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before
-    /// fly.
+    /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
     Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once);
     Result<void> set_offset(int head, Point offset, int at_once);
     Result<void> set_angle(int head, double degrees, int at_once);
@@ -122,51 +120,51 @@ class Engine {
     void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
-    /// What is no part of the state as the other card, whose state was copied, has it: tables, and the samples
-    /// recorded.
+    /// Copies the data that State does not contain from the card whose state was copied: tables and recorded samples.
     void copy_beside_state(const Engine& other);
     void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
     Result<void> set_mcbsp_in(int mode, double scale);
-    /// Words carry their type; those of type 3 are the laser's power (see multi_power).
+    /// Words carry their type; words of type 3 are the laser's power (see multi_power).
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
-    /// Online positioning: scale 0 is off, resolution under 100 too.
+    /// Online positioning: scale 0 and a resolution below 100 disable it.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
-    /// One of the three; the others stay.
+    /// Sets one of the three; the others are kept.
     Result<void> set_mcbsp_x(double scale);
     Result<void> set_mcbsp_y(double scale);
     Result<void> set_mcbsp_rot(double resolution);
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
     Result<void> apply_mcbsp(int head, int at_once);
-    /// The present word, put to location 0 too. Refused: none has come.
+    /// The present word, also copied to location 0. Errors: refused if none has been received.
     Result<std::int32_t> get_mcbsp();
-    /// Signals that are sent from the next tick on, one a tick, in turn; none: sending ends. At most 8.
+    /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
     Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
-    /// Disabled, the laser goes off, and what would switch it on does not, until it is enabled.
+    /// Disabling switches the laser off and blocks it until it is enabled again.
     void enable_laser() { state_.laser.disabled = 0; }
     void disable_laser();
-    /// Ends a recording; its samples stay.
+    /// Ends a recording; its samples are kept.
     void stop_trigger() { state_.recording.period = 0; }
 
-    // ---- what comes from outside
+    // ---- external inputs
     void external_start() { ++state_.starts.triggers; }
     void external_stop();
     void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
     void receive(std::uint32_t word);
-    /// A tick in which both lines of an encoder changed.
+    /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
-    /// nullptr: set_count and receive.
+    /// Sets the source of inputs; nullptr: set_count and receive.
     void set_inputs(Inputs* inputs) { inputs_ = inputs, not_due_.forget(); }
-    /// nullptr: nobody.
+    /// Sets the listener; nullptr: none.
     void set_listener(ListListener* listener) { listener_ = listener; }
 
     // ---- running
-    /// Runs ticks up to, not including, `tick`.
+    /// Runs the ticks before `tick`.
     void run_until(std::int64_t tick, Sink* sink = nullptr);
-    /// Runs until no list runs, nothing moves and no start waits, at most `ticks`; true: it came to rest.
+    /// Runs at most `ticks` ticks until no list runs, nothing moves and no start waits; returns true if this state was
+    /// reached.
     bool run_to_rest(std::int64_t ticks, Sink* sink = nullptr);
     std::int64_t tick() const { return state_.tick; }
-    /// No list runs, nothing moves or waits to start, and the laser has no change to come.
+    /// True if no list runs, nothing moves or waits to start, and no laser change is pending.
     bool at_rest() const;
 
     // ---- answers
@@ -177,33 +175,33 @@ class Engine {
     std::int32_t encoder(int number) const { return state_.encoders[static_cast<std::size_t>(number)].count(); }
     Result<std::int32_t> read_mcbsp(int location) const { return state_.mcbsp.read(location); }
     std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
-    /// Reads and clears as the rules say.
+    /// Reads and clears by the rules of RULES.md.
     std::uint32_t get_marking_info();
     /// Both counts of store_encoder, `pos` 0 or 1.
     std::array<std::int32_t, 2> read_encoder(int pos) const;
-    /// What set_multi_mcbsp_in puts to the port: the value of type 3 (mode 0), factor * value / 16384 (mode 1).
+    /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
     std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
     /// Correction table 1 .. 4; nullptr: 1:1.
     const Table* table(std::int64_t number) const;
     /// The same without clearing.
     std::uint32_t startstop_info() const;
-    /// A signal's value in the last tick.
+    /// Value of a signal in the last tick.
     Result<std::int32_t> get_value(std::uint32_t signal) const;
-    /// The word that was sent in the last tick; 0 while nothing is sent.
+    /// The word sent in the last tick; 0 while sending is off.
     std::int32_t mcbsp_sent() const;
     const Recording& recording() const { return state_.recording; }
     /// Sample `i` of `channel` (0 ..) of the recording.
     std::int32_t recorded(std::int64_t channel, std::int64_t i) const {
         return recorded_[static_cast<std::size_t>(i * state_.recording.channels + channel)];
     }
-    /// Counts/ms behind the filters; 0 while not watched.
+    /// Counts/ms after the filters; 0 while not watched.
     double encoder_speed() const;
     /// x, y of head A in the last tick.
     const Output& output() const { return state_.output; }
     const State& state() const { return state_; }
-    /// How far the corrected position went (before clipping) while a correction was on, since clear_extent: whether a
-    /// job fits the field and by how much. No part of the state.
+    /// Extent of the corrected position (before clipping) while a correction was on, since clear_extent: the margin of
+    /// a job in the field. Not part of the state.
     const Extent& extent() const { return extent_; }
     void clear_extent() { extent_ = {}; }
     State& mutable_state() { return state_; }
@@ -344,11 +342,11 @@ class Engine {
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<Scratch> scratch_;
-    Sink* sink_ = nullptr;     // of the run
-    std::int64_t filled_ = 0;  // the laser's samples are there up to this tick
-    bool until_rest_ = false;  // the run ends when the card rests
+    Sink* sink_ = nullptr;     // sink of the run
+    std::int64_t filled_ = 0;  // the laser's samples are complete up to this tick
+    bool until_rest_ = false;  // the run ends when the card is idle
     Extent extent_;
-    double block_z_ = 0;     // of the block's last tick
+    double block_z_ = 0;     // Z of the block's last tick
     bool evaluated_ = true;  // the output is that of the last tick
 };
 

@@ -13,7 +13,7 @@ Point through(const Transform& t, Point p) {
     return {t.product[0] * p.x + t.product[1] * p.y + t.offset.x, t.product[2] * p.x + t.product[3] * p.y + t.offset.y};
 }
 
-/// What set_fly_limits and set_fly_limits_z watch, of X, Y, Z.
+/// Values that set_fly_limits and set_fly_limits_z watch, for X, Y, Z.
 struct LimitBits {
     std::uint32_t below = 0, above = 0;
 };
@@ -68,7 +68,7 @@ void Engine::pipeline_command(const Command& c) {
     control_command(c);
 }
 
-/// Commands that are list forms of control commands.
+/// Executes commands that are list forms of control commands.
 void Engine::control_command(const Command& c) {
     const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(c.p[i]); };
     Starts& s = state_.starts;
@@ -111,7 +111,7 @@ void Engine::control_command(const Command& c) {
     }
 }
 
-/// True: it was one of the commands that put corrections on or off; it has its tick.
+/// Executes commands that switch corrections on or off. Returns true if it was one; it has its own tick.
 bool Engine::fly_command(const Command& c) {
     switch (c.op) {
         case Op::set_fly_x:
@@ -242,7 +242,7 @@ void Engine::zero_encoder(std::size_t encoder) {
         e.zero = e.travel;
 }
 
-/// Zeroes the encoders; true: with a tracking error a tick goes by first, and the command is taken again.
+/// Zeroes the encoders. Returns true if, with a tracking error, one tick passes first and the command is repeated.
 bool Engine::empty_cycle(std::initializer_list<std::size_t> encoders) {
     Lists& l = state_.lists;
     if (l.again) {
@@ -261,7 +261,7 @@ bool Engine::empty_cycle(std::initializer_list<std::size_t> encoders) {
     return true;
 }
 
-/// Where the correction puts `p` in this tick; backwards: what it puts at `p`.
+/// Position of `p` after the correction in this tick; backwards: the position that the correction maps to `p`.
 Point Engine::fly_of(Point p, bool backwards) const {
     const Fly& f = state_.fly;
     double value[2] = {0, 0};
@@ -295,7 +295,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
     return p;
 }
 
-/// p takes over what the correction does (so that it can go off), or gives it back.
+/// Adds the correction to p (so that the correction can be switched off), or removes it.
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
     const Point g = through(state_.global, state_.p), way = fly_of(g, backwards) - g;

@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view line) {
     return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
 }
 
-/// Four whole numbers of 32 bits with blanks between.
+/// Parses four whole numbers of 32 bits, separated by blanks.
 std::optional<std::array<std::int32_t, 4>> four_numbers(std::string_view line) {
     std::array<std::int32_t, 4> out{};
     for (std::int32_t& value : out) {
@@ -68,7 +68,7 @@ Result<Points> points_of(std::string_view text, const std::string& section, cons
     return points;
 }
 
-/// The cell of `value` and how far it is in it.
+/// The cell of `value` and the fraction within it.
 std::pair<std::size_t, double> cell(const std::vector<double>& grid, double value) {
     if (!(value > grid.front())) return {0, 0.0};
     if (value >= grid.back()) return {grid.size() - 2, 1.0};

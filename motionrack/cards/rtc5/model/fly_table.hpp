@@ -1,6 +1,6 @@
-// The 2D compensation of encoder positions: what to add to both counts, from a text file.
+// The 2D compensation of encoder positions: offsets of both counts, from a text file.
 //
-//     [Fly2DTable1]          section by its number; only the first of a number counts
+//     [Fly2DTable1]          section by its number; only the first section of a number is read
 //     ; Enc0  Enc1  dEnc0  dEnc1
 //     0       0     0      0
 //     1000    0     12     -3
@@ -15,15 +15,15 @@ namespace motionrack::rtc5 {
 
 class FlyTable {
   public:
-    /// Reads section `number`. Refused with line and reason: no such section, a line over 255 characters or without
-    /// four whole numbers, points that are no full grid, fewer than 2 by 2 of them. A point given twice has the last
-    /// values.
+    /// Reads section `number`. Errors: refused with line and reason for a missing section, a line over 255 characters
+    /// or without four whole numbers, points that do not form a full grid, or fewer than 2 by 2 points. For a repeated
+    /// point the last values apply.
     static Result<FlyTable> read(std::string_view text, unsigned number, const std::string& file);
 
     struct Shift {
         double x = 0, y = 0;
     };
-    /// Bilinear; beyond the grid as at its edge.
+    /// Bilinear; constant beyond the edge of the grid.
     Shift at(double encoder0, double encoder1) const;
 
   private:

@@ -1,4 +1,4 @@
-// Encoder counts and McBSP words: in a tick, in blocks, and over spans.
+// Encoder counts and McBSP words: in a tick, in blocks, and over intervals.
 #include <cmath>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
@@ -30,7 +30,7 @@ void Engine::sample_inputs() {
     store_word();
 }
 
-/// The speeds of ticks first .. n-1, whose counts are in the scratch.
+/// Velocities of ticks first .. n-1, whose counts are in the scratch.
 void Engine::filter_speed(std::size_t first, std::size_t n) {
     const double through = 1 - state_.speed_smooth;
     for (std::size_t number = 0; number < encoder_count; ++number) {
@@ -82,7 +82,7 @@ std::int32_t Engine::axis_value(std::uint32_t word, bool y) const {
     return static_cast<std::int16_t>(y ? word >> 16 : word & 0xFFFF);
 }
 
-/// The memory locations of this tick.
+/// Memory locations of this tick.
 void Engine::store_word() {
     McBsp& m = state_.mcbsp;
     const auto word = static_cast<std::uint32_t>(m.word);
@@ -100,7 +100,7 @@ bool Engine::load_words(std::size_t n) {
     return inputs_ != nullptr && inputs_->words(state_.tick, {scratch_->words.data(), n});
 }
 
-/// The encoder's counts of n ticks from now on.
+/// Encoder counts of n ticks from now on.
 void Engine::load_counts(int encoder, std::size_t n) {
     const Encoder& e = state_.encoders[static_cast<std::size_t>(encoder)];
     std::int32_t* const out = scratch_->counts[encoder].data();
@@ -120,7 +120,7 @@ void Engine::load_counts(int encoder, std::size_t n) {
     }
 }
 
-/// What the correction takes: counts, ahead by the tracking error.
+/// Counts used by the correction, advanced by the tracking error.
 void Engine::effective_counts(int encoder, std::size_t n) {
     load_counts(encoder, n);
     const std::int32_t* const counts = scratch_->counts[encoder].data();
@@ -150,7 +150,7 @@ Point Engine::mcbsp_now() const {
     return {static_cast<double>(axis_value(word, false)), static_cast<double>(axis_value(word, true))};
 }
 
-/// The McBSP values of x and y in n ticks from now on.
+/// McBSP values of x and y in n ticks from now on.
 void Engine::mcbsp_values(std::size_t n) {
     const Point now = mcbsp_now();
     const bool many = n > 1 && load_words(n), multi = state_.fly.kind == FlyKind::multi;
@@ -170,7 +170,7 @@ void Engine::mcbsp_values(std::size_t n) {
     }
 }
 
-/// Whether a wait for an encoder or McBSP value is over in a tick with `present`, after one with `before`.
+/// True if a wait for an encoder or McBSP value ends in a tick with `present`, after a tick with `before`.
 bool Engine::met(std::int64_t before, std::int64_t present) const {
     const std::int64_t value = state_.activity.value[0], mode = state_.activity.value[2];
     if (mode > 0) return present >= value;
@@ -211,7 +211,7 @@ bool Engine::met_now() const {
                axis_value(static_cast<std::uint32_t>(state_.mcbsp.word), y));
 }
 
-/// Ticks of the wait among the next `limit`, the one that ends it included.
+/// Number of ticks of the wait among the next `limit`, including the one that ends it.
 std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
     const auto n = static_cast<std::size_t>(limit);
     if (state_.activity.kind == ActivityKind::wait_mcbsp) {
@@ -227,7 +227,7 @@ std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
     return limit;
 }
 
-/// The same without looking at each tick, if counts stand or are simulated; -1: each must be looked at.
+/// The same without evaluating each tick, if the counts are constant or simulated; -1: each tick must be evaluated.
 std::int64_t Engine::simple_wait(bool& over) const {
     constexpr std::int64_t endless = std::int64_t{1} << 60, half = std::int64_t{1} << 31;
     const Activity& a = state_.activity;
@@ -251,7 +251,7 @@ std::int64_t Engine::simple_wait(bool& over) const {
     return met(then, then) ? 1 + ticks : -1;
 }
 
-/// From this tick to the last one of n.
+/// Samples the inputs from this tick to the last of n.
 void Engine::advance_encoders(std::int64_t n) {
     if (n == 1) return;
     if (state_.speed_watched) {
@@ -280,7 +280,7 @@ void Engine::advance_words(std::int64_t n) {
     const bool come = inputs_ != nullptr && inputs_->words(state_.tick + n - 2, last);
     m.previous = last[0];
     if (m.online_rot && come) {
-        // Both locations keep the last word of their kind: look at each.
+        // Both locations keep the last word of their kind, so each tick is evaluated.
         for (std::int64_t i = 1; i < n; ++i) {
             std::uint32_t word = 0;
             inputs_->words(state_.tick + i, {&word, 1});

@@ -1,4 +1,4 @@
-// Lists become steps: vectors, arcs, delays, polylines.
+// Conversion of lists into steps: vectors, arcs, delays, polylines.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-constexpr double nearly = 1 - 0x1p-40;  // a length that is a whole number of steps but for rounding is that number
+constexpr double nearly = 1 - 0x1p-40;  // a length within rounding of a whole number of steps is taken as that number
 
 std::int64_t steps_for(double length, double step) {
     const double steps = std::ceil(length / step * nearly);
@@ -26,8 +26,8 @@ bool is_relative(Op op) {
 
 }  // namespace
 
-/// Sees that there is a step for tick `tick + n`; false: a command of the pipeline comes first, which needs the ticks
-/// before it done.
+/// Ensures a step for tick `tick + n`. Returns false if a command of the pipeline comes first, which needs the previous
+/// ticks executed.
 bool Engine::next_step(std::size_t n) {
     const std::int64_t tick = state_.tick + static_cast<std::int64_t>(n);
     Activity& a = state_.activity;
@@ -40,7 +40,7 @@ bool Engine::next_step(std::size_t n) {
         }
         if (!l.running) return true;
         if (l.next >= l.begin[3]) {
-            if (n > 0) return false;  // whether a list runs is the same in all ticks of a block
+            if (n > 0) return false;  // the running state of a list is constant in a block
             l.current = l.next;
             end_list(false, tick);
             continue;
@@ -60,7 +60,7 @@ bool Engine::next_step(std::size_t n) {
     }
 }
 
-/// The activity is over: what follows it by itself.
+/// Starts the automatic successor of a finished activity.
 void Engine::finish(std::int64_t tick) {
     const Ending ending = state_.activity.ending;
     const Activity over = state_.activity;
@@ -90,7 +90,7 @@ void Engine::finish(std::int64_t tick) {
     begin_hold(delay);
 }
 
-/// The mark that goes on with the polyline, or nullptr.
+/// The mark that continues the polyline, or nullptr.
 const Command* Engine::next_mark() const {
     const Lists& l = state_.lists;
     if (!l.running) return nullptr;
@@ -172,7 +172,7 @@ void Engine::jump_to(Point target) {
     begin_line(target, state_.jump_speed, Ending::jump);
 }
 
-/// The laser goes on for a mark; false: it must wait before it moves, and be taken again.
+/// Switches the laser on for a mark. Returns false if the mark must wait before it moves, and be repeated.
 bool Engine::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;

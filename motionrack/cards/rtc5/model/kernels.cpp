@@ -1,5 +1,5 @@
-// Loops over blocks. Nothing depends on the order of the elements, so vector instructions of any width give the same
-// bits.
+// Loops over blocks. The results do not depend on the order of the elements, so vector instructions of any width give
+// the same bits.
 #include <algorithm>
 #include <bit>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
@@ -35,7 +35,7 @@ void transform(double* __restrict x, double* __restrict y, std::size_t n, const 
 }
 
 Extent extent(const double* x, const double* y, std::size_t n) {
-    // Four of each, so that one comparison need not wait for the one before it.
+    // Four of each, so one comparison need not wait for the previous one.
     double lx[4], gx[4], ly[4], gy[4];
     for (int k = 0; k < 4; ++k) lx[k] = gx[k] = x[0], ly[k] = gy[k] = y[0];
     std::size_t i = 0;
@@ -56,7 +56,7 @@ Extent extent(const double* x, const double* y, std::size_t n) {
 
 namespace {
 
-/// Both coordinates at once: two doubles are one register everywhere.
+/// Both coordinates at once: two doubles fill one register on every target.
 using Pair = double __attribute__((vector_size(16)));
 using Whole = std::int64_t __attribute__((vector_size(16)));
 
@@ -71,7 +71,7 @@ inline double into_field(double v) {
 template <bool corrected>
 void head_loop(const double* __restrict x, const double* __restrict y, std::int32_t* __restrict to_x,
                std::int32_t* __restrict to_y, std::size_t n, const Table* table, Pair gain, Pair offset) {
-    // Added to this number, a double keeps the nearest whole number (half to even) in its low bits.
+    // Adding this number leaves the nearest whole number (half to even) in the low bits of a double.
     constexpr Pair whole = {6755399441055744.0, 6755399441055744.0};
     for (std::size_t i = 0; i < n; ++i) {
         Pair v = {into_field(x[i]), into_field(y[i])};

@@ -1,5 +1,4 @@
-// The pipeline's steps over blocks of ticks: plain loops that a compiler turns into vector instructions, same bits
-// everywhere.
+// The pipeline's steps over blocks of ticks: plain loops that compilers vectorise, with the same bits on every machine.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,7 @@
 
 namespace motionrack::rtc5::kernels {
 
-/// Ticks of a block: what the arrays below have room for.
+/// Ticks of a block: capacity of the arrays below.
 inline constexpr std::size_t block = 512;
 
 void line(double* x, double* y, std::size_t n, Point from, Point step, std::int64_t first);
@@ -17,8 +16,8 @@ void hold(double* x, double* y, std::size_t n, Point p);
 void add_scaled(double* x, const double* counts, std::size_t n, double scale);
 void transform(double* x, double* y, std::size_t n, const Transform& t);
 Extent extent(const double* x, const double* y, std::size_t n);
-/// The last steps of a head: into the field of 20 bits, through the table (nullptr: none), gain * v + offset, rounded,
-/// clipped.
+/// Last steps of a head: clipping to the field of 20 bits, table (nullptr: none), gain * v + offset, rounding,
+/// clipping.
 void head(const double* x, const double* y, std::int32_t* to_x, std::int32_t* to_y, std::size_t n, const Table* table,
           Point gain, Point offset);
 

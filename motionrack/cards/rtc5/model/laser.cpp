@@ -1,4 +1,4 @@
-// The laser gate: a few changes to come, in half-microseconds.
+// The laser gate: pending changes, in half-microseconds.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
@@ -27,7 +27,7 @@ void Engine::disable_laser() {
     state_.laser.disabled = 1;
 }
 
-/// Carries out what comes before `tick`, and its samples if somebody looks.
+/// Executes the changes before `tick`, and writes their samples for a sink.
 void Engine::laser_until(std::int64_t tick) {
     Laser& l = state_.laser;
     std::uint8_t* const samples = sink_ != nullptr ? scratch_->laser.data() : nullptr;

@@ -1,4 +1,4 @@
-// Lists: their memory, loading, beginning and ending them.
+// Lists: memory, loading, start and end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Result<void> check_position(std::int64_t position) {
                                                 position, max_list_memory - 1));
 }
 
-/// Hash of a command at its place; 0 where nothing was put.
+/// Hash of a command at its position; 0 for an empty position.
 std::uint64_t hash_at(std::int64_t position, const Command& c) {
     if (c.op == Op::none) return 0;
     std::uint64_t h = static_cast<std::uint64_t>(position) << 16 ^ static_cast<std::uint64_t>(c.op);
@@ -56,18 +56,18 @@ std::uint64_t hash_at(std::int64_t position, const Command& c) {
     return h;
 }
 
-/// The hash of the memory is the sum over its places, so that a command costs two of them and not 42 MB.
+/// The hash of the memory is the sum over its positions, so a new command costs two hashes instead of 42 MB.
 void store(std::span<Command> memory, std::uint64_t& memory_hash, std::int64_t position, const Command& command) {
     Command& stored = memory[static_cast<std::size_t>(position)];
     memory_hash += hash_at(position, command) - hash_at(position, stored);
     stored = command;
 }
 
-/// 0 list 1, 1 list 2; without memory list 2 is list 1.
+/// Index 0 for list 1, 1 for list 2; without memory list 2 is list 1.
 std::size_t list_of(std::uint32_t number, const Lists& l) {
     return number % 2 == 0 && l.begin[2] > l.begin[1] ? 1 : 0;
 }
-/// The place at `position` of list `list`.
+/// Memory position of `position` in list `list`.
 std::int64_t place(std::size_t list, std::int64_t position, const Lists& l) {
     const std::int64_t begin = l.begin[list];
     return position < l.begin[list + 1] - begin ? begin + position : begin;
@@ -110,7 +110,7 @@ Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t positio
         return !(status & list_status_bit("BUSY1") << i) && (!used || status & list_status_bit("USED1") << i);
     };
     const std::uint32_t wanted = list & 3;
-    const std::size_t next = l.current < l.begin[1] ? 1 : 0;  // what auto_change would run
+    const std::size_t next = l.current < l.begin[1] ? 1 : 0;  // the list that auto_change would run
     for (const std::size_t i : {wanted == 3 ? next : std::size_t{0}, wanted == 3 ? 1 - next : std::size_t{1}}) {
         if ((wanted == 1 && i == 1) || (wanted == 2 && list_of(2, l) != i) || (i == 1 && list_of(2, l) == 0)) continue;
         if (!free(i, wanted == 3)) continue;
@@ -138,7 +138,7 @@ Result<void> Engine::put(const Command& command) {
     for (int i = 1; i < what.positions; ++i) store(memory(), state_.memory_hash, l.input + i, {});
     l.input += what.positions;
     if (command.op == Op::list_return && l.loading) {
-        // The subroutine is complete; without a command there is none.
+        // The subroutine is complete; without commands it is deleted.
         const std::int64_t begin = l.begin[2] + l.list3_used;
         const bool empty = l.input == begin + 1;
         l.subroutines[static_cast<std::size_t>(l.loading - 1)] = empty ? 0 : begin;
@@ -174,7 +174,7 @@ Result<void> Engine::execute_at(std::int64_t position) {
     return {};
 }
 
-/// The list that runs is over; the other one may follow.
+/// Ends the running list; the other list may follow.
 void Engine::end_list(bool written, std::int64_t tick) {
     Lists& l = state_.lists;
     l.skip = 0;
@@ -182,7 +182,7 @@ void Engine::end_list(bool written, std::int64_t tick) {
     if (!written) ++l.ended_unwritten;
     const std::int64_t at = l.current;
     l.loaded |= std::int64_t{list_status_bit("USED1")} << (at < l.begin[1] ? 0 : 1);
-    // Lists that take no time would follow each other for ever: once a tick is enough.
+    // Lists that take no time would follow each other without end: at most one change per tick.
     if (written && (l.auto_change || l.loop) && at < l.begin[2] && l.changed_at != tick) {
         l.auto_change = 0;
         l.changed_at = tick;
@@ -193,13 +193,13 @@ void Engine::end_list(bool written, std::int64_t tick) {
     if (listener_ != nullptr) listener_->ended(tick);
 }
 
-/// What cannot be called (-1: nothing is there) is a list_nop.
+/// A call to an undefined target (-1) is a list_nop.
 void Engine::call(std::int64_t position, std::int64_t tick) {
     Lists& l = state_.lists;
     if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(max_depth)) return begin_hold(1);
     if (l.called_at != tick) l.calls = 0;
     l.called_at = tick;
-    // Calls that take no time could follow each other for ever.
+    // Calls that take no time could follow each other without end.
     if (++l.calls > static_cast<std::int64_t>(calls_per_tick)) {
         l.next = l.current;
         return begin_hold(1);

@@ -1,4 +1,4 @@
-// Up to which tick a waiting start is known not to be due, as far as the inputs were looked at.
+// The tick up to which a waiting start is known not to be due, by the inputs evaluated.
 #pragma once
 
 #include <array>
@@ -12,19 +12,20 @@ inline bool due(const Start& start, std::int64_t travel) {
     return start.delay > 0 ? travel >= start.target : travel <= start.target;
 }
 
-/// No part of the card's state: after a rewind or a reset it is of another past. So it keeps the travel of each tick
-/// and holds only where the card's is that one, from which the same inputs lead on.
+/// Not part of the card's state: a rewind or a reset leaves it with the values of another past. It therefore stores the
+/// travel of each tick, and is valid only while the card's travel is equal; the same inputs then lead to the same
+/// future.
 class NotDue {
   public:
     bool holds(const Start& start, std::int64_t tick, std::int64_t travel) const {
         return start_.target == start.target && start_.delay == start.delay && start_.encoder == start.encoder &&
                from_ <= tick && tick < until_ && travel_[static_cast<std::size_t>(tick - from_)] == travel;
     }
-    /// The first tick in which it may be due.
+    /// The first tick in which the start may be due.
     std::int64_t until() const { return until_; }
-    /// The inputs are others.
+    /// Discards the result because the inputs have changed.
     void forget() { until_ = from_; }
-    /// `counts`: of its encoder at `tick` and after it, at most kernels::block of them; at `tick` it is not due.
+    /// `counts`: those of its encoder from `tick` on, at most kernels::block; at `tick` the start is not due.
     void look(const Start& start, std::int64_t tick, std::int64_t travel, std::span<const std::int32_t> counts) {
         start_ = start;
         from_ = tick;

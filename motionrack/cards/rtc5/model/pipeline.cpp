@@ -1,4 +1,4 @@
-// From positions to outputs, block by block.
+// Computation of outputs from positions, block by block.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -126,7 +126,7 @@ void Engine::check_z(std::size_t n) {
     }
 }
 
-/// Z in the tick whose inputs were sampled last.
+/// Z in the last sampled tick.
 double Engine::z_now() const {
     const Fly& f = state_.fly;
     if (f.kind == FlyKind::multi) return state_.z + static_cast<double>(state_.mcbsp.typed[2]);
@@ -151,7 +151,7 @@ void Engine::run_head(std::size_t number, std::size_t n) {
                   head.offset);
 }
 
-/// What the last of n ticks put out.
+/// Output of the last of n ticks.
 void Engine::keep_output(std::size_t n) {
     const Scratch& b = *scratch_;
     Output& o = state_.output;
@@ -164,7 +164,7 @@ void Engine::keep_output(std::size_t n) {
     evaluated_ = true;
 }
 
-/// The output of the last tick, if nobody looked at it.
+/// Computes the output of the last tick if it was skipped.
 void Engine::evaluate() {
     if (evaluated_) return;
     Scratch& b = *scratch_;
@@ -177,8 +177,8 @@ void Engine::evaluate() {
     keep_output(1);
 }
 
-/// Where n ticks of the activity are, if that is so far inside field and limits that no flag can be set: positions and
-/// counts are straight lines in time, and their ends say all.
+/// Extent of n ticks of the activity, if it is far enough inside field and limits that no flag can be set. Positions
+/// and counts are linear in time, so their end points suffice.
 std::optional<Extent> Engine::steady_extent(const Activity& a, std::int64_t n) const {
     const Fly& f = state_.fly;
     const bool encoders = f.kind == FlyKind::encoder;

@@ -1,4 +1,4 @@
-// Recording of signals, and signals that are sent over McBSP.
+// Recording of signals, and their transmission over McBSP.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void Engine::set_trigger(const Command& c, std::int64_t tick) {
     if (c.op == Op::set_trigger4) r.signals[2] = static_cast<std::int64_t>(c.p[3]), r.signals[3] = c.head;
 }
 
-/// To the next tick that has a sample if the list goes on running; 0: the present one.
+/// Ticks to the next sample if the list continues to run; 0: the present tick.
 std::int64_t Engine::ticks_to_sample() const {
     const Recording& r = state_.recording;
     if (r.period == 0 || !state_.lists.running || state_.lists.paused) return std::numeric_limits<std::int64_t>::max();
@@ -36,12 +36,12 @@ std::int64_t Engine::ticks_to_sample() const {
     return over == 0 ? 0 : r.period - over;
 }
 
-/// Once the present tick's commands are taken: whether it has a sample.
+/// True if the present tick has a sample; called after its commands.
 bool Engine::samples_now() const {
     return ticks_to_sample() == 0;
 }
 
-/// The present tick's output is there.
+/// Records the present tick; requires its output.
 void Engine::record() {
     Recording& r = state_.recording;
     std::int32_t* const to = &recorded_[static_cast<std::size_t>(r.count * r.channels)];

@@ -1,4 +1,4 @@
-// External starts: at once, or after a stretch of the track.
+// External starts: immediate, or after a distance on the conveyor.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
@@ -71,7 +71,7 @@ void Engine::tell_start(StartFate fate) {
     if (listener_ != nullptr) listener_->started(state_.tick, fate);
 }
 
-/// Ticks from this one to the one in which the first waiting start is due, at most `limit`.
+/// Ticks from the present one to that of the first waiting start, at most `limit`.
 std::int64_t Engine::ticks_to_start(std::int64_t limit) {
     const Start& start = state_.starts.queue[0];
     const Encoder& e = state_.encoders[static_cast<std::size_t>(start.encoder)];

@@ -1,5 +1,5 @@
-// All that the card remembers but its lists and tables. Every member has 8 bytes (or comes in pairs), so that there is
-// no padding that a snapshot's hash would see.
+// The state of the card except its lists and tables. Every member has 8 bytes (or comes in pairs), so no padding enters
+// a snapshot's hash.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Point {
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 };
 
-/// How far positions went; empty at first.
+/// Extent of positions; empty at first.
 struct Extent {
     double min_x = std::numeric_limits<double>::infinity(), max_x = -std::numeric_limits<double>::infinity();
     double min_y = std::numeric_limits<double>::infinity(), max_y = -std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ struct Extent {
     }
 };
 
-/// Radians of a rotary correction: whole turns are left out, so that any count has an angle.
+/// Angle of a rotary correction in radians. Whole turns are removed, so every count has an angle.
 inline double turn_of(double value, double resolution) {
     const double turns = value / resolution;
     return 2 * pi * (turns - std::floor(turns));
@@ -49,21 +49,21 @@ struct Transform {
 enum class ActivityKind : std::int64_t { none, line, arc, hold, wait_encoder, wait_range, wait_mcbsp };
 enum class Ending : std::int64_t { none, jump, mark, laser_off };
 
-/// What the list is doing: step `done` of `steps`.
+/// Present activity of the list: step `done` of `steps`.
 struct Activity {
     ActivityKind kind = ActivityKind::none;
     Ending ending = Ending::none;
     std::int64_t done = 0, steps = 0;
     Point from, step, to;                 ///< line; arc: from is the radius, to the centre, step.x the angle of a step
     std::array<std::int64_t, 4> value{};  ///< waits: values; then encoder or axis, mode
-    Point direction;                      ///< of its end, for the corner
+    Point direction;                      ///< direction at its end, for the corner
 };
 
 struct Encoder {
     std::int64_t travel = 0, zero = 0, raw = 0;
-    std::int64_t previous = 0;  ///< the count of the tick before
+    std::int64_t previous = 0;  ///< count of the previous tick
     std::int64_t simulated = 0, reset_at_start = 0;
-    double slow1 = 0, slow2 = 0;  ///< speed behind the filters, counts/ms
+    double slow1 = 0, slow2 = 0;  ///< velocity after the filters, counts/ms
     std::int32_t count() const {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(travel) - static_cast<std::uint32_t>(zero));
     }
@@ -73,13 +73,13 @@ enum class FlyKind : std::int64_t { off, encoder, encoder_2d, encoder_rot, mcbsp
 
 struct Fly {
     FlyKind kind = FlyKind::off;
-    std::int64_t x = 0, y = 0, z = 0;  ///< which are on
+    std::int64_t x = 0, y = 0, z = 0;  ///< enabled corrections
     double scale_x = 0, scale_y = 0, scale_z = 0, resolution = 0;
     std::int64_t z_encoder = 0;
     bool on() const { return kind != FlyKind::off; }
 };
 
-/// Why there is nothing to read where the words that come go.
+/// Reason why the location of received words has no value.
 inline constexpr std::string_view no_word_yet =
     "no word has come over McBSP yet, so there is nothing to read; let the sender send one first";
 
@@ -89,13 +89,13 @@ struct McBsp {
     std::array<std::int32_t, 8> typed{};
     std::array<std::uint32_t, 4> pending{};
     std::int64_t pending_count = 0;
-    std::int64_t to_zero = 0;   ///< location 0 is kept filled
-    std::int64_t received = 0;  ///< a word has come
-    std::int64_t filled = 0;    ///< bits of the locations that something was put into
+    std::int64_t to_zero = 0;   ///< location 0 receives all words
+    std::int64_t received = 0;  ///< a word has been received
+    std::int64_t filled = 0;    ///< bits of the locations that have a value
     std::int64_t in_mode = 0, multi = 0, round = 0;
     std::int64_t online_x = 0, online_y = 0, online_rot = 0;
     std::int64_t online_matrix = 0;
-    std::int64_t power_port = 0, power_factor = 0, power_mode = 0;  ///< of set_multi_mcbsp_in
+    std::int64_t power_port = 0, power_factor = 0, power_mode = 0;  ///< parameters of set_multi_mcbsp_in
     double online_scale_x = 0, online_scale_y = 0, online_resolution = 0;
 
     void put(std::int64_t location, std::int32_t value) {
@@ -103,16 +103,17 @@ struct McBsp {
         filled |= std::int64_t{1} << location;
     }
     bool online() const { return online_x || online_y || online_rot; }
-    /// The words that come go there (too).
+    /// Received words go there (too).
     bool goes_to(int location) const;
-    /// What is in location 0 .. 3. Refused where nothing was put there yet: the sentence says what must come first.
+    /// Value of location 0 .. 3. Errors: refused if the location is empty; the sentence names the command that must
+    /// come first.
     Result<std::int32_t> read(int location) const;
 };
 
 struct Laser {
     static constexpr std::int64_t capacity = 16;
     std::int64_t on = 0, count = 0, head = 0;
-    std::array<std::int64_t, capacity> at{};  ///< half-microseconds; ring from head; levels alternate from !on
+    std::array<std::int64_t, capacity> at{};  ///< half-microseconds; ring buffer from head; levels alternate from !on
     std::int64_t on_since = 0, on_time = 0, lost = 0;
     std::int64_t disabled = 0;
 };
@@ -138,22 +139,22 @@ struct Delays {
 };
 
 struct Lists {
-    std::array<std::int64_t, 4> begin{};    ///< of list 1, 2, 3; the memory's end
-    std::int64_t input = 0, input_end = 0;  ///< where the next command goes
+    std::array<std::int64_t, 4> begin{};    ///< start of list 1, 2, 3; end of the memory
+    std::int64_t input = 0, input_end = 0;  ///< position of the next command
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
-    std::int64_t ended_unwritten = 0;                          ///< times that a list ran into a place never written
-    std::array<std::int64_t, max_depth> returns{};             ///< of calls: where they go on
+    std::int64_t ended_unwritten = 0;                          ///< times that a list reached an unwritten position
+    std::array<std::int64_t, max_depth> returns{};             ///< return positions of calls
     std::int64_t depth = 0, calls = 0, called_at = -1;         ///< calls in the tick called_at
-    std::array<std::int64_t, subroutine_count> subroutines{};  ///< their begins in list 3; 0: none
-    std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine that is being loaded, from 1; places
+    std::array<std::int64_t, subroutine_count> subroutines{};  ///< their start positions in list 3; 0: none
+    std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine being loaded, from 1; positions used
     std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY
 };
 
 /// set_wobbel: an ellipse about p while a polyline is marked.
 struct Wobbel {
     double transversal = 0, longitudinal = 0, turns = 0;  ///< bits; turns a tick
-    std::int64_t step = 0;                                ///< ticks since the polyline began
+    std::int64_t step = 0;                                ///< ticks since the start of the polyline
     Point direction{1, 0}, offset;                        ///< of the last tick
     bool on() const { return turns != 0 && (transversal != 0 || longitudinal != 0); }
 };
@@ -165,7 +166,7 @@ struct Recording {
     std::array<std::int64_t, record_channels> signals{};
 };
 
-/// set_mcbsp_out: signals that are sent in turn, one a tick.
+/// set_mcbsp_out: signals that are sent in turn, one per tick.
 struct Sender {
     std::int64_t count = 0, first = 0;
     std::array<std::int64_t, sent_signals> signals{};
@@ -184,8 +185,8 @@ struct Output {
 };
 
 struct State {
-    std::int64_t tick = 0;      ///< the next one
-    std::int64_t sampled = -1;  ///< the last one whose inputs were taken
+    std::int64_t tick = 0;      ///< the next tick
+    std::int64_t sampled = -1;  ///< the last tick with sampled inputs
     Point p;
     double z = 0;
     Activity activity;
@@ -193,7 +194,7 @@ struct State {
     double jump_speed = 1000, mark_speed = 1000;
     Delays delays;
     std::array<Encoder, encoder_count> encoders{};
-    std::array<std::int64_t, encoder_count> input{};  ///< what the lines have counted
+    std::array<std::int64_t, encoder_count> input{};  ///< counts of the input lines
     std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
     std::array<std::int64_t, encoder_count> tracking_error{};
     std::int64_t speed_watched = 0, speed_encoder = 0;
@@ -207,17 +208,17 @@ struct State {
     Starts starts;
     std::int64_t control_mode = 0;
     std::int64_t marking_info = 0, startstop_info = 0;
-    std::array<std::int64_t, 32> flag_tick{};  ///< when a bit of marking info was set, since it was last clear
+    std::array<std::int64_t, 32> flag_tick{};  ///< tick at which a bit of marking info was set, since it was last clear
     Transform global;
     std::array<Head, head_count> heads{};
-    std::int64_t later_count = 0;      ///< transforms that wait for the next jump: bit HeadNo
+    std::int64_t later_count = 0;      ///< transforms pending until the next jump: bit HeadNo
     std::array<Transform, 3> later{};  ///< heads A, B, global
     std::int64_t io = 0;
     Wobbel wobbel;
     Recording recording;
     Sender sender;
     Output output;
-    std::uint64_t memory_hash = 0;  ///< of the lists' memory: every command at its place; 0: nothing was put
+    std::uint64_t memory_hash = 0;  ///< hash of the lists' memory: every command at its position; 0: empty
 };
 
 }  // namespace motionrack::rtc5

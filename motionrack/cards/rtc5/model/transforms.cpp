@@ -1,4 +1,4 @@
-// Transforms of the heads and before the correction, also those that come over McBSP.
+// Transforms of the heads and before the correction, including those received over McBSP.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Scale * Angle * Matrix, and whether it does nothing.
+/// Scale * Angle * Matrix, and whether it is the identity.
 void multiply(Transform& t) {
     const SinCos turn = sin_cos(t.angle_deg * (pi / 180));
     const double c = t.scale * turn.cos, s = t.scale * turn.sin;
@@ -140,7 +140,7 @@ Result<void> Engine::set_mcbsp_rot(double resolution) {
     return {};
 }
 
-/// X (0), Y (1) or the angle (2); what else is on stays.
+/// Sets X (0), Y (1) or the angle (2); the others are kept.
 void Engine::set_online(std::size_t which, double value) {
     const McBsp& m = state_.mcbsp;
     std::array<double, 3> all{};
@@ -171,8 +171,8 @@ Result<void> Engine::apply_mcbsp(int head, int at_once) {
             t.matrix[static_cast<std::size_t>(coefficient & 3)] = static_cast<double>(coefficient >> 2) / 16777216;
         });
     }
-    // With rotation, bit 31 tells the two kinds of words apart: 31 bits of offset or angle, or 15 bits each of x and y
-    // (low, high).
+    // With rotation, bit 31 distinguishes the two kinds of words: 31 bits of offset or angle, or 15 bits each of x and
+    // y (low, high).
     const auto word = static_cast<std::uint32_t>(m.memory[1]);
     const bool both = m.online_x && m.online_y;
     const auto sign_extended = [](std::uint32_t v, int bits) {

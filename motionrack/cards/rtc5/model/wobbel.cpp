@@ -1,4 +1,4 @@
-// The wobbel: while a polyline is marked, the position goes round an ellipse about the path.
+// The wobbel: while a polyline is marked, the position circles on an ellipse about the path.
 //
 //        transversal * sin
 //          ▲    ╭──╮
@@ -17,7 +17,7 @@ void Engine::set_wobbel(const Command& c) {
     w.direction = {1, 0};
 }
 
-/// In the present tick, once its commands are taken.
+/// Advances the wobbel in the present tick, after its commands.
 bool Engine::wobbles() const {
     return state_.wobbel.on() && state_.lists.marking && !state_.lists.paused;
 }
