@@ -1,5 +1,5 @@
-// The chip's whole-number arithmetic (RULES.md), shared by the virtual chip, the function library and the planner:
-// limits of the parameters, points of lines and arcs after any number of basic pulses, and where an arc really ends.
+// The chip's integer arithmetic (RULES.md), shared by the virtual chip, the function library and the planner: limits of
+// the parameters, points of lines and arcs after any number of basic pulses, and the true end of an arc.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,15 @@ namespace motionrack::mcx314::rules {
 
 inline constexpr std::int64_t sclk_hz = 8'000'000;
 inline constexpr std::int64_t tick_100ps = 1'250;     ///< 125 ns
-inline constexpr std::int64_t speed_carry = 64'000;   ///< va at which the speed steps
-inline constexpr std::int64_t jerk_ticks_per_k = 16;  ///< SCLK a step of the acceleration, times K
-/// What registers are in pulses and seconds: V = 1 is M = clock_hz / R pulses/s, A = 1 is rate_unit * M pulses/s2, the
-/// jerk is jerk_unit * M / K pulses/s3. V, SV, A and D go up to max_units.
+inline constexpr std::int64_t speed_carry = 64'000;   ///< va at which the speed changes by one step
+inline constexpr std::int64_t jerk_ticks_per_k = 16;  ///< SCLK per step of the acceleration, times K
+/// Register units in pulses and seconds: V = 1 is M = clock_hz / R pulses/s, A = 1 is rate_unit * M pulses/s2, the jerk
+/// is jerk_unit * M / K pulses/s3. V, SV, A and D go up to max_units.
 inline constexpr double clock_hz = static_cast<double>(sclk_hz), rate_unit = 125, jerk_unit = 62.5e6;
 inline constexpr std::int64_t max_units = 8'000;
-inline constexpr int start_ticks = 2;  ///< ticks between a drive command and the generator's first one
+inline constexpr int start_ticks = 2;  ///< ticks between a drive command and the generator's first tick
 
-/// A parameter as the generator uses it: limited to its documented range.
+/// A parameter limited to its documented range, as the generator uses it.
 constexpr std::int64_t used_range(std::int64_t r) {
     return std::clamp<std::int64_t>(r, 16'000, 16'777'215);
 }
@@ -31,12 +31,12 @@ constexpr std::int64_t used_jerk(std::int64_t k) {
     return std::clamp<std::int64_t>(k, 1, 65'535);
 }
 
-/// 24-bit two's complement, as finish points and centres are read.
+/// 24-bit two's complement, for finish points and centres.
 constexpr std::int64_t signed24(std::uint32_t v) {
     return static_cast<std::int64_t>((v & 0xFF'FFFFu) ^ 0x80'0000u) - 0x80'0000;
 }
 
-/// 32-bit two's complement within +-2,147,483,646, as the MCX314As reads them.
+/// 32-bit two's complement within +-2,147,483,646, as on the MCX314As.
 constexpr std::int64_t limited32(std::uint32_t v) {
     return std::clamp<std::int64_t>(static_cast<std::int32_t>(v), -2'147'483'646, 2'147'483'646);
 }
@@ -48,7 +48,7 @@ constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) {
     return (a + b - 1) / b;
 }  // a >= 0, b > 0
 
-/// Greatest s with s * s <= v, v < 2^63 - 2^33.
+/// Largest s with s * s <= v, v < 2^63 - 2^33.
 inline std::int64_t isqrt(std::int64_t v) {
     auto s = static_cast<std::int64_t>(std::sqrt(static_cast<double>(v)));
     while (s * s > v) --s;
@@ -66,13 +66,13 @@ inline std::int64_t near(std::int64_t q) {
 // ---- lines
 
 /// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0); n * p is
-/// below 2^63 with all that the chip takes.
+/// below 2^63 for all values that the chip accepts.
 constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t longest) {
     const std::int64_t done = n * p / longest, rest = n * p - done * longest;
     return 2 * rest >= longest ? done + 1 : done;
 }
 
-/// The basic pulse at which that axis makes its pulse number `steps` (>= 1, <= p).
+/// The basic pulse at which that axis makes pulse number `steps` (>= 1, <= p).
 constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t longest) {
     const auto way = static_cast<std::uint64_t>(2 * steps - 1) * static_cast<std::uint64_t>(longest);
     const auto twice = static_cast<std::uint64_t>(2 * p);
@@ -81,8 +81,8 @@ constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, st
 
 // ---- arcs
 
-/// In octant k: which coordinate (0: x, 1: y) steps at every basic pulse, which way, and on which side of zero the
-/// other one is.
+/// In octant k: the coordinate (0: x, 1: y) that steps at every basic pulse, its direction, and the sign of the other
+/// coordinate.
 struct Octant {
     int short_axis, short_step, long_side;
 };
@@ -122,14 +122,14 @@ constexpr bool leaves_octant(int octant, std::int64_t x, std::int64_t y) {
     }
 }
 
-/// Counter-clockwise, x falls in the upper half and y falls in the left half.
+/// Counter-clockwise, x decreases in the upper half and y decreases in the left half.
 constexpr int direction_in_octant(int octant, int coordinate) {
     if (coordinate == 0) return octant < 4 ? -1 : +1;
     return octant >= 2 && octant < 6 ? -1 : +1;
 }
 
-/// An arc being drawn; trivially copyable. Coordinates are relative to the centre; clockwise arcs are kept mirrored
-/// (second axis negated), so everything here turns counter-clockwise.
+/// State of an arc; trivially copyable. Coordinates are relative to the centre. Clockwise arcs are stored mirrored
+/// (second axis negated), so all arithmetic here is counter-clockwise.
 struct Arc {
     std::array<std::int64_t, 2> at{};
     std::array<std::int64_t, 2> finish{};
@@ -139,7 +139,7 @@ struct Arc {
     std::int32_t clockwise = 0;
     std::int32_t lap = 0;  ///< the start is past the finish in the finish's octant
     std::int32_t finished = 1;
-    std::int32_t reserved = 0;  ///< no padding in a state that is compared by its bytes
+    std::int32_t reserved = 0;  ///< avoids padding in a state that is compared by its bytes
 
     /// Centre and finish point relative to the start, each coordinate within +-2,147,483,646.
     void begin(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool cw) {
@@ -160,7 +160,7 @@ struct Arc {
         return (at[s] - finish[s]) * o.short_step >= 0;
     }
 
-    /// The point after `pulses` more basic pulses, none of which leaves the octant but perhaps the last.
+    /// The point after `pulses` more basic pulses, of which only the last may leave the octant.
     std::array<std::int64_t, 2> after(std::int64_t pulses) const {
         if (pulses == 0) return at;
         const Octant& o = octants[static_cast<std::size_t>(octant)];
@@ -171,7 +171,8 @@ struct Arc {
         return out;
     }
 
-    /// One basic pulse; gives which axes stepped, -1, 0 or +1, in the chip's own (not mirrored) directions.
+    /// Executes one basic pulse; returns the step of each axis, -1, 0 or +1, in the chip's own (not mirrored)
+    /// directions.
     std::array<int, 2> step() {
         const Octant& o = octants[static_cast<std::size_t>(octant)];
         const auto s = static_cast<std::size_t>(o.short_axis), l = 1 - s;
@@ -184,7 +185,7 @@ struct Arc {
         finished = octant == finish_octant && !lap && past_finish();
         for (int i = 0; i < 4 && !finished && leaves_octant(octant, at[0], at[1]); ++i) {
             finished =
-                octant == finish_octant && !lap;  // its octant is behind: the finish point lies beyond the circle
+                octant == finish_octant && !lap;  // its octant has passed: the finish point lies beyond the circle
             if (finished) break;
             octant = (octant + 1) % 8;
             lap = 0;
@@ -204,7 +205,7 @@ struct Arc {
         return next - s;
     }
 
-    /// Basic pulses until something other than a plain step happens: the octant is left or the arc ends (>= 1).
+    /// Basic pulses until the octant is left or the arc ends (>= 1).
     std::int64_t pulses_to_event() const {
         std::int64_t pulses = pulses_to_leave();
         if (octant == finish_octant && !lap) {
@@ -216,7 +217,7 @@ struct Arc {
     }
 };
 
-/// What an arc command comes to: basic pulses, and the end relative to the start.
+/// Result of an arc command: basic pulses, and the end relative to the start.
 struct ArcEnd {
     std::int64_t basic_pulses = 0;
     std::int64_t first = 0;

@@ -1,4 +1,4 @@
-// The MCX314's map: everything that is declared of it, as tables for people and as constants for programs.
+// The MCX314's map: all its declarations, as tables for documents and as constants for programs.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -81,7 +81,7 @@ inline constexpr unsigned SM = command_named(map::commands, "SM").code;
 inline constexpr unsigned SYNC = command_named(map::commands, "SYNC").code;
 }  // namespace cmd
 
-/// A field of a register by name; names that are not declared do not compile: field("RR0", "CNEXT").test(word).
+/// A field of a register by name; undeclared names do not compile: field("RR0", "CNEXT").test(word).
 consteval Field field(std::string_view reg_name, std::string_view field_name) {
     return {mask_of(register_named(map::registers, reg_name), field_name)};
 }

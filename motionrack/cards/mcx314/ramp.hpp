@@ -1,8 +1,8 @@
-// How the speed of a generator changes (RULES.md), shared by the virtual chip, the function library and the planner:
+// Speed ramps of a generator (RULES.md), shared by the virtual chip, the function library and the planner:
 //
 //   rate CA     ___                 An S-ramp's rate rises by 1 every J ticks, up to A or D, and falls again as soon as
-//             _/   \_               what is left of the way to the aim is what the fall takes. So the fall of the rate
-//           _/       \_             mirrors its rise, and 1 is left of it where the aim is reached.
+//             _/   \_               the remaining speed change equals that of the falling rate. So the fall of the
+//           _/       \_             rate mirrors its rise, and 1 is left of it when the target is reached.
 //   increasing constant decreasing
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace motionrack::mcx314 {
 
-/// A tick or a pulse that never comes.
+/// A tick or a pulse that never occurs.
 inline constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 
-/// Of the rate of an S-ramp.
+/// Phase of an S-ramp's rate.
 enum class Phase : std::uint8_t { increasing, constant, decreasing };
 
-/// A speed and the ramp it is on.
+/// A speed and its ramp.
 struct Speed {
     std::int64_t speed = 0, speed_part = 0;  ///< CV, va
     std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
-    std::int64_t aim = 0;                    ///< where an S-ramp goes
+    std::int64_t aim = 0;                    ///< target of an S-ramp
     std::int32_t ramp = 0;
     Phase phase = Phase::increasing;
     std::array<std::uint8_t, 3> reserved{};
@@ -35,18 +35,18 @@ inline std::int64_t ticks_to_carry(std::int64_t speed_part, std::int64_t rate) {
     return (left + each - 1) / each;
 }
 
-/// What the speed changes by until the rate has fallen from `rate` to 1, each of those below `rate` lasting `jerk`
-/// ticks; 64,000 to a step of the speed.
+/// Speed change until the rate has fallen from `rate` to 1, each rate below `rate` lasting `jerk` ticks; 64,000 per
+/// step of the speed.
 constexpr std::int64_t s_fall(std::int64_t rate, std::int64_t jerk) {
     return jerk * rate * (rate - 1) / 2;
 }
 
-/// What the speed still has to change by until an S-ramp's aim, 64,000 to a step of it.
+/// Remaining speed change to the S-ramp's target, 64,000 per step.
 constexpr std::int64_t s_left(const Speed& law) {
     return magnitude(law.aim - law.speed) * speed_carry - law.speed_part;
 }
 
-/// Ticks until an S-ramp changes its rate, or no longer raises it; far if never.
+/// Ticks until an S-ramp changes its rate, or stops increasing it; far if never.
 constexpr std::int64_t s_ticks_of_rate(const Speed& law, std::int64_t jerk) {
     const std::int64_t spare = std::max<std::int64_t>(0, s_left(law) - s_fall(law.rate, jerk));
     if (law.phase != Phase::increasing) return law.rate > 1 ? 1 + ceil_div(spare, law.rate) : far;
@@ -62,8 +62,8 @@ inline std::int64_t s_ticks(const Speed& law, std::int64_t jerk) {
     return std::min(step, s_ticks_of_rate(law, jerk));
 }
 
-/// Begins an S-ramp in the direction law.ramp. One that falls begins with the first step of its rate, as one that rises
-/// ends with the last: they mirror each other.
+/// Begins an S-ramp in the direction law.ramp. A decelerating ramp begins with the first step of its rate, as an
+/// accelerating one ends with the last: they mirror each other.
 constexpr void s_begin(Speed& law, std::int64_t aim, std::int64_t jerk) {
     law.aim = aim;
     law.phase = Phase::increasing;
@@ -71,13 +71,13 @@ constexpr void s_begin(Speed& law, std::int64_t aim, std::int64_t jerk) {
     law.rate_part = law.ramp < 0 ? jerk : 0;
 }
 
-/// `ticks` of an S-ramp in which neither changes.
+/// Executes `ticks` of an S-ramp in which neither changes.
 constexpr void s_skip(Speed& law, std::int64_t ticks) {
     if (law.phase == Phase::increasing) law.rate_part += ticks;
     law.speed_part += ticks * law.rate;
 }
 
-/// One tick of an S-ramp with rates up to `top_rate`; true if its aim is reached.
+/// Executes one tick of an S-ramp with rates up to `top_rate`; returns true if its target is reached.
 constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
     if (law.phase == Phase::increasing) {
         if (++law.rate_part >= jerk) {
@@ -94,7 +94,7 @@ constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
         law.speed += law.ramp;
         if (law.speed == law.aim) return true;
     }
-    // Half of the way is done: the rest of this rate's ticks lies behind the middle.
+    // Half of the change is done: the remaining ticks of this rate belong to the second half.
     if (law.phase == Phase::increasing && s_left(law) <= s_fall(law.rate, jerk) + law.rate * (law.rate_part + 1)) {
         law.phase = Phase::decreasing;
         law.rate_part = 0;
@@ -102,7 +102,7 @@ constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
     return false;
 }
 
-/// What a ramp takes: ticks, and the sum of CV over them (pulses = phase / R).
+/// Duration of a ramp in ticks, and the sum of CV over them (pulses = phase / R).
 struct Ramp {
     std::int64_t ticks = 0;
     std::int64_t phase = 0;

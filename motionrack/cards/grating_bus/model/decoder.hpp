@@ -3,7 +3,7 @@
 //   scale 0 ──► [ count ] ──hold──► [ latch ]──┐
 //   scale 1 ──► [ count ] ──hold──► [ latch ]──┼── addr, read_n ──► data
 //
-// A scale is a connected Motion, or the wires a<n> and b<n>.
+// A scale is a connected sim::PositionFunction, or the wires a<n> and b<n>.
 #pragma once
 
 #include <array>

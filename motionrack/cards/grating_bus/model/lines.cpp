@@ -38,8 +38,7 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
         in_conflict_ &= ~bit;
         return 0;
     }
-    const bool again =
-        (in_conflict_ & bit) == 0 && ended_now(i, now);  // a conflict that ended at this instant continues
+    const bool again = (in_conflict_ & bit) == 0 && ended_now(i, now);  // it ended just now
     const bool begins = (in_conflict_ & bit) == 0 && !again;
     in_conflict_ |= bit;
     if (again) list_[open_[i] % slots].end = never;

@@ -1,8 +1,8 @@
-// The fourth axis: steered on its own speed generator beside three interpolated ones.
+// The auxiliary (fourth) axis: its own speed generator follows three interpolated axes.
 //
-//   speed      ___   ____                 one V a segment, so that it is where it should be at the segment's end
-//          ___/   \_/    \__              pulses: all that are known; from `brakes at` on the chip falls
-//        |  1  | 2 | 3 |  4 |             to SV by itself
+//   speed      ___   ____                 one V per segment, which brings it to its position at the segment's
+//          ___/   \_/    \__              end; pulses: all known ones; from `brakes at` on the chip
+//        |  1  | 2 | 3 |  4 |             decelerates to SV by itself
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 
 namespace motionrack::mcx314 {
 
-/// Sets a channel up as the auxiliary; it stands.
+/// Sets a stationary channel up as the auxiliary.
 Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
     auxiliary_ = channel;
     companion_target_ = companion_from_ = at;
@@ -38,12 +38,12 @@ Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
 
 namespace {
 
-/// From the look at its place to the speed that comes of it.
+/// Register accesses from reading the position to the new speed.
 constexpr double accesses_to_speed = 11;
-/// The chip's slopes are whole steps of whole clocks: one that must have fallen at a place falls by so much more.
+/// The chip's slopes are quantised to whole steps and clocks: a ramp that must end at a position gets this margin.
 constexpr double sure = 1.02;
 
-/// Of the longest axis; with constant vector speed those in which both axes step take longer.
+/// Basic pulses of the longest axis; with constant vector speed, pulses in which both axes step take longer.
 double basic_pulses(const Segment& segment) {
     std::int64_t most = 0, least = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < segment.axis_count; ++i) {
@@ -57,7 +57,7 @@ double basic_pulses(const Segment& segment) {
 
 }  // namespace
 
-/// About how long the segment takes: from a V to its own, then on.
+/// Approximate duration of the segment: from the velocity `from` to its own V, then constant.
 double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const {
     const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
     const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
@@ -76,7 +76,7 @@ Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
     const bool driving = driver_.status().driving(1u << c);
     if (segment.even) return steer_evenly(segment, driving, at);
     const std::int64_t left = companion_target_ - at;
-    if (!driving && left != 0) companion_negative_ = left < 0;  // it turns round only at a standstill
+    if (!driving && left != 0) companion_negative_ = left < 0;  // it reverses only at a standstill
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
@@ -84,7 +84,7 @@ Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
                         segment_seconds(segment, driver_.ReadCV(generator_)) * range_ / rules::clock_hz;
     const std::int32_t v = companion_speed(mean);
     if (!driving) return drive_companion(at, goal, v);
-    // Once it brakes it goes on to the end that it had; what is left is driven from there.
+    // While it decelerates it keeps its present end; a new drive then covers the remaining pulses.
     if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};
     const std::int64_t pulses = goal - companion_from_;
     companion_brakes_at_ = companion_fall_from(pulses, v);
@@ -97,9 +97,9 @@ std::int32_t ChipAxisGroup::companion_speed(double v) const {
     return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
 }
 
-/// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks
-/// pulses. The ride slows down for its rests, so the chip need not. One that is too fast for its place stands a little
-/// beyond it, and comes back when all stand.
+/// Changes the speed as evenly as that of the other axes: to the planned speed at the segment's end, corrected for
+/// missing pulses. The trajectory itself decelerates for its stops, so the chip need not. An axis that is too fast for
+/// its position stops slightly beyond it, and returns when all axes are stationary.
 Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
     const unsigned axis = 1u << auxiliary_;
     if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
@@ -109,7 +109,7 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
                  start = companion_start_speed_;
     const double from = driving ? driver_.ReadCV(auxiliary_) : start;
     const auto left = static_cast<double>(direction * (companion_target_ - at));
-    if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
+    if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it has already arrived
     const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
                  late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
     const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
@@ -120,7 +120,7 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
         slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
-                        : most;  // one that is ahead is there before its time
+                        : most;  // an axis that is ahead arrives early
     MOTIONRACK_CHECK(driver_.SetA(
         axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
     const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
@@ -133,7 +133,7 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     return driver_.SetDecPoint(axis, companion_brakes_at_);
 }
 
-/// The pulse from which its speed must fall to have the start speed at the end.
+/// The pulse at which deceleration must begin to reach the start speed at the end.
 std::int64_t ChipAxisGroup::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
     const std::int64_t all = std::llabs(pulses);
     if (v <= companion_start_speed_) return all;
@@ -142,7 +142,7 @@ std::int64_t ChipAxisGroup::companion_fall_from(std::int64_t pulses, std::int32_
     return std::max<std::int64_t>(0, all - static_cast<std::int64_t>(phase / range_) - 2);
 }
 
-/// From where it stands.
+/// Starts a drive from standstill.
 Result<void> ChipAxisGroup::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
     const unsigned axis = 1u << auxiliary_;
     const std::int64_t pulses = to - from;
@@ -157,10 +157,10 @@ Result<void> ChipAxisGroup::drive_companion(std::int64_t from, std::int64_t to, 
     return {};
 }
 
-/// The others stand and it does: what it still lacks.
+/// Drives the remaining pulses once all axes are stationary.
 Result<void> ChipAxisGroup::finish_companion() {
     const std::int64_t at = driver_.ReadLPS(auxiliary_);
-    if (driver_.status().error(xyzu)) return {};  // what has ended the path has ended it for all
+    if (driver_.status().error(xyzu)) return {};  // an error that ended the path applies to all axes
     const std::int64_t target = expected_[static_cast<std::size_t>(auxiliary_)];
     const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
     const double half =

@@ -1,4 +1,4 @@
-// Playing segments: starting chains, queueing behind the running segment, rewriting speed at joints, standing still
+// Execution of segments: starts chains, queues behind the running segment, rewrites the speed at junctions, and stops
 // exactly.
 #include <fmt/format.h>
 
@@ -16,18 +16,19 @@ namespace {
 // R of the second axis for R of the first: both axes step together, the path is sqrt(2) pulses long.
 constexpr double both_axes_factor = 1 + both_axes_extra;
 constexpr Duration joint_timeout = whole_seconds(3600);
-constexpr Duration brake_look = microseconds(5);  // less than any piece takes
-constexpr std::int64_t pulses_past_joint = 16;    // more than are driven until it is looked at
+constexpr Duration brake_look = microseconds(5);  // less than the duration of any segment
+constexpr std::int64_t pulses_past_joint = 16;    // more than are driven until the next poll
 
-/// True if the line is active. A wish to stop ends each wait at once, so that braking axes are looked at now and then.
+/// Returns true if the line is active. During a requested stop each wait returns at once, so decelerating axes are
+/// polled.
 bool wait_for_interrupt(Interrupt& host, bool brakes) {
     if (!brakes) return host.wait(joint_timeout);
     host.pass(brake_look);
     return false;
 }
 
-/// The queue has room behind a joint, and where a switch ahead of an axis has the chip decelerate within its segment:
-/// it drops the queued one then. No speed of that may be written while it brakes.
+/// Detects whether the chip is at the junction. The queue also becomes free if a limit switch makes the chip decelerate
+/// within its segment, as this drops the queued one. The speed of that segment must not be written then.
 bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
     for (int c = 0; c < channel_count; ++c) {
         if (c == auxiliary) continue;
@@ -145,18 +146,18 @@ Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
     return command(segment);
 }
 
-/// Puts the segment behind the running one. If the host came too late, the chip stands at the joint and it starts from
-/// there.
+/// Queues the segment behind the running one. If the host is late, the chip is stationary at the junction, and the
+/// segment starts from there.
 Result<void> ChipAxisGroup::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
-    if (braking_) return stopped_by_user();  // it stands already
+    if (braking_) return stopped_by_user();  // already stationary
     tell_late(segment);
     return command(segment);
 }
 
-/// The chip stood before it had this segment.
+/// Records that the chip was stationary before it received this segment.
 void ChipAxisGroup::tell_late(const Segment& segment) {
     const Instant now = driver_.interrupt().now();
     notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
@@ -177,30 +178,32 @@ Result<void> ChipAxisGroup::command(const Segment& segment) {
                        segment.kind == SegmentKind::arc_cw);
 }
 
-/// Until the queued segment is driven.
+/// Waits until the queued segment is running.
 Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
     bool woken = false;
     for (bool first = true;; first = false) {
         const MainStatus status = driver_.status();
         if (status.can_queue()) {
             if (status.error(xyzu) && !are_at(driver_, expected_, auxiliary_)) return stopped_by_machine();
-            // What is driven at once may have begun from rest: the chip may have stood when the last word came.
+            // A segment that runs at once may have started from standstill: the chip may have stopped before the last
+            // word arrived.
             if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
             return {};
         }
         if (!status.interpolating()) {
             if (status.error(xyzu)) return stopped_by_machine();
-            ran_alone_ = true;  // it has run and ended already
+            ran_alone_ = true;  // it has already run and ended
             return {};
         }
         if (std::exchange(woken, false)) {
-            // Something else woke us, a auxiliary's end. What was cleared with it may have been the room in the queue.
+            // Another interrupt caused the wake-up: the end of the auxiliary. The interrupt of a free queue may have
+            // been cleared with it.
             clear_interrupts();
             continue;
         }
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(decelerate());
-        // The next piece is queued as soon as there is room for it, while the axes decelerate too.
+        // The next segment is queued as soon as the queue is free, also while the axes decelerate.
         woken = wait_for_interrupt(driver_.interrupt(), brakes);
     }
 }
@@ -221,9 +224,10 @@ Result<void> ChipAxisGroup::write_acceleration(std::int32_t acceleration) {
     return {};
 }
 
-/// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the
-/// speed is written down, segments go on being queued, and the command comes when it has fallen. One look at it; the
-/// S-curve's stop fits into its line, and pieces of a ride go on until the ride has slowed down.
+/// Decelerates for a requested stop; one poll. A stop command would end the drive at the end of the queued segment, at
+/// any speed. Therefore the speed is reduced first while segments are still queued, and the command follows at the low
+/// speed. An S-curve stops within its line, and constant-acceleration segments continue until the trajectory has
+/// decelerated.
 Result<void> ChipAxisGroup::decelerate() {
     if (even_) return {};
     if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
@@ -254,7 +258,7 @@ Result<void> ChipAxisGroup::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(xyzu) && !status.interpolating()) break;
-        // The path was ended by a switch or an alarm; a fourth axis has not heard of it.
+        // A switch or an alarm has ended the path; the auxiliary does not stop by itself.
         if (!status.interpolating() && status.error(xyzu)) driver_.SlowStop(xyzu);
         const bool brakes = driver_.interrupt().stop_requested();
         if (brakes) MOTIONRACK_CHECK(decelerate());
@@ -320,7 +324,7 @@ tl::unexpected<Error> ChipAxisGroup::stopped_by_user() {
     return control::stopped_on_request(current_line_, commanded_position(), map_.limits);
 }
 
-// ---- looking
+// ---- polling
 
 control::Point ChipAxisGroup::commanded_position() {
     control::Point out = {};

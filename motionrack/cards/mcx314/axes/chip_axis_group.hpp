@@ -1,15 +1,14 @@
-// The chip's axes as the controller sees them: follows planned moves by continuous interpolation, rewriting the speed
-// at each joint.
+// The chip's axes as the controller sees them: executes planned moves by continuous interpolation, and rewrites the
+// speed at each junction.
 //
 //   chip  |== segment 1 ==|== segment 2 ==|== segment 3 ==|
 //   host   ^start 1, queue 2 ^INT: V of 2, queue 3 ^INT: V of 3, queue 4
 //
-// Where the next piece does not come in time the chip stands at once, and begins it from rest: it is told how late it
-// was.
+// If the next segment is late, the chip stops at once and starts it from standstill; the delay is reported.
 //
-// A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and
-// gives it the speed that brings it to its place by the segment's end. Its last pulse is counted by the chip, so its
-// end is exact.
+// An auxiliary axis that moves with three others runs on its own generator. At each junction the host reads its counter
+// and writes the speed that brings it to its position at the segment's end. The chip counts its last pulse, so its end
+// is exact.
 #pragma once
 
 #include <motionrack/cards/mcx314/axes/path_rule.hpp>
@@ -22,14 +21,14 @@ namespace motionrack::mcx314 {
 
 class ChipAxisGroup final : public control::AxisGroup {
   public:
-    /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are
+    /// Part of each axis' acceleration that the planner must reserve, because the chip's speeds and accelerations are
     /// whole numbers.
     static constexpr double accel_reserve = 0.03;
 
-    /// The driver must outlive this.
+    /// The driver must outlive this object.
     ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host);
 
-    /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software
+    /// Resets and initialises the chip: pulse and direction, limit switches active low with decelerating stop, software
     /// limits at the travel, encoders x4, positions as given (mm, degrees).
     Result<void> set_up(const control::Point& position);
 
@@ -37,8 +36,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
     const control::DriveConstraints* drive_constraints() const override { return &rule_; }
-    /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is
-    /// none.
+    /// MCX314As: the channels (one bit each) with the probe at IN3, High while it touches. Initially 0: no probe.
     void set_probe(unsigned channels) { probe_channels_ = channels; }
     Result<control::ProbeResult> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override;
@@ -46,9 +44,9 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::vector<control::PathWarning> take_path_warnings() override;
     std::vector<control::MoveStart> take_move_starts() override { return std::exchange(starts_, {}); }
 
-    /// Speed of one V unit in pulses a second: rates that change by more than this at once are joints, not ramps.
+    /// Speed of one V unit in pulses/s; larger immediate rate changes are junctions, not ramps.
     double speed_step_hz() const { return rules::clock_hz / range_; }
-    /// Segments given to the chip since begin(): what the path cost.
+    /// Segments written to the chip since begin().
     std::int64_t segments() const { return segments_; }
 
   private:
@@ -92,7 +90,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::optional<Segmenter> segmenter_;
     std::vector<control::MoveStart> starts_;
     std::vector<control::PathWarning> notes_;
-    Pulses4 expected_ = {};  ///< where the counters are when everything given so far is done
+    Pulses4 expected_ = {};  ///< counters after all segments written so far
     std::int32_t last_block_ = -2;
     std::int32_t current_line_ = 0;
     std::int32_t written_speed_ = 0;
@@ -102,24 +100,24 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::int32_t rest_speed_ = 1;  ///< of the running segment
     bool s_curve_ = false;         ///< of the running chain
     bool even_ = false;            ///< of the running chain
-    bool braking_ = false;         ///< on a wish to stop
+    bool braking_ = false;         ///< stop requested
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
-    bool ran_alone_ = false;    ///< the queued segment ended before the host knew that it had begun
-    Instant runs_until_{};      ///< about when the chip has driven the running segment
+    bool ran_alone_ = false;    ///< the queued segment ended before the host saw its start
+    Instant runs_until_{};      ///< estimated end of the running segment
     double running_speed_ = 1;  ///< V at its end
     unsigned probe_channels_ = 0;
     bool probing_ = false;
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
     // The auxiliary's present drive.
     int auxiliary_ = -1;
-    std::int32_t companion_start_speed_ = 1;  ///< SV, A and the greatest V that it drives with
+    std::int32_t companion_start_speed_ = 1;  ///< SV, A and the maximum V of its drive
     std::int32_t companion_acceleration_ = 1;
     std::int32_t companion_top_speed_ = 1;
     bool companion_negative_ = false;
-    std::int64_t companion_from_ = 0;       ///< its counter where the drive began
-    std::int64_t companion_target_ = 0;     ///< where it should be at the end of the present segment
-    std::int64_t companion_brakes_at_ = 0;  ///< pulse of the drive
+    std::int64_t companion_from_ = 0;       ///< its counter at the start of the drive
+    std::int64_t companion_target_ = 0;     ///< its target at the end of the present segment
+    std::int64_t companion_brakes_at_ = 0;  ///< pulse of the drive at which deceleration begins
 };
 
 }  // namespace motionrack::mcx314

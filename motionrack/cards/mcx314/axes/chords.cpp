@@ -1,4 +1,4 @@
-// Arcs that the chip cannot draw, and moves with a fourth axis: many short lines, each with its speed.
+// Chords: moves that the chip cannot draw (helices, moves with a fourth axis) as many short lines, each with its speed.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -9,10 +9,9 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// Part of the path's acceleration that moves with a fourth axis use.
+// Share of the path acceleration for moves with a fourth axis.
 constexpr double companion_share = 0.3;
-// Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so
-// many pulses.
+// Share of an axis' velocity step used from chord to chord of an arc, if the chords have that many pulses.
 constexpr double joint_share = 0.7, shortest_chord = 16, max_angle = 0.5;
 
 double squared(double x) {
@@ -29,10 +28,10 @@ double shortest_angle(const AxisMap& map, const control::Geometry& arc) {
     return std::min(max_angle, shortest_chord / scale / arc.radius);
 }
 
-/// How many lines a move is drawn with; none takes less than `min_seconds`.
+/// Number of lines for a move; each takes at least `min_seconds`.
 double chords_of(const AxisMap& map, const control::Geometry& path, double cruise, double min_seconds) {
     if (path.shape == control::PathShape::arc) {
-        // From chord to chord the axes' speeds jump by speed * angle.
+        // From chord to chord the axis velocities change by speed * angle.
         const double jump =
             joint_share * std::min(map.limits[path.first].max_velocity_step, map.limits[path.second].max_velocity_step);
         const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
@@ -62,12 +61,11 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     else
         note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
     const double step = work.path.length / count;
-    // A auxiliary is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can
-    // follow.
+    // An auxiliary receives one speed per segment, so the speeds of the segments change more slowly than its limit.
     const double top_speed = work.move.cruise_velocity,
                  accel = work.auxiliary >= 0 ? companion_share * work.move.accel : work.move.accel;
-    // First the speeds that the limits allow, from the start; then, from the end, what the chip can decelerate: the
-    // basic pulses for a mm change from chord to chord, so this is counted in the chip's own pulses and speed units.
+    // The forward pass applies the limits, the backward pass the chip's deceleration. The basic pulses per mm differ
+    // from chord to chord, so the passes use the chip's own pulses and speed units.
     struct Chord {
         double to = 0;
         Pulses4 at = {};
@@ -97,11 +95,11 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
         const Pulses4 way = way_between(work, chords[i - 1].at, after.at);
         const std::int64_t pulses = basic_pulses(way);
         const double share = work.auxiliary >= 0 ? companion_share : 1;
-        // V units squared; less the steps of whole units and the register accesses before the new speed counts.
+        // V units squared; less the steps of whole units and the register accesses before the new speed takes effect.
         const double slope = rules::rate_unit * after.acceleration * share,
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
         const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
-        // It begins with the speed of the chord before it.
+        // It begins with the speed of the previous chord.
         const double most = max_on(way, work.constant_vector).speed;
         chords[i - 1].v = std::min({chords[i - 1].v, most, std::floor(std::sqrt(squared(after.v) + 2 * slope * room))});
     }
@@ -111,7 +109,7 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     add_rest(work, speeds);
 }
 
-/// What is left of a auxiliary after the last pulse of the others belongs to their last piece.
+/// Assigns the remaining pulses of the auxiliary after the last pulse of the others to their last segment.
 void Segmenter::add_rest(const PendingMove& work, const Speeds& speeds) {
     if (at_ == work.to) return;
     const auto c = static_cast<std::size_t>(std::max(0, work.auxiliary));

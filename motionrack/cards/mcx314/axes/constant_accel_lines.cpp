@@ -1,4 +1,4 @@
-// Pieces of a ride: lines on which the speed changes evenly from one V to the next.
+// Segments of a trajectory: lines on which the speed changes linearly from one V to the next.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -8,12 +8,12 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// Of a piece's pulses, those before its speed counts.
+// Pulses of a segment before its speed takes effect.
 constexpr double spent_pulses = 0.6;
 
 }  // namespace
 
-/// Without its auxiliary's.
+/// Pulses of a move without those of its auxiliary.
 Pulses4 Segmenter::way_between(const PendingMove& work, const Pulses4& from, const Pulses4& to) {
     Pulses4 way = {};
     for (std::size_t c = 0; c < way.size(); ++c)
@@ -21,15 +21,15 @@ Pulses4 Segmenter::way_between(const PendingMove& work, const Pulses4& from, con
     return way;
 }
 
-/// Those of its longest axis.
+/// Pulses of the longest axis.
 std::int64_t Segmenter::basic_pulses(const Pulses4& way) {
     std::int64_t out = 0;
     for (const std::int64_t pulses : way) out = std::max<std::int64_t>(out, std::llabs(pulses));
     return out;
 }
 
-/// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed
-/// would jump twice.
+/// Limits the speed at the end by the next move. At a reversal, rounding by half a pulse may leave a higher speed than
+/// planned. The chip then stops there, as the velocity step would otherwise be doubled.
 void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
     const Pulses4 way = way_between(next, work.to, next.to);
     work.max_at_end = max_on(way, false).speed;
@@ -39,15 +39,15 @@ void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
     work.turns_back = work.move.constant_accel && along < 0;
 }
 
-/// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the
-/// basic pulses for a mm change from piece to piece too.
+/// Computes the acceleration from the previous segment's final V to its own V, over its true pulses: on a curved path
+/// the basic pulses per mm differ from segment to segment.
 void Segmenter::make_even(const PendingMove& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
     const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.max_at_end);
     const Pulses4 way = way_between(work, at_, work.to);
     const std::int64_t basic = basic_pulses(way);
     if (basic == 0) return;
-    // V units * seconds. The new speed counts from the host's first accesses behind the joint on.
+    // V units * seconds. The new speed takes effect from the host's first accesses after the junction.
     const double whole = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;
     const double length = std::max(0.5 * whole, whole - host_seconds_ * from);
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);

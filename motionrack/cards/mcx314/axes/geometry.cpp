@@ -1,4 +1,4 @@
-// Rounding to pulses, and the search for the whole centre with which the chip's arc ends where it should.
+// Rounding to pulses, and the search for the integer centre with which the chip's arc ends at its target.
 #include <cmath>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/axes/geometry.hpp>
@@ -15,9 +15,9 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
 
 namespace {
 
-/// Whether the chip must be able to move an axis on this path. Along a line it moves however little it has of it: where
-/// many lines have less than a pulse each, one of them has the pulse. Beside an arc, which the chip draws itself if
-/// nothing else moves, only a pulse counts.
+/// True if the chip must be able to move an axis on this path. Along a line this includes axes with a tiny share: of
+/// many lines with less than a pulse each, one has the pulse. Beside an arc, which the chip draws itself if no other
+/// axis moves, only a full pulse counts.
 bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& worst, std::size_t axis) {
     constexpr double min_of_line = 1e-6;  // pulses: more than the rounding of coordinates
     const double scale = map.limits[axis].pulses_per_unit, pulses = worst[axis] * path.length * scale;
@@ -66,8 +66,8 @@ double length(double x, double y) {
     return std::sqrt(x * x + y * y);
 }
 
-/// From its start, the centre that an arc should have. One that starts beside the true circle, because the arc before
-/// it ended there, comes back to it by its end: its centre is the point nearest to the true one that is as far from
+/// Centre of an arc relative to its start. An arc that starts beside the true circle, because the previous arc ended
+/// there, returns to the circle by its end: its centre is the point nearest to the true one that is equidistant from
 /// both.
 std::array<double, 2> wanted_centre(const ArcRequest& wanted, double end_x, double end_y) {
     constexpr double rounding = 0.75;
@@ -96,7 +96,7 @@ std::optional<ChipArc> fit_arc(const ArcRequest& wanted) {
             const double own_radius = length(static_cast<double>(cx), static_cast<double>(cy));
             const double off = length(static_cast<double>(cx) - ideal[0], static_cast<double>(cy) - ideal[1]) +
                                std::fabs(own_radius - radius);
-            // One basic pulse is 1 .. 1.414 pulses of path: an arc that is longer than that went round once too often.
+            // One basic pulse is 1 .. 1.414 pulses of path: a longer arc has made one turn too many.
             if (static_cast<double>(end.basic_pulses) > wanted.length * 1.02 + 8) continue;
             const bool exact = end.first == finish[0] && end.second == finish[1];
             if (best && (best_exact > exact || (best_exact == exact && best->deviation_pulses <= off))) continue;

@@ -1,4 +1,4 @@
-// What all axes of the chip begin with.
+// Common initialisation of all axes of the chip.
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -6,14 +6,14 @@
 
 namespace motionrack::mcx314 {
 
-/// WR2: both software limits in force.
+/// WR2: both software limits enabled.
 inline constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
 
-/// The whole chip, once: reset, pulse and direction, limit switches that act Low and slow down, nothing kept for the
-/// end of drives.
+/// Initialises the whole chip: reset, pulse and direction, limit switches that act Low and decelerate, no pulses
+/// reserved for the end of a drive.
 Result<void> prepare_chip(Driver& driver);
 
-/// The ends of the travel to COMP+ and COMP-, where the software limits are; they are not in force yet.
+/// Writes the ends of the travel to COMP+ and COMP- for the software limits; the limits stay disabled.
 Result<void> write_travel(Driver& driver, int channel, const control::AxisLimits& limits);
 
 }  // namespace motionrack::mcx314

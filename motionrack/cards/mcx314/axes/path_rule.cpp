@@ -1,4 +1,4 @@
-// What joints and short moves cost the chip.
+// Constraints of junctions and short moves on the chip.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,15 +7,14 @@
 
 namespace motionrack::mcx314 {
 
-/// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of
-/// every axis jumps by the difference, which its start speed must allow. The first chord of an arc points a little
-/// beside the arc.
+/// At a junction the generator's rate is continuous, but the path length of a basic pulse changes. The velocity of
+/// every axis changes by the difference, which its velocity step must allow. The first chord of an arc deviates
+/// slightly from its tangent.
 double PathRule::max_junction_velocity(const control::Geometry& before, const control::Geometry& after) const {
-    // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one
-    // drive only.
+    // An auxiliary axis must stop before it is interpolated, and the reverse: its registers hold one drive only.
     const int steered = drawing_of(map_, before).auxiliary;
     if (steered != drawing_of(map_, after).auxiliary) return 0;
-    // And before it turns round: its drive ends, and a new one begins.
+    // It must also stop before it reverses: its drive ends, and a new one begins.
     for (std::size_t i = 0; steered >= 0 && i < map_.channel.size(); ++i)
         if (map_.channel[i] == steered && before.tangent_out[i] * after.tangent_in[i] <= 0) return 0;
     const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
@@ -38,9 +37,9 @@ double PathRule::speed_ratio(const control::Geometry& before, const control::Geo
            basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
 }
 
-/// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with
-/// chords, at each of them. Along such an arc a basic pulse is another length of path from chord to chord, so that part
-/// of the chip's acceleration goes into keeping the path's speed.
+/// The speed changes at whole pulses, and the host writes it slightly after the junction; on an arc drawn with chords,
+/// at every chord. Along such an arc the path length of a basic pulse changes from chord to chord, so part of the
+/// chip's acceleration maintains the path velocity.
 double PathRule::constant_velocity_length(const control::Geometry& path) const {
     constexpr double pulses = 2, of_chords = 0.06;
     const Drawing drawing = drawing_of(map_, path);

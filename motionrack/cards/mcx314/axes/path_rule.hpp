@@ -1,4 +1,4 @@
-// What the chip and its host ask of a path beside what the machine can do.
+// Constraints of the chip and its host on a path, in addition to the machine's limits.
 #pragma once
 
 #include <motionrack/cards/mcx314/axes/geometry.hpp>

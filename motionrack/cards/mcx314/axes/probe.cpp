@@ -1,10 +1,10 @@
-// Probing: the chip itself catches where its axes are when the probe's edge comes, and stops them.
+// Probing: the chip itself latches the positions of its axes at the probe's edge, and stops them.
 //
 //   nIN3     ______________|~~~~~~~~~~~~~~      the probe touches, in tick n
 //   LP         0 1 2 ... 812 813 ... 840 841    the drive decelerates from tick n on
 //   BR                    |812                  saved at the end of tick n by each axis' own synchronous action
 //
-// So the place does not depend on the feed, and not on when the host looks.
+// The latched position depends neither on the feed rate nor on the host's polling.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/axes/chip_axis_group.hpp>
@@ -27,7 +27,7 @@ Result<control::ProbeResult> ChipAxisGroup::probe(const control::PlannedMove& mo
     probing_ = false;
     control::ProbeResult outcome;
     outcome.hit = probe_hit();
-    // A move that was cut short is no fault if the probe did it.
+    // A move that the probe has ended is not an error.
     if (!driven && (!outcome.hit || driven.error().kind != ErrorKind::machine || stopped_by_other())) {
         MOTIONRACK_CHECK(disarm_probe());
         return tl::unexpected<Error>(std::move(driven.error()));
@@ -40,7 +40,7 @@ Result<control::ProbeResult> ChipAxisGroup::probe(const control::PlannedMove& mo
     return outcome;
 }
 
-/// The path goes on where the axes stand, not where the move was to end.
+/// The path continues from the actual position, not from the end of the move.
 void ChipAxisGroup::go_on_from_here() {
     starts_.push_back({-1, current_line_, driver_.interrupt().now()});
     for (int c = 0; c < channel_count; ++c) expected_[static_cast<std::size_t>(c)] = driver_.ReadLPS(c);
@@ -73,7 +73,7 @@ Result<void> ChipAxisGroup::check_probe(bool release) {
     return {};
 }
 
-/// Every axis at the probe saves its own LP; before, each saves it once by command, so that a change tells of the edge.
+/// Every axis at the probe saves its own LP at the edge. It first saves LP once by command, so a change shows the edge.
 Result<void> ChipAxisGroup::arm_probe(bool release) {
     const auto save = field("SM7", "LPSAV").mask;
     MOTIONRACK_CHECK(

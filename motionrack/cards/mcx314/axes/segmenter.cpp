@@ -1,4 +1,4 @@
-// How each planned move is drawn by the chip, and the speeds of its pieces.
+// Division of planned moves into chip segments, and the speeds of the segments.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// The planner keeps a little of each axis' acceleration back (ChipAxisGroup::accel_reserve); this much of it is given
-// to the chip, so that its whole-number steps are never slower than the plan.
+// The planner reserves a little of each axis' acceleration (ChipAxisGroup::accel_reserve). This factor returns part of
+// it to the chip, so its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
-// Register accesses between the interrupt at a joint and the new speed being written.
+// Register accesses between the interrupt at a junction and the write of the new speed.
 constexpr double accesses_to_write_speed = 8;
-// And until the next piece is queued behind it; with what the reserve is for: whole pulses, an access of somebody else.
-// Where the pulses are counted, less.
+// Accesses until the next segment is queued, and their safety factors for whole pulses and accesses by other functions.
+// The factor is smaller if the pulses are counted.
 constexpr double accesses_of_piece = 28, piece_reserve = 1.5, counted_reserve = 1.2;
 
 }  // namespace
@@ -52,7 +52,7 @@ void Segmenter::add(const control::PlannedMove& move) {
     PendingMove work = classify(move);
     if (waiting_ && work.move.constant_accel) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
-    // A move's start is where the one before it really ends, which only emit knows.
+    // A move starts at the true end of the previous one, which only emit knows.
     waiting_ = work;
 }
 
@@ -61,7 +61,7 @@ void Segmenter::finish() {
     waiting_.reset();
 }
 
-// ---- what a move is
+// ---- classification of moves
 
 Segmenter::PendingMove Segmenter::classify(const control::PlannedMove& move) {
     PendingMove work;
@@ -76,7 +76,7 @@ Segmenter::PendingMove Segmenter::classify(const control::PlannedMove& move) {
     const Drawing drawing = drawing_of(map_, work.path, move.axes);
     work.auxiliary = drawing.auxiliary;
     work.channels = drawing.channels;
-    // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
+    // From segment to segment of a trajectory the basic pulse must stay the same: the pulses of the longest axis.
     work.constant_vector = drawing.constant_vector && !move.constant_accel;
     if (work.path.shape == control::PathShape::arc)
         work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
@@ -100,8 +100,8 @@ std::int32_t Segmenter::acceleration_units(double units, double acceleration) co
         std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, max_units));
 }
 
-/// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may
-/// follow at once.
+/// The speed for starts and stops: half of each axis' velocity step, because a stop and a start in the opposite
+/// direction may follow each other.
 double Segmenter::start_speed(const control::Point& tangent) const {
     double speed = 1e9;
     for (std::size_t i = 0; i < tangent.size(); ++i)
@@ -114,8 +114,8 @@ Pulses4 Segmenter::pulses_at(const PendingMove& work, double s) const {
     return s >= work.path.length ? work.to : map_.pulses(control::position_at(work.path, s));
 }
 
-/// How long before its end a move must begin to fall from `top` to `exit` (V units), with the pulses that the chip's
-/// whole steps, the host's register accesses and the rounding to pulses may take.
+/// Length at the end of a move for the deceleration from `top` to `exit` (V units), including the pulses for the chip's
+/// whole steps, the host's register accesses and the rounding to pulses.
 double Segmenter::fall_length(double units, const Speeds& speeds) const {
     if (speeds.top <= speeds.exit) return 0;
     const double top = speeds.top, exit = speeds.exit;
@@ -125,8 +125,8 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
     return (phase / range_ + 2) / (units * pulses_per_v_);
 }
 
-/// Where a move is cut so that its second piece falls to the exit speed. Both pieces take the host's least time, or it
-/// is not cut and has the exit speed from its beginning on.
+/// Position at which a move is divided so that its second segment decelerates to the exit speed. Both segments take the
+/// host's minimum time; otherwise the move is not divided and has the exit speed from its start.
 double Segmenter::fall_from(const PendingMove& work, double units, const Speeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
@@ -138,15 +138,15 @@ double Segmenter::fall_from(const PendingMove& work, double units, const Speeds&
     return fits ? from : 0;
 }
 
-/// Whether the host can serve a piece from one place to another, by the whole pulses that it has: of a few, rounding
-/// may take one.
+/// True if the host can serve a segment between two positions, by its whole pulses: of a few pulses, rounding may
+/// remove one.
 bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
     const auto pulses = static_cast<double>(basic_pulses(way_between(work, begin, pulses_at(work, to))));
     return pulses >= counted_reserve / piece_reserve * min_seconds_ * v * pulses_per_v_;
 }
 
-// ---- moves to pieces
+// ---- moves to segments
 
 void Segmenter::emit(const PendingMove& work, std::optional<double> next_units) {
     if (work.shape == Shape::pause) return emit_pause(work);
@@ -202,17 +202,17 @@ void Segmenter::emit_straight(const PendingMove& work, const Speeds& speeds) {
         const Pulses4 middle = pulses_at(work, speeds.fall_from);
         Pulses4 fall = {};
         for (std::size_t c = 0; c < fall.size(); ++c) fall[c] = work.to[c] - middle[c];
-        // The fall begins with the speed of the piece before it.
+        // The deceleration begins with the speed of the previous segment.
         emit_line(work, middle, std::min(speeds.top, max_on(fall, work.constant_vector).speed), speeds.acceleration);
     }
-    // A pulse that waits for a piece with room is no piece of its own.
+    // A pulse that waits for a free axis is not a segment of its own.
     if (speeds.fall_from >= work.path.length) return;
     emit_line(work, work.to, speeds.exit, speeds.acceleration);
 }
 
-/// One S-curve from rest to rest, if the chip's ramp fits into the move and its slowest jerk is slow enough. It is the
-/// whole chain, so no axis may be left for a piece with room: a third one, which the moves before have less than a
-/// pulse each of, goes into the line too.
+/// Draws one S-curve from standstill to standstill, if the chip's ramp fits into the move and its lowest jerk is low
+/// enough. The S-curve is the whole chain, so no pulse may be left over: a third axis with less than one pulse from
+/// earlier moves is drawn in the same line.
 bool Segmenter::emit_s_curve(const PendingMove& planned) {
     if (planned.shape != Shape::line || planned.auxiliary >= 0) return false;
     const Pulses4 way = way_between(planned, at_, planned.to);
@@ -227,10 +227,9 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
     const double initial = std::floor(units * start_speed(work.path.tangent_in));
     const double k = std::ceil(rules::jerk_unit / (units * work.move.jerk));
     if (k > static_cast<double>(param::K.max) || initial < 1) return false;
-    // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's
-    // length.
+    // The top speed for which two S-ramps, with or without the acceleration limit, fit into the length of the move.
     const double a = units * work.move.accel, j = rules::jerk_unit / std::max(1.0, k), v0 = initial;
-    auto ramp_length = [&](double v) {  // in V units * seconds
+    auto ramp_length = [&](double v) {  // V units * seconds
         const double dv = v - v0;
         const double time = dv * j <= a * a ? 2 * std::sqrt(dv / j) : dv / a + a / j;
         return (v + v0) / 2 * time;
@@ -246,8 +245,8 @@ bool Segmenter::emit_s_curve(const PendingMove& planned) {
         low = high;
     for (std::size_t c = 0; c < at_.size(); ++c)
         if (work.to[c] - at_[c] > max_line_pulses || at_[c] - work.to[c] > max_line_pulses) return false;
-    // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too
-    // fast.
+    // The chip's S-ramps are slightly asymmetric: AO covers the extra pulses of the deceleration, which would otherwise
+    // end too fast.
     const auto v = static_cast<std::int32_t>(low), sv = static_cast<std::int32_t>(initial);
     const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / rules::rate_unit), 1.0, max_units));
     const auto jerk = static_cast<std::int32_t>(std::max(1.0, k));

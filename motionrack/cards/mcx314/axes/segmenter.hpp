@@ -1,15 +1,15 @@
-// Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split
-// here.
+// Division of planned moves into chip segments: the chip draws lines of two and three axes and arcs of two; other moves
+// are divided here.
 //
-//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V,
-//                   /      \           which its generator drives towards from the piece's first pulse on:
-//                  /        \              [ rise, cruise ][ fall ]
-//                 /          \___      chords of arcs that the chip cannot draw get their V one by one
+//   planned speed    ______            a move is divided where its deceleration begins; each segment has one V,
+//                   /      \           which its generator approaches from the segment's first pulse on:
+//                  /        \              [ accelerate, cruise ][ decelerate ]
+//                 /          \___      chords of arcs that the chip cannot draw have a V each
 //
-// No piece is so short that the host could not write the next one while it is driven: a fall begins earlier then.
+// Every segment is long enough for the host to write the next one; a deceleration begins earlier if necessary.
 //
-// At the joint of two moves the generator's V goes on, but a pulse of the long axis means another path speed on each
-// side; the joint's V is the lesser of both, so no limit is passed.
+// At the junction of two moves the generator's V is continuous, but a pulse of the long axis is a different path
+// velocity on each side. The junction's V is the smaller of both, so no limit is exceeded.
 #pragma once
 
 #include <deque>
@@ -26,55 +26,56 @@ namespace motionrack::mcx314 {
 
 class Segmenter {
   public:
-    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses.
+    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: position of the machine, in pulses.
     Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, const HostTimes& host);
 
-    /// Takes the next planned move; its segments come out once the move after it is known.
+    /// Takes the next planned move; its segments become available once the following move is known.
     void add(const control::PlannedMove& move);
-    /// No more moves: everything comes out.
+    /// Ends the input: all segments become available.
     void finish();
 
     std::size_t ready() const { return ready_.size(); }
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
 
-    /// Pulses that this channel's auxiliary has before it in the present chain, as far as they are known and go on in
-    /// one direction: 1 or -1.
+    /// Known pulses that this channel's auxiliary still has in the present chain while it continues in one direction: 1
+    /// or -1.
     std::int64_t companion_pulses_ahead(int channel, int direction) const;
 
-    /// The number of the next planned move, from 0.
+    /// Number of the next planned move, from 0.
     std::int32_t next_move() const { return next_block_; }
     void count_from(std::int32_t block) { next_block_ = block; }
 
     /// Notes since the last call, oldest first.
     std::vector<control::PathWarning> take_path_warnings() { return std::exchange(notes_, {}); }
 
-    /// R with which the fastest axis' top pulse rate, along a diagonal of two such axes, takes all 8,000 speed units.
+    /// R with which the fastest axis' maximum pulse rate, along a diagonal of two such axes, uses all 8,000 speed
+    /// units.
     static std::int32_t best_range(const AxisMap& map);
 
-    /// A piece that takes less, s, may be over before the host has written the next one.
+    /// Minimum duration of a segment, s: a shorter one may end before the host has written the next.
     static double min_seconds(const HostTimes& host);
 
   private:
     static constexpr std::int64_t max_line_pulses = 8'000'000;  ///< pulses
 
     enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
-    /// A planned move and how the chip will draw it.
+    /// A planned move and its representation on the chip.
     struct PendingMove {
         control::PlannedMove move;
         control::Geometry path;
         Shape shape = Shape::line;
         bool constant_vector = false;
         double units_in = 0;   ///< V units for 1 mm/s (deg/s) at its start
-        double units_out = 0;  ///< and at its end; the same unless it is made of chords
+        double units_out = 0;  ///< the same at its end; differs only for chords
         std::int32_t block = 0;
         std::int32_t auxiliary = -1;  ///< channel of a fourth axis that moves beside the interpolation
-        std::uint8_t channels = 0;    ///< that it moves, a bit each
+        std::uint8_t channels = 0;    ///< the moving channels, one bit each
         Pulses4 to = {};
-        std::int32_t max_at_end = rules::max_units;  ///< V with which the piece after it may begin
-        bool turns_back = false;                     ///< the piece after it goes back
+        std::int32_t max_at_end = rules::max_units;  ///< V limit at the start of the next segment
+        bool turns_back = false;                     ///< the next segment reverses
     };
-    /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
+    /// Division of a move: drives at `top` until `fall_from` along it, then at `exit`.
     struct Speeds {
         double fall_from = 0;
         std::int32_t top = 1;
@@ -82,7 +83,7 @@ class Segmenter {
         std::int32_t acceleration = 1;
     };
 
-    /// In V and A units.
+    /// Limits in V and A units.
     struct UnitLimits {
         std::int32_t speed = rules::max_units;
         std::int32_t acceleration = rules::max_units;
@@ -118,16 +119,16 @@ class Segmenter {
 
     AxisMap map_;
     std::int32_t range_;
-    double pulses_per_v_;     ///< pulses a second of one V unit
-    double host_seconds_;     ///< its latency
-    double latency_seconds_;  ///< until a speed is written
+    double pulses_per_v_;     ///< pulses/s of one V unit
+    double host_seconds_;     ///< latency of the host
+    double latency_seconds_;  ///< time until a speed is written
     double min_seconds_;
     Pulses4 at_;
     std::optional<PendingMove> waiting_;
     std::deque<Segment> ready_;
     std::vector<control::PathWarning> notes_;
     bool chain_open_ = false;
-    double reached_ = 1;  ///< V with which the last piece of a ride ends
+    double reached_ = 1;  ///< V at the end of the last segment of a trajectory
     int generator_ = 0;
     std::int32_t next_block_ = 0;
 };

@@ -1,4 +1,4 @@
-// The pieces of a move as segments of the chip: arcs that it can draw, lines, and what no axis may pass on them.
+// Segments of a move: arcs that the chip can draw, lines, and the limits of the axes on them.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,7 +13,7 @@ namespace motionrack::mcx314 {
 
 void Segmenter::emit_arcs(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
     if (to <= from) return;
-    // At most a third of a turn at once: no doubt which way round an end is.
+    // At most a third of a turn at once, so the orientation of an end is unambiguous.
     const double sweep = std::fabs(work.path.sweep) * (to - from) / work.path.length;
     const double count = std::max(1.0, std::ceil(sweep / 2.1));
     for (double i = 0; i < count; ++i) {
@@ -28,7 +28,7 @@ bool Segmenter::emit_fitted_arc(const PendingMove& work, double from, double to,
     int a = map_.channel[work.path.first], b = map_.channel[work.path.second];
     double centre_a = work.path.centre_first, centre_b = work.path.centre_second;
     bool clockwise = work.path.sweep < 0;
-    // The generator's own axis must not be AX2: its R would be taken for two axes stepping together.
+    // The generator's own axis must not be AX2: its R would be used while two axes step together.
     if (chain_open_ ? b == generator_ : b < a) {
         std::swap(a, b);
         std::swap(centre_a, centre_b);
@@ -59,12 +59,12 @@ bool Segmenter::emit_fitted_arc(const PendingMove& work, double from, double to,
     Pulses4 reached = at_;
     reached[ia] += arc->end[0];
     reached[ib] += arc->end[1];
-    append(segment, work, reached);  // where it ends beside its point, the next piece starts from there
+    append(segment, work, reached);  // if it ends beside its target, the next segment starts there
     return true;
 }
 
-/// Of the channels with pulses before `to` the one that is left out: none that the move itself moves, if there is
-/// another one; of these the one with the fewest.
+/// Selects the channel to leave out of those with pulses before `to`: preferably one that the move itself does not
+/// move, and of these the one with the fewest pulses.
 std::size_t Segmenter::waits_for_room(const PendingMove& work, const Pulses4& to) const {
     std::size_t out = 0;
     std::pair<bool, std::int64_t> least = {true, std::numeric_limits<std::int64_t>::max()};
@@ -87,10 +87,10 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
         moving[static_cast<std::size_t>(count++)] = c;
         longest = std::max(longest, delta < 0 ? -delta : delta);
     }
-    if (count == 0) return;  // less than half a pulse; a auxiliary's pulses stay for the next piece
-    // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill.
-    // Beside two axes with constant vector speed is no room: with a third axis a basic pulse would be another length of
-    // path.
+    if (count == 0) return;  // less than half a pulse; an auxiliary's pulses stay for the next segment
+    // One or two pulses left over by an arc wait for a segment with a free axis, at the latest until standstill. A
+    // segment of two axes with constant vector speed has no free axis: a third axis would change the path length of a
+    // basic pulse.
     if (count > (work.constant_vector ? 2 : 3)) {
         Pulses4 without = to;
         const std::size_t left = waits_for_room(work, to);
@@ -103,7 +103,7 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
         emit_line(work, half, v, acceleration);
         return emit_line(work, to, v, acceleration);
     }
-    if (count == 1) {  // the chip's line has two axes: the other one stands
+    if (count == 1) {  // the chip's line has two axes: the second is stationary
         const int other = chain_open_ && generator_ != moving[0] ? generator_ : moving[0] == 0 ? 1 : 0;
         moving[static_cast<std::size_t>(count++)] = other;
         if (other < moving[0] || (chain_open_ && other == generator_)) std::swap(moving[0], moving[1]);
@@ -134,8 +134,8 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
     append(segment, work, to);
 }
 
-/// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its
-/// share.
+/// Speed and acceleration within the limits of all axes on this line: in a short line, rounding gives an axis more than
+/// its share.
 Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector) const {
     double basic = 0, second = 0;
     for (const std::int64_t pulses : way) {

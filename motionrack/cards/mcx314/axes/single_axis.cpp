@@ -1,4 +1,4 @@
-// Orders in mm and seconds to the function library's; what may be trusted.
+// Commands in mm and seconds as calls of the function library; supervision of the position.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr double pulse_slack = 1e-6;  // what is so little off a whole pulse is one
+constexpr double pulse_slack = 1e-6;  // a value this close to a whole pulse is taken as whole
 constexpr double max_pulses = static_cast<double>(param::pulses.max), max_place = static_cast<double>(param::LP.max);
 
 }  // namespace
@@ -42,7 +42,7 @@ Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool tr
     return {};
 }
 
-// ---- what is refused
+// ---- refused commands
 
 tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& why) const {
     return fail(ErrorKind::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
@@ -114,7 +114,7 @@ Result<void> SingleAxis::move_by(double distance, double speed) {
     return begin_move(distance, speed);
 }
 
-/// The whole pulses within the travel.
+/// Travel in whole pulses.
 ManualTravel SingleAxis::travel() const {
     const control::AxisLimits& limits = settings_.limits;
     const double scale = limits.pulses_per_unit;
@@ -122,7 +122,7 @@ ManualTravel SingleAxis::travel() const {
             static_cast<std::int64_t>(std::floor(limits.max_position * scale + pulse_slack))};
 }
 
-/// There is a pulse left that way.
+/// Refuses a jog if no pulse remains in its direction.
 Result<void> SingleAxis::check_travel(double speed) {
     const bool negative = speed < 0;
     const std::int64_t at = driver_.ReadLPS(settings_.channel);
@@ -136,7 +136,7 @@ Result<void> SingleAxis::check_travel(double speed) {
 Result<void> SingleAxis::jog(double speed, Instant now) {
     if (speed == 0) return manual_.jog(0, now);
     MOTIONRACK_CHECK(check_speed("Jog", std::fabs(speed)));
-    if (manual_.state() != ManualState::standing) step(now);  // what has ended meanwhile
+    if (manual_.state() != ManualState::standing) step(now);  // a motion may have ended in the meantime
     if (manual_.state() == ManualState::standing) {
         MOTIONRACK_CHECK(check_free("Jog"));
         MOTIONRACK_CHECK(check_travel(speed));
@@ -228,7 +228,7 @@ control::HomingResult SingleAxis::home_outcome() const {
     const HomeReport& report = home_.report();
     const HomeSettings& settings = home_.settings();
     const double unit = 1 / settings_.limits.pulses_per_unit;
-    // Where it failed there is no home to count from: then by the counter as it was.
+    // A failed homing gives no home position; positions then follow the counter as it was.
     const auto place = [&](std::int32_t lp) {
         return static_cast<double>(report.homed ? report.relative(lp) : lp) * unit;
     };
@@ -263,7 +263,7 @@ control::HomingResult SingleAxis::home_outcome() const {
 
 // ---- position, stops
 
-/// Software limits are in force exactly while the counter can be believed.
+/// The software limits are enabled exactly while the position is valid.
 void SingleAxis::trust(bool on) {
     trusted_ = on;
     const unsigned rest = driver_.mode2(settings_.channel) & ~software_limits;
@@ -300,9 +300,9 @@ void SingleAxis::stop_now() {
     stopping_ = driver_.moving(mask());
 }
 
-// ---- carrying on
+// ---- polling
 
-/// A drive of ours has ended: was it by something that stops motors dead?
+/// Handles the end of a drive: checks whether the cause was an immediate stop.
 void SingleAxis::note_end() {
     const AxisStatus status = driver_.axis_status(settings_.channel);
     if (trusted_ && (status.alarm() || status.emergency())) trust(false);

@@ -13,25 +13,25 @@
 namespace motionrack::mcx314 {
 
 struct SingleAxisSettings {
-    std::string name = "X";  ///< for sentences
+    std::string name = "X";  ///< name in messages
     std::string unit = "mm";
     int channel = 0;  ///< 0 X .. 3 U
     control::AxisLimits limits;
-    double counts_per_unit = 0;         ///< encoder; 0: none
-    std::int64_t pulses_per_turn = 0;   ///< of the motor, for the index; 0: not known
-    Duration hold = milliseconds(250);  ///< of a jog that is not renewed
+    double counts_per_unit = 0;         ///< encoder; 0: not present
+    std::int64_t pulses_per_turn = 0;   ///< pulses per motor revolution, for the index; 0: unknown
+    Duration hold = milliseconds(250);  ///< a jog ends after this time without renewal
 };
 
 class SingleAxis final : public control::Axis {
   public:
-    /// The whole chip, once: reset, pulse and direction, limit switches that act Low and slow down.
+    /// Initialises the whole chip: reset, pulse and direction, limit switches that act Low and decelerate.
     static Result<void> prepare(Driver& driver);
-    /// The driver must outlive this and be prepared.
+    /// The driver must be prepared, and must outlive this object.
     SingleAxis(Driver& driver, const SingleAxisSettings& settings);
 
-    /// Counters 0, software limits off: the position is not trusted.
+    /// Sets the counters to 0 and disables the software limits: the position is invalid.
     Result<void> set_up();
-    /// After set_up(): the counters go on from what they were before the chip was reset.
+    /// Restores the counters to their values before the chip was reset; call after set_up().
     Result<void> go_on(std::int64_t pulses, std::int64_t counts, bool trusted);
 
     Result<void> move_to(double position, double speed) override;
@@ -51,7 +51,7 @@ class SingleAxis final : public control::Axis {
     control::HomingResult home_outcome() const override;
 
     int channel() const { return settings_.channel; }
-    /// What an order becomes in registers. Errors: as home().
+    /// Register settings of a homing request. Errors: as home().
     Result<HomeSettings> home_settings(const control::HomingRequest& order) const;
 
   private:
@@ -74,8 +74,8 @@ class SingleAxis final : public control::Axis {
     Home home_;
     Manual manual_;
     bool trusted_ = false;
-    bool moving_ = false;  ///< a move of ours, until its end was looked at
-    bool jogged_ = false;  ///< last, and nothing since
+    bool moving_ = false;  ///< own move whose end has not been evaluated
+    bool jogged_ = false;  ///< the last motion was a jog
     bool stopping_ = false;
 };
 

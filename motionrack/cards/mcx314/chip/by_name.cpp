@@ -1,4 +1,4 @@
-// A name is a value of an axis, one of the chip, or a register.
+// Lookup of a name as a value of an axis, of the chip, or as a register.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Result<std::int64_t> value_by_name(const Chip& chip, const CardMap& map, std::st
     if (axis != std::string_view::npos && is_inspected(name.substr(2), true))
         return *chip.inspect(name.substr(2), static_cast<int>(axis));
     if (is_inspected(name, false)) return *chip.inspect(name, 0);
-    // Without an axis: that of the axis whose registers the bus shows.
+    // Without an axis: the axis whose registers the bus shows.
     for (const RegisterInfo& reg : map.registers)
         if (reg.name == name && reg.access != Access::write) return chip.peek(reg.offset);
     return fail(

@@ -1,7 +1,7 @@
-// The chip on an 8-bit bus: sixteen ports, and the registers as a host's library reaches them through the ports.
+// The chip on an 8-bit bus: sixteen ports, and 16-bit register access through the ports for a host's library.
 //
 //   port   0    1    2    3    4    5   ..   14    15
-//   write  WR0L WR0H WR1L WR1H WR2L WR2H     WR7L  WR7H      WR0H is kept, WR0L carries out the command
+//   write  WR0L WR0H WR1L WR1H WR2L WR2H     WR7L  WR7H      WR0H is stored, WR0L executes the command
 //   read   RR0L RR0H RR1L RR1H RR2L RR2H     RR7L  RR7H      a byte of RR3 clears that byte's flags
 #pragma once
 

@@ -1,4 +1,4 @@
-// The chip in the rack: time, wires, listeners and the encoders behind EP.
+// The chip in the rack: time, wires, listeners and the encoders connected to EP.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/chip/chip.hpp>
@@ -53,7 +53,7 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
     }
 }
 
-// ---- building
+// ---- construction
 
 Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options)
     : kernel_(kernel),
@@ -107,7 +107,7 @@ void Chip::advance_to(std::int64_t to) {
     for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
 }
 
-/// What happens up to tick `to`; generators to which nothing happens at the last of these ticks may stay behind.
+/// Executes the events up to tick `to`; generators without an event at the last of these ticks may stay behind.
 void Chip::work_to(std::int64_t to) {
     while (state_.tick < to) {
         if (state_.next_event > to) return skip_to(to);
@@ -116,7 +116,7 @@ void Chip::work_to(std::int64_t to) {
     }
 }
 
-/// Finds the next interesting tick.
+/// Finds the tick of the next event.
 void Chip::reschedule() {
     std::int64_t next = state_.next_sample;
     for_each_axis(state_.working, [&](int a) {
@@ -135,7 +135,7 @@ void Chip::reschedule() {
     stale_ = false;
 }
 
-/// After anything happened: everyone hears of it, and the kernel of the next event.
+/// Publishes the changes of an event to the listeners, and schedules the next event in the kernel.
 void Chip::settle(Instant now) {
     if (state_.acting != 0) wake();
     tell_listeners(now);
@@ -143,7 +143,7 @@ void Chip::settle(Instant now) {
     if (state_.following != 0) show_wires(now);
     if (stale_) reschedule();
     Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
-    if (state_.crossed != 0) next = now + Duration{1};  // a watch that is left already, told at the next instant
+    if (state_.crossed != 0) next = now + Duration{1};  // reports a range already left
     kernel_.schedule(id_, next);
 }
 
@@ -153,7 +153,7 @@ void Chip::on_scheduled(Instant now) {
     settle(now);
 }
 
-/// Everybody has joined his wires: which of them matter, and how they stand.
+/// Called once all wires are connected: determines the relevant wires and reads their levels.
 void Chip::begin() {
     state_.begun = true;
     for (int a = 0; a < axes_of_chip; ++a) {
@@ -170,7 +170,7 @@ void Chip::begin() {
     stale_ = true;
 }
 
-/// What must be done before the chip's state is touched from outside at `now`: everything up to there.
+/// Brings the chip up to `now` before its state is accessed from outside.
 void Chip::catch_up(Instant now) {
     if (!state_.begun) begin();
     advance_to(tick_of(now));
@@ -178,19 +178,19 @@ void Chip::catch_up(Instant now) {
     stale_ = true;
 }
 
-/// The same before an input changes: what changes at the very instant of a tick counts for that tick.
+/// The same before an input changes: a change at the very instant of a tick belongs to that tick.
 void Chip::catch_up_before(Instant now) {
     advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
     note_rates();
     stale_ = true;
 }
 
-/// Inputs, limits or commands have changed: the next working tick of every generator is worked in full.
+/// After a change of inputs, limits or commands, every generator executes its next working tick in full.
 void Chip::look_anew() {
     for (Axis& axis : state_.axis) axis.gen.look = true;
 }
 
-/// What is watched, compared or asked for has changed: no generator knows its next special pulse any more.
+/// After a change of watched, compared or requested values, the next special pulse of every generator is unknown.
 void Chip::forget_specials() {
     for (Axis& axis : state_.axis) axis.gen.special_known = false;
 }
@@ -232,13 +232,13 @@ void Chip::update_interrupt() {
     if (active) kernel_.break_run();
 }
 
-// ---- motions
+// ---- position sources
 
 void Chip::law_changed_of(int generator) {
     changed_ |= state_.axis[generator].gen.drive == Drive::path ? state_.path.command.mask() : 1u << generator;
 }
 
-/// Before anything happens: along an arc the rates drift between the changes that listeners hear of.
+/// Updates the rates before an event: along an arc they drift between the changes that listeners receive.
 void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
@@ -276,7 +276,7 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     stale_ = true;
     const Instant now = kernel_.now();
     if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;
-    // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
+    // In an event of the chip settle() follows anyway; otherwise it is requested at this very instant.
     kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
 }
 
@@ -295,7 +295,7 @@ std::int64_t Chip::count_at(int a, Instant t) const {
     return axis.count;
 }
 
-/// Pulses a second of the present law, signed; for an arc those of the tangent where it is.
+/// Present rate in pulses/s, signed; on an arc that of the tangent.
 double Chip::rate_of(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
@@ -336,7 +336,7 @@ std::int64_t Chip::pulses_made(int axis) {
     return state_.axis[axis].made;
 }
 std::int32_t Chip::lp(int axis) const {
-    // Between events the generators stay behind: the pulses since then are counted, not yet entered.
+    // Between events the generators stay behind: pulses since then are counted but not yet executed.
     const Axis& own = state_.axis[axis];
     return stepped(own, own.lp, count_at(axis, kernel_.now()) - own.count);
 }

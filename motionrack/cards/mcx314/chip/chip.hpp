@@ -6,8 +6,8 @@
 //          RR0..RR7 └────▲─────┘           └─────▲─────┘              └──────────────┘
 //                        └── EP ◄── encoders     └── limits, IN0..3, alarm, emergency ◄── wires
 //
-// Nothing ticks: between two interesting ticks (a speed step, a special pulse, an input) everything is closed form; an
-// interesting tick is worked off by the rules, one by one. Edges are made only while somebody listens to them.
+// Ticks are not simulated one by one. Between two events (a speed step, a special pulse, an input) the state is in
+// closed form; the tick of an event is executed by the rules. Edges are generated only for listeners.
 #pragma once
 
 #include <array>
@@ -25,17 +25,17 @@
 
 namespace motionrack::mcx314 {
 
-/// What the chip reports as conditions.
+/// Conditions that the chip reports.
 enum ChipCondition : std::uint16_t {
     drive_ignored = 1,    ///< a: command, b: axis that is driving
     path_ignored = 2,     ///< a: command; queue full, axis busy or named twice
     unknown_command = 3,  ///< a: command, b: 1 if the MCX314As has it
     pattern_full = 4,     ///< 38h with three words stacked
     pattern_ran_out = 5,  ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6      ///< 3Ah without a segment that waits for it
+    step_ignored = 6      ///< 3Ah without a segment that waits for a step
 };
 
-/// The sentence of a condition that a chip reported.
+/// Message of a condition that a chip has reported.
 std::string describe(const sim::Condition& condition, const std::string& card);
 
 class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
@@ -46,28 +46,28 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
-    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high one; WR0 is carried out
-    /// by its low byte.
+    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high byte; the low byte of WR0
+    /// executes its command.
     std::uint8_t read_byte(std::uint32_t port);
     void write_byte(std::uint32_t port, std::uint8_t value);
 
     /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
     sim::PositionFunction& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
-    /// The encoder at xeca/xecb. Before the kernel starts.
+    /// Connects the encoder at xeca/xecb; before the kernel starts.
     void connect_encoder(int axis, sim::PositionFunction& counts);
-    /// Cuts the connected encoder off and forces xeca, xecb to the levels that it has (`taken`), or releases them and
-    /// puts it back. EP goes on from where it is; in between it counts what the wires are forced to. Between runs.
+    /// Disconnects the encoder and forces xeca, xecb to its present levels (`taken`), or releases them and reconnects
+    /// it. EP keeps its value; while disconnected it counts the forced levels. Between runs only.
     void take_encoder(int axis, bool taken);
     /// Pulses of both directions since the start.
     std::int64_t pulses_made(int axis);
     std::int32_t lp(int axis) const;
     std::int32_t ep(int axis) const;
 
-    /// A value by its name, without effects: a register of the map, or what a data command writes ("P", "LP") or a read
-    /// command reads ("CV"). Counts are signed. `axis` matters for values that exist once an axis. Nothing if there is
-    /// none of that name.
+    /// A value by its name, without side effects: a register of the map, or the name of a data command ("P", "LP") or a
+    /// read command ("CV"). Counts are signed. `axis` matters for values that exist per axis. Empty if the name is
+    /// unknown.
     std::optional<std::int64_t> inspect(std::string_view name, int axis) const;
-    /// The names that inspect knows; `per_axis`: those that exist once an axis, or the others.
+    /// Names that inspect accepts; `per_axis`: those that exist per axis, or the others.
     static std::vector<std::string_view> inspected_names(bool per_axis);
 
     sim::DeviceId id() const { return id_; }
@@ -87,7 +87,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
     static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 
-    /// One axis' pulses.
+    /// Pulses of one axis.
     class Output final : public sim::PositionFunction {
       public:
         std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
@@ -104,12 +104,12 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         sim::EdgeBatch batch;
         std::int64_t batch_tick = 0;  ///< of its origin
     };
-    /// Pulses at one speed and range: the first at tick `at`, each `quotient` ticks after the one before, or one more
+    /// Pulses at one speed and range: the first at tick `at`, the others at intervals of `quotient` ticks, or one more
     /// when `slack` runs out.
     struct EvenPulses {
         std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
-    /// Hears when an encoder passes a comparison value.
+    /// Notified when an encoder passes a comparison value.
     class EncoderListener final : public sim::PositionListener {
       public:
         void crossed(Instant now) override { chip->encoder_crossed(axis, now); }
@@ -246,7 +246,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void skip_pulses(int a, std::int64_t pulses, const PulseMoment& last);
     void look_at_in_position();
 
-    // ramp.cpp: many steps of a speed that nobody hears
+    // ramp.cpp: many unobserved speed steps at once
     bool some_unheard() const { return (listened_ | state_.following) != (1u << axes_of_chip) - 1; }
     bool may_walk(int a) const;
     Walk walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const;
@@ -312,7 +312,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::int64_t pulses_to_weighted_final(const Axis& axis, std::int64_t left) const;
     std::int64_t pulses_to_half(const Axis& axis) const;
     void avoid_triangle(int a);
-    // filters.cpp: inputs, once a tick
+    // filters.cpp: inputs, once per tick
     void wake() { state_.next_sample = std::min(state_.next_sample, state_.tick + 1), stale_ = true; }
     unsigned inputs_of_extension(int a) const;
     bool passes_filter(int pin, int wire_level);
@@ -354,10 +354,10 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     sim::WireId emgn_{};
     sim::WireId expls_n_{};
     sim::WireId int_n_{};
-    unsigned listened_ = 0;                 // axes of which somebody listens to motion or edges
-    bool stale_ = false;                    // the next interesting tick must be looked for again
-    unsigned moved_last_ = 0;               // axes that stepped in the basic pulse at hand
-    std::array<int, axes_of_chip> went_{};  // which way each of them did
+    unsigned listened_ = 0;                 // axes whose position or edges have listeners
+    bool stale_ = false;                    // the tick of the next event must be recomputed
+    unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse
+    std::array<int, axes_of_chip> went_{};  // direction of each of these steps
     unsigned changed_ = 0;                  // axes whose law of motion changed in the present event
 };
 

@@ -1,4 +1,4 @@
-// Single pulses, made only for who listens: the instants follow from the generator's phase, the axes from the path.
+// Edges for listeners: the instants follow from the generator's phase, the axes from the path.
 #include <cstring>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 
@@ -7,15 +7,15 @@ namespace motionrack::mcx314 {
 namespace {
 constexpr std::int64_t max_batch_ticks = 0xF000'0000;  // ticks between the first and the last edge of a batch
 
-/// Ticks between even edges: `whole`, or one more when `slack` has no `part` left to give; then it gets `all` of a tick
-/// back.
+/// Ticks between even edges: `whole`, or one more when `slack` cannot provide another `part`; `slack` then regains
+/// `all` of a tick.
 struct Interval {
     std::int32_t whole = 0, part = 0, all = 1;
 
     Interval times(std::int32_t n) const { return {n * whole + n * part / all, n * part % all, all}; }
 };
 
-/// The place of the next edge, or of one a lane.
+/// State of the next edge, or of one edge per lane.
 template <class Signed, class Unsigned>
 struct PlaceInRow {
     Unsigned offset{};
@@ -28,12 +28,12 @@ struct PlaceInRow {
         slack += late & by.all;
     }
 };
-// SSE2 on every x86-64, plain code where there are no vectors.
+// SSE2 on every x86-64, scalar code without vector support.
 using SignedLanes = std::int32_t __attribute__((vector_size(16)));
 using UnsignedLanes = std::uint32_t __attribute__((vector_size(16)));
 
-/// `count` offsets from `next` on, which is then the place after them. Since each edge hangs on the one before, they
-/// are made as sixteen rows of every sixteenth edge.
+/// Computes `count` offsets from `next` on, and advances `next`. Each edge depends on the previous one, so the offsets
+/// are computed as sixteen rows of every sixteenth edge.
 void fill_evenly(std::uint32_t* out, std::int64_t count, PlaceInRow<std::int32_t, std::uint32_t>& next,
                  const Interval& interval) {
     constexpr int rows = 16, lanes = 4;
@@ -65,7 +65,7 @@ void fill_evenly(std::uint32_t* out, std::int64_t count, PlaceInRow<std::int32_t
     }
 }
 
-/// The long axis along an arc within an octant: which basic pulses step it, without a root for each. The long
+/// The long axis along an arc within an octant: the basic pulses that step it, without a root for each. The long
 /// coordinate's magnitude m is nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
 class LongAxis {
   public:
@@ -79,9 +79,9 @@ class LongAxis {
         fall_ = 2 * at * short_step + 1;
         threshold_ = way_ > 0 ? m_ * m_ + m_ : m_ * m_ - m_;
     }
-    /// How m changes where it does: -1 or +1.
+    /// Direction in which m changes: -1 or +1.
     int way() const { return way_; }
-    /// Goes one basic pulse on; whether it changes m.
+    /// Advances by one basic pulse; returns whether m changes.
     bool step() {
         q_ -= fall_;
         fall_ += 2;
@@ -94,8 +94,8 @@ class LongAxis {
   private:
     std::int64_t m_ = 0;
     std::int64_t q_ = 0;
-    std::int64_t fall_ = 0;       // of q with the next basic pulse
-    std::int64_t threshold_ = 0;  // m changes once q is above it, or not above it
+    std::int64_t fall_ = 0;       // change of q with the next basic pulse
+    std::int64_t threshold_ = 0;  // m changes once q is above it, or no longer above it
     int way_ = 0;
 };
 }  // namespace
@@ -129,7 +129,7 @@ void Chip::flush_edges(int axis) {
     batch.size = 0;
 }
 
-/// One edge of axis `a`, after which its count is `count`.
+/// Emits one edge of axis `a`, after which its count is `count`.
 void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     const std::int64_t offset = at - outputs_[a].batch_tick;
@@ -153,8 +153,8 @@ void Chip::begin_batch(int a, std::int64_t at, int direction, std::int64_t count
     output.batch.first_count = count;
 }
 
-/// `pulses` edges of axis `a`, evenly: each comes quotient ticks after the one before, or one more if the remainder has
-/// used up the slack. The first comes at `run.at`.
+/// Emits `pulses` evenly spaced edges of axis `a`, at intervals of quotient ticks, or one more if the remainder has
+/// used up the slack. The first edge is at `run.at`.
 void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     std::int64_t count = state_.axis[a].count;
@@ -163,7 +163,7 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
         if (batch.size > 0 && run.at - outputs_[a].batch_tick > max_batch_ticks) flush_edges(a);
         if (batch.size == 0) begin_batch(a, run.at, direction, count + direction);
         std::int64_t some = std::min<std::int64_t>(sim::EdgeBatch::capacity - batch.size, pulses);
-        // As many as the batch's 32-bit offsets have room for.
+        // Limited by the 32-bit offsets of the batch.
         some = std::min(some, (max_batch_ticks - (run.at - outputs_[a].batch_tick)) / (run.quotient + 1) + 1);
         const auto first = static_cast<std::uint32_t>(run.at - outputs_[a].batch_tick);
         PlaceInRow<std::int32_t, std::uint32_t> next{first, static_cast<std::int32_t>(run.slack)};
@@ -178,7 +178,7 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
     }
 }
 
-/// The generator's next basic pulses while its speed and range stay: pulse j comes when acc has grown by j * R.
+/// The generator's next basic pulses at constant speed and range: pulse j occurs when acc has grown by j * R.
 Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) const {
     const std::int64_t need = gen.range_now - gen.acc;
     EvenPulses run;
@@ -191,8 +191,8 @@ Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) co
     return run;
 }
 
-/// The next `pulses` basic pulses of generator `a`, which begins to work after `waited` more ticks; called before its
-/// state moves on.
+/// Emits the next `pulses` basic pulses of generator `a`, which starts after `waited` more ticks; called before its
+/// state advances.
 void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[a].gen;
     if (gen.drive != Drive::path) return make_even_edges(a, even_pulses(gen, waited), pulses, state_.axis[a].direction);
@@ -211,8 +211,8 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
     }
 }
 
-/// An axis that is led along a line steps every so many basic pulses, or one more: two intervals, each with its
-/// quotient and remainder.
+/// An axis interpolated along a line steps at intervals of a number of basic pulses, or one more: two intervals, each
+/// with quotient and remainder.
 void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
@@ -223,7 +223,7 @@ void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     if (steps == 0) return;
     const std::int64_t first = rules::line_pulse_of_step(made + 1, p, longest);
     std::int64_t spare =
-        2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact place of the step
+        2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact position of the step
     const std::int64_t between = longest / p, rest = 2 * (longest % p);
     const std::int64_t phase = (first - gen.n - 1) * gen.range_now - run.slack;
     const std::int64_t ticks = phase > 0 ? rules::ceil_div(phase, gen.speed) : 0;
@@ -246,7 +246,7 @@ void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     }
 }
 
-/// Within an octant: the short axis steps evenly, the long one where its nearest value changes.
+/// Within an octant: the short axis steps evenly, the long one at changes of its nearest value.
 void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     const Path& path = state_.path;
     const rules::Octant& octant = rules::octants[path.arc.octant];
@@ -270,7 +270,7 @@ void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     }
 }
 
-/// With constant vector speed each basic pulse's interval depends on how many axes stepped with the one before.
+/// With constant vector speed the interval of each basic pulse depends on the number of axes in the previous step.
 void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
@@ -306,7 +306,8 @@ void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     }
 }
 
-/// The same along an arc, within an octant: the short axis steps with every basic pulse, the long one with some.
+/// The same along an arc, within an octant: the short axis steps with every basic pulse, the long one with some of
+/// them.
 void Chip::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;

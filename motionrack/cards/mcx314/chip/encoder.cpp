@@ -1,11 +1,11 @@
-// EP: a counter behind the encoder that is connected, in closed form, or behind whatever moves the lines xeca and xecb.
+// EP: a counter for the connected encoder, in closed form, or for the wires xeca and xecb.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
-/// The edges that EP counts; up/down pulses and the undefined 11 count all.
+/// Edges that EP counts; with up/down pulses and the undefined 11 it counts all.
 sim::Edges edges_of(const Axis& axis) {
     if (wr2::PINMD.test(axis.wr2)) return sim::Edges::all;
     switch (wr2::PIND.get(axis.wr2)) {
@@ -35,7 +35,7 @@ std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
 }
 
-/// Writes EP; also takes up the edges that WR2 asks for and the direction that EM does.
+/// Writes EP; also applies the edge ratio of WR2 and the direction of EM.
 void Chip::set_encoder_position(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
     if (axis.ring) value = stepped(axis, value, 0);
@@ -46,7 +46,7 @@ void Chip::set_encoder_position(int a, std::int32_t value) {
     axis.encoder.set(position, *ears_[a].motion, kernel_.now());
 }
 
-/// Where EP is compared, the encoder tells when a comparison may change.
+/// Subscribes to the encoder at the next count that may change a comparison with EP.
 void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
     const EncoderListener& ear = ears_[a];
@@ -88,7 +88,7 @@ void Chip::take_encoder(int a, bool taken) {
     settle(now);
 }
 
-/// The lines of an encoder that nobody connected as a whole: every change is counted by itself.
+/// Wires without a connected encoder: every change is counted individually.
 void Chip::encoder_lines(int a, Instant now) {
     Axis& axis = state_.axis[a];
     if (encoder_connected(a)) return;

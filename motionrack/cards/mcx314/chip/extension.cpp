@@ -1,4 +1,4 @@
-// What only the MCX314As has: its commands, rings, the drive's speed and deceleration, the clear pulse.
+// Functions of the MCX314As only: its commands, rings, drive speed and deceleration, the clear pulse.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
@@ -12,7 +12,7 @@ bool Chip::has_extended_command(int code) {
     return false;
 }
 
-/// False if the MCX314As does not know the command either.
+/// Returns false if the MCX314As does not know the command either.
 bool Chip::extended_command(int code, unsigned axes) {
     if (!has_extended_command(code)) return false;
     if (code == cmd::READ_BR) {
@@ -46,7 +46,7 @@ void Chip::extended_write(int code, int a) {
             ask_clear(a);
             break;
         case cmd::SM:
-            compare(a);  // what it does not hear of is not compared
+            compare(a);  // unsubscribed comparisons are not evaluated
             ext.sm6 = state_.wr6;
             ext.sm7 = state_.wr7;
             hear_comparisons(a);
@@ -75,7 +75,7 @@ void Chip::set_extension(int a) {
     watch_encoder(a);
 }
 
-/// COMP+ of an axis whose counters go round.
+/// COMP+ of an axis in ring mode.
 void Chip::set_ring_end(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
     const std::int32_t position = encoder_position(axis, a);
@@ -86,14 +86,14 @@ void Chip::set_ring_end(int a, std::int32_t value) {
 
 // ---- drives
 
-/// A drive begins: nothing holds its speed down yet.
+/// A drive begins without a speed cap.
 void Chip::prepare_drive(int a) {
     state_.extension[a].cap = 0;
     set_drive_speed(a);
 }
 
-/// V is, or stays, `v`; what the drive goes to is HV in a slow drive of a home search, no more than the cap, and where
-/// the options say so no less than SV.
+/// Sets V to `v`. The drive goes to HV in a slow drive of a home search, at most to the cap, and, by option, at least
+/// to SV.
 void Chip::set_drive_speed(int a, std::uint16_t v) {
     Extension& ext = state_.extension[a];
     ext.v = v;
@@ -105,7 +105,7 @@ void Chip::set_drive_speed(int a, std::uint16_t v) {
     state_.axis[a].speed = v;
 }
 
-/// How the drive that begins is going to find its deceleration point.
+/// Determines the deceleration method of the new drive.
 void Chip::choose_deceleration(int a) {
     Generator& gen = state_.axis[a].gen;
     const bool automatic = !gen.manual && !gen.s_curve;
@@ -113,7 +113,7 @@ void Chip::choose_deceleration(int a) {
     gen.no_triangle = automatic && gen.drive == Drive::fixed && em::AVTRI.test(state_.extension[a].em6);
 }
 
-/// The pulses that a deceleration from the present speed is reckoned to take.
+/// Estimated pulses of a deceleration from the present speed.
 std::int64_t Chip::final_pulses(const Axis& axis) const {
     if (!axis.gen.weighted) return axis.gen.accel_pulses;
     return rules::ceil_div(axis.gen.accel_pulses * rules::used_speed(axis.accel), rules::used_speed(axis.decel));
@@ -130,7 +130,7 @@ std::int64_t Chip::pulses_to_weighted_final(const Axis& axis, std::int64_t left)
     return missing < 0 ? 1 : missing / (a + d) + 1;
 }
 
-/// Pulses until half of those of the drive are taken by its ramps.
+/// Pulses until the ramps take half of the pulses of the drive.
 std::int64_t Chip::pulses_to_half(const Axis& axis) const {
     const Generator& gen = axis.gen;
     if (gen.final || gen.ramp <= 0) return far;
@@ -141,7 +141,7 @@ std::int64_t Chip::pulses_to_half(const Axis& axis) const {
     return std::max<std::int64_t>(1, x - gen.accel_pulses);
 }
 
-/// After a pulse of a drive that must not become a triangle: once half of its pulses are taken, it gets no faster.
+/// Called after a pulse of a drive with triangle prevention: once half of its pulses are used, its speed is capped.
 void Chip::avoid_triangle(int a) {
     Generator& gen = state_.axis[a].gen;
     if (gen.final || gen.ramp <= 0) return;

@@ -1,9 +1,9 @@
-// Wires that ask for something: nEXPP and nEXPM for drives, EXPLSN for single steps (RULES.md, "Single steps" and
-// "Drives by nEXPP and nEXPM").
+// Wires with commands: nEXPP and nEXPM for drives, EXPLSN for single steps (RULES.md, "Single steps" and "Drives by
+// nEXPP and nEXPM").
 //
-//   nEXPP  ~~~~~~\____________/~~~~~~     f, f + 1: the first two ticks that see it Low; g: the first that sees it High
+//   nEXPP  ~~~~~~\____________/~~~~~~     f, f + 1: the first two ticks at which it is Low; g: the first at High
 //                 f f+1        g
-//   EXOP 2            20h                 after all generators have worked tick f + 1
+//   EXOP 2            20h                 after all generators have executed tick f + 1
 //   EXOP 1            22h      26h
 //   EXOP 3 (MCX314As): nEXPP rises: 20h, falls: 21h, while nEXPM is Low
 #include <motionrack/cards/mcx314/chip/chip.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t step_wire = 1u << axes_of_chip;  // in State::sampled
 
-/// Counts the ticks that see an input Low; true at the second one.
+/// Counts the ticks at which an input is Low; returns true at the second one.
 bool falls(std::uint8_t& low, bool high) {
     if (high)
         low = 0;
@@ -40,12 +40,12 @@ void Chip::set_external(int a, std::uint16_t before) {
     if (turns_by_wire(a)) axis.external_low[0] = level(axis, Pin::exp_plus) ? 0 : 2;
 }
 
-/// Whether nEXPP and nEXPM are a hand wheel's lines A and B.
+/// True if nEXPP and nEXPM are the lines A and B of a hand wheel.
 bool Chip::turns_by_wire(int a) const {
     return extended_ && external_mode(state_.axis[a].wr3) == external_wheel;
 }
 
-/// A pin of axis 16 * axis + Pin has changed.
+/// Handles a change of a pin of axis 16 * axis + Pin.
 void Chip::hear_external(int pin) {
     const int which = pin % 16;
     if (which == static_cast<int>(Pin::exp_plus) || which == static_cast<int>(Pin::exp_minus))
@@ -57,7 +57,7 @@ void Chip::hear_step_wire(int wire_level) {
     if (!state_.step_high || state_.step_low != 0) state_.sampled |= step_wire;
 }
 
-/// After a tick: what the wires that have changed ask for.
+/// Executes the requests of the changed wires after a tick.
 void Chip::sample_external() {
     const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
     for_each_axis(sampled & (step_wire - 1), [this](int a) {
@@ -98,12 +98,12 @@ void Chip::sample_wheel(int a) {
 
 // ---- single steps
 
-/// Whether the basic pulses of generator `a` come one a request.
+/// True if each basic pulse of generator `a` needs a request.
 bool Chip::by_steps(int a) const {
     return state_.axis[a].gen.drive == Drive::path && state_.path.command.steps != 0;
 }
 
-/// True if a step is under way for it.
+/// True if a step is in progress.
 bool Chip::ask_step(std::uint32_t by) {
     if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
     state_.stepping = true;

@@ -1,4 +1,4 @@
-// The fields of the registers that the chip works with, as the map has them: wr2::ALME.test(axis.wr2).
+// The register fields used by the chip, from the map: wr2::ALME.test(axis.wr2).
 #pragma once
 
 #include <motionrack/cards/mcx314/map.hpp>
@@ -39,7 +39,7 @@ inline constexpr Field CMPP = field("RR1", "CMPP"), CMPM = field("RR1", "CMPM"),
                        CNST = field("RR1", "CNST"), DSND = field("RR1", "DSND"), AASND = field("RR1", "AASND"),
                        IN0 = field("RR1", "IN0"), LMTP = field("RR1", "LMTP"), LMTM = field("RR1", "LMTM"),
                        ALARM = field("RR1", "ALARM"), EMG = field("RR1", "EMG");
-/// What a stop by a limit switch, the alarm or the emergency stop leaves behind.
+/// Flags left by a stop through a limit switch, the alarm or the emergency stop.
 inline constexpr Field errors{static_cast<std::uint16_t>(LMTP.mask | LMTM.mask | ALARM.mask | EMG.mask)};
 }  // namespace rr1
 
@@ -47,7 +47,7 @@ namespace rr2 {
 inline constexpr Field SLMTP = field("RR2", "SLMTP"), SLMTM = field("RR2", "SLMTM"), HLMTP = field("RR2", "HLMTP"),
                        HLMTM = field("RR2", "HLMTM"), ALARM = field("RR2", "ALARM"), EMG = field("RR2", "EMG"),
                        HOME = field("RR2", "HOME"), HMST = field("RR2", "HMST");
-/// All but the state of the home search.
+/// All except the state of the home search.
 inline constexpr Field errors{
     static_cast<std::uint16_t>(SLMTP.mask | SLMTM.mask | HLMTP.mask | HLMTM.mask | ALARM.mask | EMG.mask | HOME.mask)};
 }  // namespace rr2

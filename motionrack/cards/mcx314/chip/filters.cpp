@@ -1,6 +1,6 @@
-// The inputs of an MCX314As, once a tick: filters, and the edges that EPCLR and synchronous actions wait for.
+// Inputs of an MCX314As, once per tick: filters, and the edges for EPCLR and synchronous actions.
 //
-//   wire    ────┐  ┌─┐ ┌──────────────          delay D: the first sample that differs is at tick n; if all up to
+//   wire    ────┐  ┌─┐ ┌──────────────          delay D: the first differing sample is at tick n; if all up to
 //               └──┘ └─┘                        tick n + D do, the chip sees the new level from tick n + D on
 //   level   ─────────────────────────
 //                      |<─ D ─>|
@@ -16,7 +16,7 @@ constexpr unsigned mask(Pin pin) {
     return 1u << static_cast<int>(pin);
 }
 
-/// The pins behind the filters FE0..FE4 of EM6.
+/// The pins with the filters FE0..FE4 of EM6.
 constexpr std::array<unsigned, 5> filter_pins = {
     mask(Pin::limit_plus) | mask(Pin::limit_minus) | mask(Pin::in0) | mask(Pin::in1),
     mask(Pin::in2),
@@ -33,7 +33,7 @@ std::int64_t delay_of(const Extension& ext) {
 
 }  // namespace
 
-/// Pins whose wires must be followed for what only the MCX314As has.
+/// Pins whose wires must be followed for MCX314As functions.
 unsigned Chip::inputs_of_extension(int a) const {
     const Extension& ext = state_.extension[a];
     unsigned pins = ext.filtered;
@@ -44,7 +44,7 @@ unsigned Chip::inputs_of_extension(int a) const {
     return pins;
 }
 
-/// EM has been written: filters begin with the level of their wires, or end.
+/// Applies a write to EM: filters begin with the level of their wires, or end.
 void Chip::set_filters(int a) {
     Extension& ext = state_.extension[a];
     unsigned pins = 0;
@@ -67,7 +67,7 @@ void Chip::set_filters(int a) {
     wake();
 }
 
-/// A wire has changed; false if it is behind a filter, which hears of it here.
+/// Handles a change of a wire; returns false if the wire has a filter, which then takes the change.
 bool Chip::passes_filter(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
     if (pin == emergency_pin) {
@@ -83,7 +83,7 @@ bool Chip::passes_filter(int pin, int wire_level) {
     return !bit(ext.filtered, pin % 16);
 }
 
-/// Before tick `to` is worked: what its samples change counts for it.
+/// Applies the samples of tick `to` before the tick is executed.
 void Chip::sample(std::int64_t to) {
     state_.next_sample = far;
     bool changed = sample_chip_filter(state_.emergency_filter, emergency_is_filtered, state_.emergency_high, to);
@@ -99,7 +99,7 @@ void Chip::sample(std::int64_t to) {
     if (changed) work_in_full(to);
 }
 
-/// Tick `to`, which is at hand, is to be worked in full by all generators.
+/// Requests full execution of the present tick `to` by all generators.
 void Chip::work_in_full(std::int64_t to) {
     for_each_axis(state_.working, [&](int a) {
         Generator& gen = state_.axis[a].gen;
@@ -110,7 +110,7 @@ void Chip::work_in_full(std::int64_t to) {
     });
 }
 
-/// EMGN or EXPLSN, of which the chip sees the level `seen`: true if it is to see the other one.
+/// Filters EMGN or EXPLSN, whose level in the chip is `seen`; returns true if that level must change.
 bool Chip::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t to) {
     const Extension& x = state_.extension[0];
     if (!enable.test(x.em6) || (filter.wire != 0) == seen) {
@@ -127,7 +127,7 @@ bool Chip::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::
     return true;
 }
 
-/// True if a level has changed.
+/// Returns true if a level has changed.
 bool Chip::sample_filters(int a, std::int64_t to) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];

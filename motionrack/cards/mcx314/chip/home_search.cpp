@@ -1,4 +1,4 @@
-// The automatic home search of an MCX314As: drives one after the other, by the table map::home_drives.
+// The automatic home search of an MCX314As: consecutive drives, by the table map::home_drives.
 //
 //   62h ─► step 1 ─► step 2 ────────────────► step 3 ─► step 4 ─► end
 //           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// ST1E, ST1D, ST2E, ..: enable and direction of each step are neighbours.
+// ST1E, ST1D, ST2E, ..: enable and direction of each step are adjacent.
 bool step_enabled(const Extension& ext, int step) {
     return (ext.em7 & em::ST1E.mask << 2 * (step - 1)) != 0;
 }
@@ -29,7 +29,7 @@ void Chip::start_home(int a) {
     if (!next_home_step(a, 1)) end_home(a);
 }
 
-/// Whether what the step waits for is there.
+/// True if the event that the step waits for has occurred.
 bool Chip::home_input(int a, int step) const {
     const Extension& ext = state_.extension[a];
     const Axis& axis = state_.axis[a];
@@ -38,7 +38,7 @@ bool Chip::home_input(int a, int step) const {
     return input_active(axis, step - 1);
 }
 
-/// In step 1 of a tick: whether the drive of a home search is to stop, as by a stop input.
+/// In step 1 of a tick: true if the drive of a home search must stop, as by a stop input.
 bool Chip::home_found(int a) {
     HomeSearch& home = state_.extension[a].home;
     const map::HomeDrive& drive = map::home_drive(home.hmst);
@@ -60,7 +60,7 @@ void Chip::go_home(int a, int hmst) {
     start_drive(a, drive_code(drive.step == 4 ? Drive::fixed : Drive::continuous, direction));
 }
 
-/// The first of the steps from `step` on that is to be done begins; false if there is none, or an error instead.
+/// Starts the first enabled step from `step` on; returns false if there is none, or on an error.
 bool Chip::next_home_step(int a, int step) {
     Extension& ext = state_.extension[a];
     HomeSearch& home = ext.home;
@@ -95,7 +95,7 @@ void Chip::end_home(int a) {
     if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
 
-/// The drive of a step is over: what follows.
+/// Continues after the drive of a step.
 void Chip::end_home_drive(int a) {
     Extension& ext = state_.extension[a];
     HomeSearch& home = ext.home;
@@ -126,7 +126,7 @@ void Chip::end_home_drive(int a) {
     if (!next_home_step(a, drive.step + 1)) end_home(a);
 }
 
-/// At the end of a tick: searches whose drive is over go on.
+/// At the end of a tick: continues searches whose drive has ended.
 void Chip::look_at_homes() {
     for_each_axis(state_.homing, [&](int a) {
         const Extension& ext = state_.extension[a];

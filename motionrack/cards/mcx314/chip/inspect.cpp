@@ -1,4 +1,4 @@
-// Everything that can be looked at by name, without disturbing the chip.
+// Inspection of all values by name, without side effects on the chip.
 #include <algorithm>
 #include <iterator>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
@@ -21,7 +21,7 @@ constexpr bool in_each = true, in_one = false;
 
 }  // namespace
 
-// The generators may be behind: what changes between events is asked for as it is at present.
+// The generators may be behind: values that change between events are computed for the present instant.
 std::span<const Chip::Inspected> Chip::Inspected::table() {
     static constexpr Inspected rows[] = {
         {"WR1", in_each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.wr1; }},
@@ -62,7 +62,7 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"CV", in_each,
          [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.drive == Drive::idle ? 0 : x.gen.speed; }},
         {"CA", in_each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.rate; }},
-        // Of the MCX314As; 0 in an original, L there as K.
+        // MCX314As; 0 on an original, where L acts as K.
         {"L", in_each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.decel_jerk; }},
         {"EM6", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].em6; }},
         {"EM7", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].em7; }},
@@ -70,7 +70,7 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"SM7", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].sm7; }},
         {"HV", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].hv; }},
         {"BR", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].buffer; }},
-        // Places in the tables of map.hpp's state machines.
+        // Indices in the tables of map.hpp's state machines.
         {"DRIVE_STATE", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.drive_state(a); }},
         {"EXPP_STATE", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.wire_state(a, 0); }},
         {"EXPM_STATE", in_each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.wire_state(a, 1); }},

@@ -1,4 +1,4 @@
-// In which of its declared states (map.hpp) each state machine of the chip is, seen from its working state.
+// Present state of each declared state machine (map.hpp), derived from the chip's working state.
 #include <iterator>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
@@ -12,14 +12,14 @@ consteval const MachineInfo& machine(std::string_view name) {
         if (each.name == name) return each;
     throw "there is no state machine of this name";
 }
-/// The place of a state in its machine's table; a name that is not there does not compile.
+/// Index of a state in its machine's table; an unknown name does not compile.
 consteval int place(std::string_view machine_name, std::string_view name) {
     const int index = state_index(machine(machine_name), name);
     if (index < 0) throw "the state machine has no state of this name";
     return index;
 }
 
-/// The states of the home search in the order of map::home_drives.
+/// The states of the home search, in the order of map::home_drives.
 constexpr int home_places[] = {place("home search", "near"),   place("home search", "home"),
                                place("home search", "escape"), place("home search", "again"),
                                place("home search", "index"),  place("home search", "offset")};
@@ -71,7 +71,7 @@ int Chip::home_state(int a) const {
     return place("home search", "idle");
 }
 
-/// "differs" if any of the axis' filtered inputs does.
+/// "differs" if any filtered input of the axis does.
 int Chip::filter_state(int a) const {
     const Extension& ext = state_.extension[a];
     const bool differs = (ext.filtered & (ext.wires ^ state_.axis[a].levels)) != 0;

@@ -1,15 +1,15 @@
-// Closed form: when the next interesting tick is, and everything up to it in one go.
+// Closed form: the tick of the next event, and the advance to it in one step.
 //
-//   tick    |--------- plain ticks, pulses in closed form ---------|  interesting tick, worked off by the rules
+//   tick    |--------- plain ticks, pulses in closed form ---------|  event tick, executed by the rules
 //           now                                        speed step, special pulse, input ..
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
-// ---- the next interesting tick
+// ---- the tick of the next event
 
-/// The next tick at which generator `a` does more than add up, and whether that is a step of its speed only.
+/// The next tick at which generator `a` does more than accumulate, and whether that is only a step of its speed.
 void Chip::find_next_tick(int a) {
     Generator& gen = state_.axis[a].gen;
     gen.plain = gen.walks = false;
@@ -79,8 +79,8 @@ std::int64_t Chip::pulses_to_special(int a) const {
     return std::max<std::int64_t>(1, pulses);
 }
 
-/// Bit patterns, single steps and constant vector speed of three axes have no closed form here: their pulses are walked
-/// one by one.
+/// Bit patterns, single steps and constant vector speed of three axes have no closed form here: their pulses are
+/// executed one by one.
 bool Chip::walks_pulses(int a) const {
     const Path& path = state_.path;
     if (state_.axis[a].gen.drive != Drive::path) return false;
@@ -103,7 +103,7 @@ std::int64_t Chip::pulses_to_final(int a) const {
     if (gen.manual) return std::max<std::int64_t>(1, std::int64_t{axis.decel_point} - gen.n);
     const std::int64_t left = total - gen.n - axis.offset;
     if (gen.weighted) return pulses_to_weighted_final(axis, left);
-    // P - n <= accel_pulses + AO, where accel_pulses rises, stays or falls with n.
+    // P - n <= accel_pulses + AO, where accel_pulses increases, stays or decreases with n.
     if (gen.ramp > 0)
         return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
     if (gen.ramp == 0) return std::max<std::int64_t>(1, left - gen.accel_pulses);
@@ -125,13 +125,13 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     return std::max<std::int64_t>(1, steps);
 }
 
-/// Whether anything hangs on the comparisons with COMP+ and COMP-: interrupts, software limits, outputs.
+/// True if interrupts, software limits or outputs depend on the comparisons with COMP+ and COMP-.
 bool Chip::compares(const Axis& axis) const {
     return axis.comparisons != 0 || wr2::SLMTP.test(axis.wr2) || wr2::SLMTM.test(axis.wr2) ||
            (axis.outputs_wanted && wr3::OUTSL.test(axis.wr3));
 }
 
-/// Steps in `direction` until a comparison may turn out differently (>= 1); counters wrap at 32 bits.
+/// Steps in `direction` until a comparison may change (>= 1); counters wrap at 32 bits.
 std::int64_t Chip::steps_to_comparison(const Axis& axis, std::int32_t counter, int direction) const {
     const std::int64_t at = counter, plus = axis.comp_plus, minus = axis.comp_minus;
     std::int64_t steps = direction > 0 ? (std::int64_t{1} << 31) - at : at + (std::int64_t{1} << 31) + 1;
@@ -169,7 +169,7 @@ std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
 
 // ---- phase and pulses
 
-/// How many of the next `pulses` basic pulses step two axes (paths of two axes).
+/// Number of the next `pulses` basic pulses that step two axes (paths of two axes).
 std::int64_t Chip::extra_steps(std::int64_t pulses) const {
     const Path& path = state_.path;
     if (pulses <= 0) return 0;
@@ -182,7 +182,7 @@ std::int64_t Chip::extra_steps(std::int64_t pulses) const {
     return rules::line_steps(n + pulses, p, path.longest) - rules::line_steps(n, p, path.longest);
 }
 
-/// What acc and the speed must add up to until the next `pulses` basic pulses (>= 1) are out.
+/// Required sum of acc and the speed until the next `pulses` basic pulses (>= 1) are output.
 std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
     if (gen.drive != Drive::path) return pulses * gen.range_now;
     const auto& range = state_.path.range_for;
@@ -192,7 +192,7 @@ std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
     return phase;
 }
 
-/// Basic pulses in the next plain working ticks, in which the speed adds up to `added`.
+/// Basic pulses in the next plain working ticks, whose speeds add up to `added`.
 std::int64_t Chip::pulses_of(const Generator& gen, std::int64_t added) const {
     const std::int64_t phase = gen.acc + added;
     if (phase < gen.range_now) return 0;
@@ -237,14 +237,14 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
 
 // ---- many plain ticks at once
 
-/// Nothing happens up to tick `to`.
+/// Advances to tick `to` without an event.
 void Chip::skip_to(std::int64_t to) {
     for_each_axis(state_.working, [&](int a) { bring_up(a, to); });
     if (state_.in_place != 0) look_at_in_position();
     state_.tick = to;
 }
 
-/// Generator `a`, to which nothing happens up to tick `to`, works up to there.
+/// Advances generator `a`, which has no event up to tick `to`, to that tick.
 void Chip::bring_up(int a, std::int64_t to) {
     Axis& axis = state_.axis[a];
     const std::int64_t ticks = to - axis.gen.at;
@@ -255,7 +255,7 @@ void Chip::bring_up(int a, std::int64_t to) {
     axis.gen.at = to;
 }
 
-/// `ticks` of the third step, in which the speed does not change; before skip_phase, which lets the start ticks pass.
+/// Executes `ticks` of the third step at constant speed; called before skip_phase, which consumes the start ticks.
 void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     Generator& gen = axis.gen;
     if (gen.ramp == 0) return;
@@ -265,7 +265,7 @@ void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     gen.speed_part += ticks * gen.rate;
 }
 
-/// `ticks` of the second step, of which none but perhaps the last has a pulse that does more than step its axes.
+/// Executes `ticks` of the second step, of which only the last may have a pulse that does more than step its axes.
 void Chip::skip_phase(int a, std::int64_t ticks) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
@@ -280,7 +280,7 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
     skip_pulses(a, pulses, {gen.at + waited + ticks, gen.acc, gen.speed});
 }
 
-/// The next `pulses` basic pulses; when the last of them comes.
+/// Executes the next `pulses` basic pulses; `last`: moment of the last one.
 void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     Generator& gen = state_.axis[a].gen;
     auto add = [this](int i, std::int64_t steps) {

@@ -1,4 +1,4 @@
-// What a chip is built as; none of it changes while it runs.
+// Variants of a chip; constant while it runs.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@ enum class Variant : std::uint8_t {
     mcx314as  ///< with filters, home search, synchronous actions, wide ranges (RULES.md, "The MCX314As")
 };
 
-/// What a drive with V <= SV does: the maker's sample program and a compatible chip's manual do not agree.
+/// Speed of a drive with V <= SV: the maker's sample program and a compatible chip's manual disagree.
 enum class SlowDrive : std::uint8_t {
     at_v,  ///< drives at V
     at_sv  ///< drives at SV
 };
 
-/// Where a software limit begins: the texts on RR2 and on RR1 do not agree.
+/// Start of a software limit: the texts on RR2 and on RR1 disagree.
 enum class SoftwareLimit : std::uint8_t {
-    beyond,  ///< + drives stop beyond COMP+, as RR2 SLMT+
-    at       ///< + drives stop at COMP+, as RR1 CMP+
+    beyond,  ///< + drives stop beyond COMP+, by RR2 SLMT+
+    at       ///< + drives stop at COMP+, by RR1 CMP+
 };
 
 struct ChipOptions {

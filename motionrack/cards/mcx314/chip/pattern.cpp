@@ -43,7 +43,7 @@ void Chip::clear_pattern() {
     state_.pattern.place = Pattern::length;
 }
 
-/// The oldest stacked word, if there is one, becomes the running one, whose steps are all made.
+/// Makes the oldest stacked word, if any, the running one; requires that all steps of the running word are made.
 void Chip::next_pattern_word() {
     Pattern& pattern = state_.pattern;
     const int before = pattern_counter();
@@ -60,7 +60,7 @@ void Chip::next_pattern_word() {
     law_changed_of(state_.master);
 }
 
-/// A basic pulse of a bit pattern; returns how many axes stepped, at least one.
+/// Executes a basic pulse of a bit pattern; returns the number of axes that stepped, at least one.
 int Chip::step_pattern() {
     Pattern& pattern = state_.pattern;
     const PathCommand& command = state_.path.command;
@@ -74,7 +74,7 @@ int Chip::step_pattern() {
     return std::max(1, moved);
 }
 
-/// The axes take the directions of their next steps.
+/// Sets the directions of the axes to those of their next steps.
 void Chip::look_ahead_in_pattern() {
     const Pattern& pattern = state_.pattern;
     const PathCommand& command = state_.path.command;
@@ -85,11 +85,11 @@ void Chip::look_ahead_in_pattern() {
         Axis& axis = state_.axis[command.axis[i]];
         if (direction == 0 || direction == axis.direction) continue;
         axis.direction = direction;
-        state_.axis[state_.master].gen.look = true;  // the other limit counts
+        state_.axis[state_.master].gen.look = true;  // the opposite limit applies
     }
 }
 
-/// What part of the running word's basic pulses step AX(i+1), signed.
+/// Share of the running word's basic pulses that step AX(i+1), signed.
 double Chip::pattern_share(int i) const {
     const Pattern& pattern = state_.pattern;
     int steps = 0, at = 0;

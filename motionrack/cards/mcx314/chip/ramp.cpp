@@ -1,8 +1,8 @@
-// Many steps of a speed at once, where nobody hears of each: a ramp is then one event.
+// Many unobserved steps of a speed at once: a ramp is then one event.
 //
-//   speed            ┌──            One step after the other is added up, from tick `at` to the last step before
-//              ┌─────┘              - the pulse at which more happens than a pulse (`phase_limit`),
-//        ┌─────┘  phase             - the step that reaches the ramp's aim, or
+//   speed            ┌──            The steps are added up, from tick `at` to the last step before
+//              ┌─────┘              - the pulse with a further effect (`phase_limit`),
+//        ┌─────┘  phase             - the step that reaches the ramp's target, or
 //    ────┘                          - tick `at` + `tick_limit`.
 //      at ├── ticks ──┤
 #include <motionrack/cards/mcx314/chip/chip.hpp>
@@ -12,9 +12,9 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr int max_walk_steps = 512;  // steps: a change in between costs no more than to walk them again
+constexpr int max_walk_steps = 512;  // limited, because a change in between costs a repetition of these steps
 
-/// Straight: the ticks of a step are 64,000 / rate, and one more where the remainder asks for it.
+/// Straight ramp: the ticks of a step are 64,000 / rate, and one more by the remainder.
 Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t tick_limit, std::int64_t phase_limit) {
     Walk walk{from};
     const std::int64_t steps = std::min<std::int64_t>(max_walk_steps, rules::magnitude(to - from.speed) - 1);
@@ -38,8 +38,8 @@ Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t 
     return walk;
 }
 
-/// S-shaped: the same, with a rate that changes now and then; ends one step of the speed before the aim, or before SV
-/// where that is the end of a stop.
+/// S-ramp: the same, with a variable rate. It ends one step of the speed before the target, or before SV if that is the
+/// end of a stop.
 Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::int64_t phase_limit) {
     const std::int64_t jerk = jerk_ticks(axis), top_rate = ramp_rate(axis, from);
     const std::int64_t end = axis.gen.stopping ? rules::used_speed(axis.start_speed) : -1;
@@ -74,7 +74,7 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
 
 }  // namespace
 
-/// Whether generator `a` is on a ramp of which nobody hears each step.
+/// True if generator `a` is on a ramp whose steps are unobserved.
 bool Chip::may_walk(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
@@ -85,7 +85,7 @@ bool Chip::may_walk(int a) const {
     return (to - gen.speed) * gen.ramp > 0;
 }
 
-/// Steps of generator `a` from where it is.
+/// Steps of generator `a` from its present state.
 Walk Chip::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
@@ -93,7 +93,7 @@ Walk Chip::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const 
                        : t_walk(gen, ramp_rate(axis, gen), target(axis), tick_limit, phase_limit);
 }
 
-/// The steps after the one at next_tick, if there are any before `phase_limit`, are done together with it.
+/// Combines the step at next_tick with the following steps, if there are any before `phase_limit`.
 void Chip::walk_ahead(int a, std::int64_t phase_limit) {
     Generator& gen = state_.axis[a].gen;
     if (!may_walk(a)) return;
@@ -102,7 +102,7 @@ void Chip::walk_ahead(int a, std::int64_t phase_limit) {
     if (gen.walks) gen.next_tick = gen.at + ahead.ticks;
 }
 
-/// What the generator's speed adds up to in the next `ticks`, none of them after next_tick.
+/// Sum of the generator's speed in the next `ticks`, none of them after next_tick.
 std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
     if (halted(a)) return 0;
@@ -111,7 +111,7 @@ std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
     return so_far.phase + (ticks - so_far.ticks) * so_far.law.speed;
 }
 
-/// The last of `pulses` basic pulses within the next `ticks`: when it came, and at which speed.
+/// The last of `pulses` basic pulses within the next `ticks`: its tick and its speed.
 PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
     const std::int64_t phase = phase_for(gen, pulses) - gen.acc;
@@ -122,13 +122,13 @@ PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) con
     return {gen.at + until.ticks + more, more * speed - left, speed};
 }
 
-/// A generator that waits for a step: until then it neither adds up nor changes its speed.
+/// Lets a generator wait for a step: until then it neither accumulates nor changes its speed.
 void Chip::rest(Generator& gen) {
     gen.walks = true;
     gen.next_tick = far;
 }
 
-/// Generator `a` goes `to` a tick on its walk, not beyond its end; or it rests.
+/// Advances generator `a` to tick `to` of its combined steps, at most to their end; or it waits.
 void Chip::bring_along(int a, std::int64_t to) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t ticks = to - gen.at;

@@ -5,12 +5,12 @@
 
 namespace motionrack::mcx314 {
 
-/// What va grows by in a tick of the present ramp: A, or D where it falls and has its own.
+/// Increment of va per tick of the present ramp: A, or D during a deceleration with its own rate.
 inline std::int64_t ramp_rate(const Axis& axis, const Speed& law) {
     return rules::used_speed(law.ramp < 0 && axis.gen.own_deceleration ? axis.decel : axis.accel);
 }
 
-/// Ticks from one rate of an S-ramp to the next: K, or where it falls and has its own L.
+/// Ticks from one rate of an S-ramp to the next: K, or L during a deceleration with its own jerk.
 inline std::int64_t jerk_ticks(const Axis& axis) {
     const bool own = axis.gen.ramp < 0 && axis.gen.own_deceleration;
     return rules::jerk_ticks_per_k * rules::used_jerk(own ? axis.decel_jerk : axis.jerk);

@@ -1,4 +1,4 @@
-// The bus: what a write does.
+// Bus writes and their effects.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
@@ -35,7 +35,7 @@ void Chip::reset() {
     state_.pattern = {};
     state_.wr0_high = state_.step_low = 0;
     hear_step_wire(kernel_.level(expls_n_));
-    // An input may be wired to one of the chip's own outputs, which asks the chip: it is whole again by then.
+    // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
     for (int a = 0; a < axes_of_chip; ++a) {
         set_encoder_position(a, 0);
         set_wants(a);
@@ -61,7 +61,7 @@ void Chip::write_byte(std::uint32_t port, std::uint8_t value) {
         write_bits(port & ~1u, static_cast<std::uint16_t>(high ? value << 8 : value), high ? 0xFF00 : 0x00FF);
 }
 
-/// A write of the bits in `mask`.
+/// Writes the bits in `mask`.
 void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const Instant now = kernel_.now();
     catch_up(now);
@@ -87,7 +87,7 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
     settle(now);
 }
 
-/// WR1 .. WR3 of an axis; put(word) writes what is written.
+/// WR1 .. WR3 of an axis; put(word) stores the written word.
 template <class Put>
 void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
     Axis& axis = state_.axis[a];
@@ -97,7 +97,7 @@ void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
         return set_external(a, before);
     }
     if (offset == reg::WR1) {
-        // The counter has moved uncompared while nothing was enabled: only what comes from now on counts.
+        // The counter has moved without comparisons while they were disabled: only later changes count.
         compare(a);
         put(axis.wr1);
         hear_comparisons(a);
@@ -277,13 +277,13 @@ void Chip::begin_generator(int a, Drive drive) {
     gen.constant = v <= sv;
     gen.speed = std::min(v, sv);
     gen.at = state_.tick;
-    gen.look = true;  // the first working tick in full, whatever happens in the start ticks
+    gen.look = true;  // the first working tick in full, independent of events in the start ticks
     axis.gen = gen;
     if (extended_) choose_deceleration(a);
     state_.working |= 1u << a;
 }
 
-/// A finish point or centre as it counts.
+/// Effective value of a finish point or centre.
 std::int64_t Chip::coordinate(std::uint32_t v) const {
     return extended_ ? rules::limited32(v) : rules::signed24(v);
 }

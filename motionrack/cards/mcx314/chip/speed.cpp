@@ -1,10 +1,10 @@
-// The third step of a tick: the speed moves towards its target, by a straight or an S-shaped ramp (RULES.md).
+// The third step of a tick: the speed approaches its target on a straight or an S-shaped ramp (RULES.md).
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
-/// True if the drive ended.
+/// Returns true if the drive ended.
 bool Chip::speed_step(int a) {
     Axis& axis = state_.axis[a];
     Generator& gen = axis.gen;
@@ -74,7 +74,7 @@ void Chip::s_curve(int a) {
     if (gen.ramp != 0) s_advance(a);
 }
 
-/// The final deceleration begins in this tick: a rising ramp is dropped, a falling one gets a new aim.
+/// The final deceleration begins in this tick: an accelerating ramp is dropped, a decelerating one gets a new target.
 void Chip::s_turn_final(int a) {
     Generator& gen = state_.axis[a].gen;
     auto over = [&] {

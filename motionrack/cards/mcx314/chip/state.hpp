@@ -1,5 +1,5 @@
-// All of the chip's state, trivially copyable: registers, one speed generator an axis, the interpolation with its
-// queue.
+// The complete state of the chip, trivially copyable: registers, one speed generator per axis, the interpolation with
+// its queue.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@ inline constexpr int axes_of_chip = 4;
 
 enum class Drive : std::uint8_t { idle, fixed, continuous, path };
 
-/// The command of a drive of its own.
+/// Drive command of a single axis.
 constexpr int drive_code(Drive drive, int direction) {
     if (drive == Drive::fixed) return direction > 0 ? cmd::FIXED_PLUS : cmd::FIXED_MINUS;
     return direction > 0 ? cmd::CONTINUOUS_PLUS : cmd::CONTINUOUS_MINUS;
 }
 
-/// What an interpolation command captures.
+/// Parameters captured by an interpolation command.
 struct PathCommand {
     std::int32_t code = 0;  ///< cmd::LINE2 .. cmd::BP3
     std::int32_t count = 2;
     std::int32_t vector_speed = 0;  ///< WR5.LSPD
-    std::uint32_t steps = 0;        ///< WR5.EXPLS, CMPLS: a basic pulse a request
+    std::uint32_t steps = 0;        ///< WR5.EXPLS, CMPLS: one basic pulse per request
     std::array<std::int32_t, 3> axis{};
     std::int32_t reserved = 0;
     std::array<std::int64_t, 3> finish{};
     std::array<std::int64_t, 2> centre{};
 
-    static constexpr std::uint32_t by_wire = 1, by_command = 2;  ///< of steps
+    static constexpr std::uint32_t by_wire = 1, by_command = 2;  ///< bits of steps
 
     bool line() const { return code <= static_cast<int>(cmd::LINE3); }
     bool arc() const { return code == cmd::ARC_CW || code == cmd::ARC_CCW; }
@@ -50,7 +50,7 @@ struct PathCommand {
     }
 };
 
-/// The running segment: basic pulse n and where that is.
+/// The running segment at basic pulse n.
 struct Path {
     PathCommand command;
     rules::Arc arc;
@@ -62,20 +62,20 @@ struct Path {
 /// Sixteen steps of three axes: BP1P, BP1M, BP2P, BP2M, BP3P, BP3M.
 using PatternWord = std::array<std::uint16_t, 6>;
 
-/// The bit pattern: its registers, the stack and the word of which the next step is `place`.
+/// The bit pattern: its registers, the stack, and the running word with its next step `place`.
 struct Pattern {
     static constexpr std::uint8_t depth = 3, length = 16;
     PatternWord registers{};
     std::array<PatternWord, depth> stack{};
     PatternWord running{};
     std::uint8_t stacked = 0;
-    std::uint8_t place = length;  ///< `length`: there is no running word
-    bool writable = false;        ///< 36h: the registers stand where WR2..WR7 are
+    std::uint8_t place = length;  ///< `length`: no running word
+    bool writable = false;        ///< 36h: the registers replace WR2..WR7
     bool interrupt = false;
 
-    /// The step of AX(i+1) at `at`: -1, 0 or +1.
+    /// Step of AX(i+1) at `at`: -1, 0 or +1.
     int step(int i, int at) const { return (running[2 * i] >> at & 1) - (running[2 * i + 1] >> at & 1); }
-    /// Whether one of the first `axes` axes has the end code at `at`.
+    /// True if one of the first `axes` axes has the end code at `at`.
     bool ends(int axes, int at) const {
         unsigned both = 0;
         for (int i = 0; i < axes; ++i) both |= running[2 * i] & running[2 * i + 1];
@@ -83,15 +83,15 @@ struct Pattern {
     }
 };
 
-/// Steps of a speed up to some tick, the steps' ticks included, in which nothing but the speed changes.
+/// Consecutive steps of a speed up to a tick, in which only the speed changes.
 struct Walk {
-    Speed law;                                    ///< after them
-    std::int64_t ticks = 0;                       ///< how long they take
-    std::int64_t phase = 0;                       ///< what the speed adds up to in these ticks
-    std::int64_t last_phase = 0, last_speed = 0;  ///< of the last step
+    Speed law;                                    ///< state after them
+    std::int64_t ticks = 0;                       ///< their duration
+    std::int64_t phase = 0;                       ///< sum of the speed in these ticks
+    std::int64_t last_phase = 0, last_speed = 0;  ///< the same of the last step
 };
 
-/// When a pulse came: at `tick`, or in closed form at tick - acc / speed.
+/// Instant of a pulse: `tick`, or in closed form tick - acc / speed.
 struct PulseMoment {
     std::int64_t tick = 0, acc = 0, speed = 0;
 
@@ -104,30 +104,30 @@ struct Generator : Speed {
     bool manual = false, own_deceleration = false, s_curve = false;
     bool final = false, final_seen = false, stopping = false, constant = false;
     bool ask_decelerating = false, ask_immediate = false;
-    bool look = false;           ///< the next working tick must be worked in full (inputs, limits or commands changed)
+    bool look = false;  ///< the next working tick must be executed in full (inputs, limits or commands changed)
     bool special_known = false;  ///< next_special is up to date
-    bool plain = false;          ///< what comes at next_tick is a step of the speed and nothing else
-    bool walks = false;          ///< plain, and there are more such steps on the way there (State::ahead), or it rests
-    bool weighted = false;       ///< the automatic deceleration reckons with D (MCX314As)
-    bool no_triangle = false;    ///< half the pulses are to come at constant speed (MCX314As)
+    bool plain = false;          ///< the event at next_tick is only a step of the speed
+    bool walks = false;          ///< plain, and further steps lie before it (State::ahead), or the generator waits
+    bool weighted = false;       ///< the automatic deceleration uses D (MCX314As)
+    bool no_triangle = false;    ///< half of the pulses must be at constant speed (MCX314As)
     std::int64_t wait = 0;
     std::int64_t range = 0, range_now = 0, acc = 0;
     std::int64_t n = 0, accel_pulses = 0;
-    std::int64_t next_special = 0;  ///< the next n at which more happens than a plain pulse
+    std::int64_t next_special = 0;  ///< the next n with more than a plain pulse
     std::int64_t next_tick = 0;     ///< the next tick that is not plain closed form
-    std::int64_t at = 0;            ///< the tick up to which it has worked; behind State::tick while nothing happens
+    std::int64_t at = 0;            ///< last executed tick; may be behind State::tick while no event occurs
 };
 
-/// The last pulse on an axis' wires, wherever time was cut since then.
+/// The last pulse on an axis' wires, independent of the division of time since.
 struct PulseMark {
-    std::int64_t tick = 0;   ///< when it came
-    std::int32_t speed = 0;  ///< 0: it is over
+    std::int64_t tick = 0;   ///< tick of the pulse
+    std::int32_t speed = 0;  ///< 0: it has ended
     std::int32_t range = 0;  ///< Rnow after it
     std::int32_t direction = 0;
     std::int32_t reserved = 0;
 
     std::int64_t width() const { return std::max<std::int64_t>(1, range / speed / 2); }
-    /// The tick at which it ends.
+    /// The tick at which the pulse ends.
     std::int64_t end() const { return tick + width(); }
     bool active(std::int64_t at) const { return speed > 0 && at < end(); }
 };
@@ -135,32 +135,32 @@ struct PulseMark {
 struct Axis {
     std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0;
     std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, offset = 8;
-    std::uint16_t speed = 0;        ///< V, or what stands for it (set_drive_speed)
-    std::uint16_t decel_jerk = 0;   ///< K, of the MCX314As L
-    std::uint16_t comparisons = 0;  ///< those that interrupts and actions hear of, as bits of RR3
+    std::uint16_t speed = 0;        ///< V, or its replacement (set_drive_speed)
+    std::uint16_t decel_jerk = 0;   ///< K, or L of the MCX314As
+    std::uint16_t comparisons = 0;  ///< comparisons with subscribed interrupts or actions, as bits of RR3
     std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;
     std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
-    std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
+    std::uint16_t levels = 0x3FF;  ///< input pins as last received, bit Pin
     std::int32_t lp = 0, comp_plus = 0, comp_minus = 0;
-    std::int32_t ep = 0;             ///< EP where no encoder is connected
-    sim::ClosedFormCounter encoder;  ///< EP behind a connected one
-    /// Whether a step may change a comparison that is heard of; where EP is compared, the encoder tells of it.
+    std::int32_t ep = 0;             ///< EP without a connected encoder
+    sim::ClosedFormCounter encoder;  ///< EP of a connected encoder
+    /// True if a step may change a subscribed comparison; for comparisons with EP the encoder reports it.
     bool steps_compared() const { return comparisons != 0 && !wr2::CMPSL.test(wr2); }
     std::int32_t direction = 1;
     std::int32_t held_command = 0;
     bool hold = false;
-    bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
-    std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
+    bool pulses_wanted = false, outputs_wanted = false;  ///< xpp, xpm or nOUT4..7 have listeners
+    std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last received
     std::uint8_t external = 0;                           ///< nEXPP (1) or nEXPM (2) drives until it is High
     std::array<std::uint8_t, 2> external_low{2, 2};      ///< ticks, up to 2, since nEXPP, nEXPM were seen High
-    bool drive_wanted = false;                           ///< somebody follows xdrive
+    bool drive_wanted = false;                           ///< xdrive has listeners
     bool ring = false;                                   ///< LP and EP count 0 .. COMP+ (MCX314As)
     std::array<std::uint8_t, 7> reserved{};
-    std::int64_t shown = 0;  ///< `made` when the pulse wires were set last
+    std::int64_t shown = 0;  ///< `made` at the last update of the pulse wires
     PulseMark mark;
     std::int64_t count = 0;       ///< net pulses since the start
     std::int64_t made = 0;        ///< pulses of both directions
-    std::uint64_t told_rate = 0;  ///< bits of the double that listeners heard last, or that it has drifted to since
+    std::uint64_t told_rate = 0;  ///< bits of the rate last sent to listeners, or to which it has drifted since
     sim::Listeners::Watches watch{};
     PathCommand held_path;
     Generator gen;
@@ -168,35 +168,35 @@ struct Axis {
 
 struct State {
     std::array<Axis, axes_of_chip> axis{};
-    std::int64_t tick = 0;        ///< the last tick worked off
-    std::int64_t next_event = 0;  ///< the next tick that must be worked in full
+    std::int64_t tick = 0;        ///< last executed tick
+    std::int64_t next_event = 0;  ///< the next tick that must be executed in full
     std::uint16_t wr4 = 0, wr5 = 0, wr6 = 0, wr7 = 0, rr6 = 0, rr7 = 0;
     std::uint16_t selected = 1;
     std::uint8_t wr0_high = 0;  ///< as written by byte
     std::uint8_t step_low = 0;  ///< ticks, up to 2, since EXPLSN was seen High
-    bool step_high = true;      ///< EXPLSN as last heard
-    bool stepping = false;      ///< a single step is under way
+    bool step_high = true;      ///< EXPLSN as last received
+    bool stepping = false;      ///< a single step is in progress
     bool emergency_high = true;
     bool queued = false, decel_enabled = false, path_interrupt = false, interrupt = false;
-    bool begun = false;       ///< the wires have been looked at since the world began
-    std::uint32_t chain = 0;  ///< axes of the interpolation that runs
+    bool begun = false;       ///< the wires have been read since the start
+    std::uint32_t chain = 0;  ///< axes of the running interpolation
     std::int32_t master = 0;
     std::int32_t stepped = 1;     ///< axes stepped in the last basic pulse
-    std::uint32_t working = 0;    ///< axes whose generator works
-    std::uint32_t in_place = 0;   ///< axes whose drive is over but not yet in position
-    std::uint32_t following = 0;  ///< axes whose lazily driven wires somebody follows
-    std::uint32_t sampled = 0;    ///< axes whose nEXPP, nEXPM the next tick looks at; bit 4: EXPLSN
-    std::uint32_t crossed = 0;    ///< axes of which a watched count may have been left
+    std::uint32_t working = 0;    ///< axes whose generator is running
+    std::uint32_t in_place = 0;   ///< axes whose drive has ended and that are not yet in position
+    std::uint32_t following = 0;  ///< axes with listeners on lazily driven wires
+    std::uint32_t sampled = 0;    ///< axes whose nEXPP, nEXPM the next tick samples; bit 4: EXPLSN
+    std::uint32_t crossed = 0;    ///< axes that may have left a watched range
     Path path;
     PathCommand queue;
     Pattern pattern;
-    std::array<Walk, axes_of_chip> ahead{};  ///< of generators that walk, from `at` to next_tick
+    std::array<Walk, axes_of_chip> ahead{};  ///< steps of these generators from `at` to next_tick
 
-    // What only the MCX314As has.
+    // MCX314As only.
     std::int64_t next_sample = 0;              ///< the next tick at which inputs are sampled
-    ChipFilter emergency_filter, step_filter;  ///< of EMGN, EXPLSN
-    std::uint32_t homing = 0;                  ///< axes that search their home
-    std::uint32_t acting = 0;                  ///< axes of which a condition has come
+    ChipFilter emergency_filter, step_filter;  ///< filters of EMGN, EXPLSN
+    std::uint32_t homing = 0;                  ///< axes with a home search in progress
+    std::uint32_t acting = 0;                  ///< axes whose condition has occurred
     std::array<Extension, axes_of_chip> extension{};
 };
 
@@ -211,7 +211,7 @@ void for_each_axis(std::uint32_t mask, F&& f) {
     for (; mask != 0; mask &= mask - 1) f(std::countr_zero(mask));
 }
 
-/// a / b for a >= 0, b > 0: most are small, and small ones are divided several times as fast.
+/// a / b for a >= 0, b > 0: most values are small, and small ones are divided several times as fast.
 constexpr std::int64_t quick_div(std::int64_t a, std::int64_t b) {
     if ((static_cast<std::uint64_t>(a | b) >> 32) != 0) return a / b;
     return static_cast<std::int64_t>(static_cast<std::uint32_t>(a) / static_cast<std::uint32_t>(b));
@@ -231,9 +231,9 @@ constexpr bool level(const Axis& axis, Pin pin) {
     return bit(axis.levels, static_cast<int>(pin));
 }
 
-// What the levels of its inputs mean to an axis, by its mode registers.
+// Meaning of an axis' input levels, by its mode registers.
 
-/// IN0 .. IN3, whose fields in WR1 are neighbours: IN0L, IN0E, IN1L, IN1E, ..
+/// IN0 .. IN3, whose fields in WR1 are adjacent: IN0L, IN0E, IN1L, IN1E, ..
 constexpr bool stop_input_enabled(const Axis& axis, int i) {
     return (axis.wr1 & wr1::IN0E.mask << 2 * i) != 0;
 }
@@ -248,22 +248,22 @@ constexpr bool limit_active(const Axis& axis, int direction) {
 constexpr bool alarm_active(const Axis& axis) {
     return wr2::ALME.test(axis.wr2) && level(axis, Pin::alarm) == wr2::ALML.test(axis.wr2);
 }
-/// nINPOS is active, or nobody asks for it.
+/// nINPOS is active or disabled.
 constexpr bool in_position(const Axis& axis) {
     return !wr2::INPE.test(axis.wr2) || level(axis, Pin::in_position) == wr2::INPL.test(axis.wr2);
 }
 
-/// Interrupts have come: RR3 shows those of `causes` that WR1 enables.
+/// Records interrupts: RR3 shows those of `causes` that WR1 enables.
 constexpr void request_interrupt(Axis& axis, unsigned causes) {
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> enable_shift & causes));
 }
 
-/// Sets bit `pin` of some levels.
+/// Sets bit `pin` of the levels.
 constexpr void set_level(std::uint16_t& levels, int pin, bool high) {
     levels = static_cast<std::uint16_t>(high ? levels | 1u << pin : levels & ~(1u << pin));
 }
 
-/// LP or EP after so many steps: it wraps at 32 bits, or behind COMP+ where it counts in a ring.
+/// LP or EP after the given steps: it wraps at 32 bits, or after COMP+ in ring mode.
 constexpr std::int32_t stepped(const Axis& axis, std::int32_t counter, std::int64_t steps) {
     if (!axis.ring)
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(counter) + static_cast<std::uint32_t>(steps));

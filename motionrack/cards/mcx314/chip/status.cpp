@@ -1,4 +1,4 @@
-// The bus: what a read shows.
+// Bus reads.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
@@ -29,7 +29,7 @@ std::uint8_t Chip::read_byte(std::uint32_t port) {
     return static_cast<std::uint8_t>(high ? value >> 8 : value);
 }
 
-/// RR3 was read, the bits in `mask`.
+/// Handles a read of the bits in `mask` of RR3.
 void Chip::clear_flags(std::uint16_t mask) {
     Axis& read_axis = state_.axis[first_selected()];
     read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
@@ -59,13 +59,13 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
     }
 }
 
-/// The drive is over, and nINPOS is enabled and not active.
+/// The drive has ended, and nINPOS is enabled and inactive.
 bool Chip::waits_for_position(int a) const {
     const Axis& axis = state_.axis[a];
     return bit(state_.in_place, a) && !in_position(axis);
 }
 
-/// Drives, searches its home or waits for nINPOS.
+/// True while the axis drives, searches its home or waits for nINPOS.
 bool Chip::busy(int a) const {
     return driving(a) || waits_for_position(a);
 }
@@ -114,7 +114,7 @@ std::uint16_t Chip::status2(int a) const {
     return rr2::HMST.set(v, static_cast<unsigned>(home.hmst));
 }
 
-/// RR4 and RR5: eight input levels of one axis; those of filtered inputs are the filters'.
+/// RR4 and RR5: eight input levels of one axis; filtered inputs show the output of the filter.
 std::uint16_t Chip::input_levels(int a) const {
     const unsigned filtered = state_.extension[a].filtered;
     unsigned v = state_.axis[a].levels & filtered & 0xFFu;

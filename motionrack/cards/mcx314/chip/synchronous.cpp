@@ -1,4 +1,4 @@
-// Synchronous actions of an MCX314As: a condition of one axis makes it and others act, in the same tick.
+// Synchronous actions of an MCX314As: a condition of one axis makes this and other axes act, in the same tick.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <utility>
 
@@ -25,7 +25,7 @@ constexpr std::array<Act, 4> drives = {{{sm::FDRVP, cmd::FIXED_PLUS},
                                         {sm::CDRVP, cmd::CONTINUOUS_PLUS},
                                         {sm::CDRVM, cmd::CONTINUOUS_MINUS}}};
 
-/// The axes that act when axis `a` is the one with the condition.
+/// Axes that act on a condition of axis `a`.
 unsigned acting_with(int a, const Extension& ext) {
     unsigned axes = 1u << a;
     int place = 0;
@@ -39,20 +39,20 @@ unsigned acting_with(int a, const Extension& ext) {
 
 }  // namespace
 
-/// A condition has come: axes act at the end of the tick or write.
+/// Handles a condition: its axes act at the end of the tick or write.
 void Chip::note(int a, Field condition) {
     Extension& ext = state_.extension[a];
     if (!condition.test(ext.sm6)) return;
     state_.acting |= 1u << a;
 }
 
-/// Comparisons have become true, as bits of RR3.
+/// Handles comparisons that have become true, as bits of RR3.
 void Chip::note_comparisons(int a, unsigned risen) {
     for (const Comparison& each : comparisons)
         if (each.interrupt.test(risen)) note(a, each.condition);
 }
 
-/// Which comparisons anybody hears of.
+/// Comparisons with subscribers.
 void Chip::hear_comparisons(int a) {
     Axis& axis = state_.axis[a];
     const unsigned conditions = state_.extension[a].sm6;
@@ -62,7 +62,8 @@ void Chip::hear_comparisons(int a) {
     axis.comparisons = static_cast<std::uint16_t>(heard);
 }
 
-/// At the end of a tick or a write: what the conditions so far bring about. What these actions bring about comes later.
+/// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these actions
+/// follow later.
 void Chip::act_together() {
     unsigned acting = 0;
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
@@ -74,7 +75,7 @@ void Chip::act_together() {
     stale_ = true;
 }
 
-/// What SM7 says, as if the host had written it.
+/// Executes the commands of SM7 as if the host had written them.
 void Chip::act_alone(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];

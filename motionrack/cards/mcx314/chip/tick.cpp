@@ -1,11 +1,10 @@
-// One tick by the rules: inputs, pulse, and what a pulse may end (RULES.md, "One generator an axis").
+// One tick by the rules: inputs, pulse, and the consequences of a pulse (RULES.md, "One generator an axis").
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 
-/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there do
-/// so in closed form, those with more to do work that tick by the rules. Those to which nothing happens, and on which
-/// no path hangs, stay behind.
+/// Executes everything up to and including tick `to`, the next event: generators that only change their speed in closed
+/// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
 void Chip::work_off(std::int64_t to) {
     state_.tick = to;
     if (state_.next_sample <= to) sample(to);
@@ -65,12 +64,12 @@ void Chip::work(int a) {
 
 // ---- step 1
 
-/// Axes that generator `a` steps in the present segment.
+/// Axes stepped by generator `a` in the present segment.
 std::uint32_t Chip::moved_by(int a) const {
     return state_.axis[a].gen.drive == Drive::path ? state_.path.command.mask() : 1u << a;
 }
 
-/// The stop causes of one axis as bits of RR1, and what they ask for.
+/// Stop causes of one axis as bits of RR1, and the stop that they request.
 std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i)
@@ -91,7 +90,7 @@ std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& im
     return static_cast<std::uint16_t>(causes);
 }
 
-/// The counter that COMP+ and COMP- are compared with.
+/// The counter that is compared with COMP+ and COMP-.
 std::int32_t Chip::compared_counter(int a) const {
     const Axis& axis = state_.axis[a];
     return wr2::CMPSL.test(axis.wr2) ? encoder_position(axis, a) : axis.lp;
@@ -105,7 +104,7 @@ bool Chip::beyond_software_limit(int a) const {
     return plus ? counter > axis.comp_plus - limit_begins_ : counter < axis.comp_minus;
 }
 
-/// True if the drive ended.
+/// Returns true if the drive ended.
 bool Chip::inputs(int a) {
     Generator& gen = state_.axis[a].gen;
     bool decelerating = gen.ask_decelerating, immediate = gen.ask_immediate;
@@ -121,7 +120,7 @@ bool Chip::inputs(int a) {
     return stop(a, decelerating, immediate);
 }
 
-/// A stop is accepted; true if it ended the drive.
+/// Accepts a stop; returns true if it ended the drive.
 bool Chip::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = state_.axis[a].gen;
     if (!decelerating && !immediate) return false;
@@ -158,7 +157,7 @@ void Chip::end(int a) {
 
 // ---- step 2
 
-/// A pulse of the generator; true if the drive ended with it.
+/// Executes a pulse of the generator; returns true if the drive ended with it.
 bool Chip::pulse(int a) {
     Generator& gen = state_.axis[a].gen;
     ++gen.n;
@@ -184,7 +183,7 @@ bool Chip::pulse(int a) {
     return false;
 }
 
-/// Moves the axes of one pulse; returns how many moved.
+/// Moves the axes of one pulse; returns the number of axes moved.
 int Chip::step_axes(int a) {
     Path& path = state_.path;
     if (state_.axis[a].gen.drive != Drive::path) return move(a, state_.axis[a].direction, state_.tick), 1;
@@ -230,7 +229,8 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
 }
 
-/// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
+/// Updates the wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the last pulse of the
+/// others has ended.
 void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
     const Generator& gen = state_.axis[a].gen;
     for_each_axis(moved_by(a), [&](int i) {
@@ -246,7 +246,7 @@ bool Chip::path_finished() const {
                                      : state_.axis[state_.master].gen.n >= state_.path.longest;
 }
 
-/// The direction in which AX(i+1) goes; 0: it does not move.
+/// Direction of AX(i+1); 0: it is stationary.
 int Chip::path_direction(int i) const {
     const PathCommand& command = state_.path.command;
     if (command.pattern()) return 0;
@@ -255,7 +255,7 @@ int Chip::path_direction(int i) const {
     return i == 1 && state_.path.arc.clockwise ? -d : d;
 }
 
-/// The running segment is done: the queued one takes over, or the drive ends (true).
+/// Ends the running segment: the queued one takes over, or the drive ends (returns true).
 bool Chip::segment_end(int a) {
     if (!state_.queued) return end(a), true;
     state_.queued = false;
@@ -298,7 +298,7 @@ void Chip::begin_segment(const PathCommand& command) {
         if (const int d = path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
 }
 
-// ---- when the final deceleration begins
+// ---- start of the final deceleration
 
 void Chip::check_final(int a) {
     const Axis& axis = state_.axis[a];

@@ -1,14 +1,14 @@
-// The pins: inputs that matter are followed, outputs are looked at unless somebody follows them.
+// The pins: relevant inputs are followed, outputs are computed on demand or for their listeners.
 //
 //   xpp   ____/~~\____/~~\____   two-pulse mode: + on xpp, - on xpm; one-pulse mode: pulses on xpp, direction on xpm
-//             |<>| half a period, but over at the axis' next basic pulse
+//             |<>| half a period, but at most until the axis' next basic pulse
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 
 // ---- inputs
 
-/// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
+/// Disabled inputs are not subscribed, so a wire that is computed on demand (an index) costs no time.
 void Chip::set_wants(int a) {
     Axis& axis = state_.axis[a];
     const unsigned filtered = state_.extension[a].filtered, also = extended_ ? inputs_of_extension(a) : 0u;
@@ -16,7 +16,7 @@ void Chip::set_wants(int a) {
         const int i = static_cast<int>(pin);
         wanted = wanted || bit(also, i);
         kernel_.subscribe(inputs_[a][i], id_, wanted);
-        if (bit(filtered, i)) return;  // its level is the filter's
+        if (bit(filtered, i)) return;  // its level is that of the filter
         set_level(axis.levels, i, !wanted || kernel_.level(inputs_[a][i]) != 0);
     };
     for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), stop_input_enabled(axis, i));
@@ -36,7 +36,7 @@ void Chip::update_outputs() {
         for (int i = 0; i < 4; ++i) kernel_.set_wire(general_outputs_[a][i], state_.wr4 >> (4 * a + i) & 1);
 }
 
-/// The axis' last pulse as it stands at tick `to`.
+/// State of the axis' last pulse at tick `to`.
 PulseMark Chip::mark_at(int a, std::int64_t to) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
@@ -80,7 +80,7 @@ int Chip::output_level(int a, int output) const {
     return (axis.wr3 & wr3::OUT4.mask << (output - 4)) != 0;
 }
 
-/// nDRIVE: whether the axis drives, or the deviation counter clear pulse.
+/// nDRIVE: the axis drives, or the deviation counter clear pulse.
 int Chip::drive_level(int a, std::int64_t at) const {
     const Extension& ext = state_.extension[a];
     return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : busy(a);
@@ -102,7 +102,7 @@ void Chip::wanted_changed(int, bool, Instant now) {
     settle(now);
 }
 
-/// Whose wires are followed, so that every pulse is an event there.
+/// Determines the axes with followed wires; every pulse of these is an event.
 void Chip::note_followers() {
     state_.following = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
@@ -121,7 +121,7 @@ void Chip::note_followers() {
     }
 }
 
-/// Sets the wires that are followed.
+/// Sets the followed wires.
 void Chip::show_wires(Instant now) {
     const std::int64_t at = tick_of(now);
     for (int a = 0; a < axes_of_chip; ++a) {
@@ -132,8 +132,7 @@ void Chip::show_wires(Instant now) {
             for (int which = 0; which < 2; ++which) {
                 const int level = pulse_level(a, which, axis.mark.active(at), axis.mark.direction);
                 const int idle = pulse_level(a, which, false, axis.mark.direction);
-                if (fresh && level != idle)
-                    kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never melt into one
+                if (fresh && level != idle) kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never merge
                 kernel_.set_wire(pulse_wires_[a][which], level);
             }
         }

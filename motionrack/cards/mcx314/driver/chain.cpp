@@ -1,8 +1,8 @@
-// Continuous interpolation: one segment runs, one is queued, one is kept back here until it is known whether it is the
+// Continuous interpolation: one segment runs, one is queued, and one is held back until it is known whether it is the
 // last.
 //
-//   chip   |== 1 ==|== 2 ==|== 3 ==|            3Ch before 1: nothing decelerates at a joint
-//   given  1  2    3       End                  3Bh once 3 is queued: only the last one does, at its DP
+//   chip   |== 1 ==|== 2 ==|== 3 ==|            3Ch before 1: no deceleration at a junction
+//   given  1  2    3       End                  3Bh once 3 is queued: only the last one decelerates, at its DP
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr double max_chain_rate = 2e6;  // pulses a second that continuous interpolation follows
+constexpr double max_chain_rate = 2e6;  // maximum pulses/s of continuous interpolation
 constexpr Duration poll_period_of_chains = microseconds(20);
 
 }  // namespace
@@ -82,7 +82,7 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
     return {};
 }
 
-/// Starts the chain with the piece kept back, or queues it behind the running one.
+/// Starts the chain with the held-back segment, or queues it behind the running one.
 Result<void> Driver::give_kept_back(bool last, Duration timeout) {
     const int generator = chain_.generator;
     const unsigned own = 1u << generator;
@@ -110,7 +110,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         if (chain_.next_v != 0) put(own, param::V, chain_.speeds.V = chain_.next_v);
         if (last) aim_at_end(piece);
         chain_.next_v = chain_.kept_back_v;
-        read_start(piece);  // of an axis that joins the chain here; the others are on their way
+        read_start(piece);  // reads the start of an axis that joins the chain here; the others are already moving
         for (const int i : channels_of(chain_.axes)) piece.from[i] = chain_.at[i];
     }
     path_axes_ |= piece.axes;
@@ -121,7 +121,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
     return {};
 }
 
-/// Where the chain is after this piece, for the positions on arcs.
+/// End of the chain after this segment, for the positions on arcs.
 void Driver::note_end(const Piece& piece) {
     chain_.axes |= piece.axes;
     const ChannelList list = channels_of(piece.axes);
@@ -136,7 +136,7 @@ void Driver::note_end(const Piece& piece) {
     for (const int i : channels_of(piece.axes)) chain_.at[i] = piece.from[i] + moved[i];
 }
 
-/// The last piece must hold the fall to SV: where it is too short the speed is lowered before it.
+/// The last segment must contain the deceleration to SV: if it is too short, the speed is reduced before it.
 void Driver::aim_at_end(const Piece& piece) {
     if (chain_.speeds.kind != Curve::t) return;
     const unsigned own = 1u << chain_.generator;
@@ -145,7 +145,7 @@ void Driver::aim_at_end(const Piece& piece) {
     auto fits = [&](std::int64_t v) { return fall_pulses(curve, v) < length; };
     if (!fits(chain_.speeds.V)) {
         std::int64_t low = std::min(curve.SV, chain_.speeds.V),
-                     high = chain_.speeds.V;  // the greatest that fits: [low, high)
+                     high = chain_.speeds.V;  // the largest speed that fits: [low, high)
         while (high - low > 1) {
             const std::int64_t middle = (low + high) / 2;
             (fits(middle) ? low : high) = middle;
@@ -157,7 +157,7 @@ void Driver::aim_at_end(const Piece& piece) {
     put(own, param::DP, std::max<std::int64_t>(0, length - fall_pulses(curve, top) - 1));
 }
 
-/// Waits for CNEXT. `may_end`: the end of the chain is as good.
+/// Waits for CNEXT. `may_end`: the end of the chain is accepted as well.
 Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
     const Instant end = later(interrupt_.now(), timeout);
     while (true) {
@@ -209,7 +209,7 @@ Result<ContOutcome> Driver::ContEnd(Duration timeout) {
     } else if (ramps) {
         EnableDeceleration(true);
         MOTIONRACK_CHECK(wait_for_joint(timeout, true));
-        // The last piece runs: it may have begun faster than it was asked to.
+        // The last segment is running: it may have begun faster than requested.
         const std::int64_t speed = ReadCV(chain_.generator);
         if (chain_.next_v != 0) put(1u << chain_.generator, param::V, chain_.speeds.V = chain_.next_v);
         if (fall_pulses(curve, speed) >= length) {

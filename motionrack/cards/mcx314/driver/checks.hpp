@@ -1,4 +1,4 @@
-// Refusals of the function library that need nothing of a driver.
+// Refusals of the function library that are independent of a driver.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -7,13 +7,13 @@
 
 namespace motionrack::mcx314 {
 
-/// Refuses a mask that names no axes, in the name of `who`.
+/// Refuses a mask that names no axes; `who`: function in the message.
 Result<void> check_axes(unsigned axes, const char* who);
 
 /// Refuses a value outside the range of its parameter, and a mask that names no axes.
 Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value);
 
-/// Refuses an `n` that is not 0 .. `greatest`, in the name of `who`.
+/// Refuses an `n` that is not 0 .. `greatest`; `who`: function in the message.
 Result<void> check_switch(const char* who, int n, int greatest, const char* meanings);
 
 /// Refuses while an interpolation runs.

@@ -1,5 +1,5 @@
-// The generator's rule (RULES.md, one axis, nothing from outside) walked from event to event: between two events the
-// speed, the rate and their accumulators grow evenly.
+// The generator's rule (RULES.md, one axis, without external inputs), evaluated from event to event: between two events
+// the speed, the rate and their accumulators grow evenly.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ class Walk {
         if (phase_ >= d_.R) {
             phase_ -= d_.R;
             ++n_;
-            ++part(law_.ramp).pulses;  // a pulse that begins the fall is the last one before it
+            ++part(law_.ramp).pulses;  // the pulse that begins the deceleration is the last one before it
             if (law_.ramp > 0) ++accel_pulses_;
             plan_.end_v = law_.speed;
             if (d_.pulses && n_ >= *d_.pulses) {
@@ -131,7 +131,7 @@ class Walk {
         note(direction_, 1, law_.rate, from);
         if (law_.speed != from) flush();
         if (stopping_ && law_.speed <= d_.SV) ended_ = true;
-        // A continuous drive is planned with a slow stop as soon as it has its speed.
+        // A continuous drive is planned with a slow stop as soon as it reaches its speed.
         if (!d_.pulses && !final_ && law_.ramp == 0 && law_.speed == d_.V) asked_to_stop_ = true;
     }
 
@@ -159,7 +159,7 @@ class Walk {
     }
 
     void s_curve() {
-        if (final_ && !final_seen_ && law_.ramp > 0) ramp_over();  // the rising ramp is dropped
+        if (final_ && !final_seen_ && law_.ramp > 0) ramp_over();  // the accelerating ramp is dropped
         const std::int64_t to = target();
         if (law_.ramp == 0 && law_.speed != to) {
             law_.ramp = to > law_.speed ? 1 : -1;
@@ -171,7 +171,7 @@ class Walk {
         straight_middle_ |= law_.phase == Phase::constant;
     }
 
-    /// Ends a span where the speed has changed.
+    /// Ends a span at a change of the speed.
     void flush() {
         open_.ticks = tick_ - open_.tick;
         open_.ramp = direction_;
@@ -219,7 +219,7 @@ std::int64_t fall_rate(const CurveData& data) {
     return data.asymmetric ? data.D : data.A;
 }
 
-/// Ticks after which a straight ramp has made its step number `n`.
+/// Ticks until a straight ramp has made step number `n`.
 std::int64_t step_tick(std::int64_t n, std::int64_t rate) {
     return rules::ceil_div(n * rules::speed_carry, rate);
 }
@@ -242,9 +242,9 @@ Result<std::int64_t> best_dec_point(const CurveData& data) {
         tried.dec_point = point;
         return Walk(tried, nobody).run().ends_slow();
     };
-    // Where the top speed is reached the fall from it is nearly all; else the answer lies below that.
+    // If the top speed is reached, its deceleration is almost the answer; otherwise the answer lies below.
     const std::int64_t guess = *data.pulses - (data.V > data.SV ? fall_pulses(data, data.V) : 0);
-    std::int64_t low = 0, high = *data.pulses + 1;  // slow at low (or nowhere), not at high
+    std::int64_t low = 0, high = *data.pulses + 1;  // slow at low (or not found), not at high
     if (guess - 2 > low && ends_slow(guess - 2)) low = guess - 2;
     if (guess + 2 < high && guess + 2 > low && !ends_slow(guess + 2)) high = guess + 2;
     while (high - low > 1) {

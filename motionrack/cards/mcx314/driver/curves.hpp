@@ -1,5 +1,5 @@
-// What a drive will do, without moving anything: times, distances and peaks of acceleration, cruise and deceleration,
-// exact to the tick by the chip's own whole-number rule (RULES.md).
+// Plan of a drive without motion: times, distances and peaks of acceleration, cruise and deceleration, exact to the
+// tick by the chip's own integer rule (RULES.md).
 //
 //   speed   V |        ________________                  rise    SV to the top speed
 //             |       /                \                 cruise  at the top speed
@@ -19,7 +19,7 @@
 
 namespace motionrack::mcx314 {
 
-/// A drive in register units; ranges as of the driver's functions.
+/// A drive in register units; ranges as in the driver's functions.
 struct CurveData {
     std::int64_t R = 8'000'000;
     std::int64_t SV = 1;
@@ -30,18 +30,18 @@ struct CurveData {
     std::int64_t AO = 0;      ///< used with automatic deceleration
     bool s_curve = false;
     bool asymmetric = false;
-    std::optional<std::int64_t> dec_point = {};  ///< manual deceleration; nothing: automatic
-    /// Pulses of a fixed drive, at least 0; basic pulses of an interpolation. Nothing: a continuous drive, planned as a
-    /// rise to V, no cruise and the fall of a slow stop.
+    std::optional<std::int64_t> dec_point = {};  ///< manual deceleration; absent: automatic
+    /// Pulses of a fixed drive, >= 0; basic pulses of an interpolation. Absent: a continuous drive, planned as
+    /// acceleration to V, no cruise, and the deceleration of a slow stop.
     std::optional<std::int64_t> pulses = {};
 };
 
 /// A part of a drive.
 struct CurvePart {
-    std::int64_t ticks = 0;  ///< of 125 ns
+    std::int64_t ticks = 0;  ///< ticks of 125 ns
     std::int64_t pulses = 0;
     std::int64_t from_v = 0, to_v = 0;  ///< V units at its ends
-    std::int64_t peak_rate = 0;         ///< greatest acceleration, A units
+    std::int64_t peak_rate = 0;         ///< maximum acceleration, A units
     Duration time() const { return nanoseconds(125 * ticks); }
 };
 
@@ -50,24 +50,24 @@ struct CurvePlan {
     CurvePart rise, cruise, fall, creep;
     std::int64_t ticks = 0;  ///< from the command's tick to the last pulse
     std::int64_t pulses = 0;
-    std::int64_t top_v = 0;  ///< greatest speed reached, V units
-    std::int64_t end_v = 0;  ///< speed at the last pulse; above SV where the deceleration began too late
+    std::int64_t top_v = 0;  ///< maximum speed reached, V units
+    std::int64_t end_v = 0;  ///< speed at the last pulse; above SV if the deceleration began too late
     bool reaches_v = false;  ///< false: a triangle
     bool full_s = false;     ///< S-curve whose acceleration stayed below its limit (no straight middle)
     Duration time() const { return nanoseconds(125 * ticks); }
-    /// Ends at SV, or at V where that is not above it.
+    /// True if the drive ends at SV, or at V if that is not above SV.
     bool ends_slow() const { return end_v <= std::min(data.SV, data.V); }
 
     double hz(std::int64_t v) const { return static_cast<double>(v) * rules::clock_hz / static_cast<double>(data.R); }
     double top_hz() const { return hz(top_v); }
-    /// Pulses/s2 of a part at its steepest.
+    /// Maximum acceleration of a part, pulses/s2.
     double peak_acceleration(const CurvePart& part) const { return 125.0 * hz(part.peak_rate); }
-    /// Pulses/s3: 62.5e6 / K * M; 0 of a T-curve, whose acceleration changes at once.
+    /// Jerk, pulses/s3: 62.5e6 / K * M; 0 for a T-curve, whose acceleration changes at once.
     double jerk() const { return data.s_curve ? 62.5e6 / static_cast<double>(data.K) * hz(1) : 0; }
 };
 
-/// Ticks between two changes of the speed, with the speed that is kept meanwhile: pulses fall at the ticks at which the
-/// accumulator, `at` before the span, passes a multiple of R. Ticks count from the command.
+/// Ticks of constant speed between two changes. Pulses occur at the ticks at which the accumulator, `at` before the
+/// span, passes a multiple of R. Ticks count from the command.
 struct CurveSpan {
     std::int64_t tick = 0;  ///< last tick before the span
     std::int64_t ticks = 0;
@@ -76,25 +76,25 @@ struct CurveSpan {
     int ramp = 0;         ///< -1, 0, +1 in the span's last tick, before its speed step
 };
 
-/// Plans a drive. Errors: ErrorKind::refused with the range of the value that is out of it. `spans`, if given, is
-/// called with every span from the first to the last.
+/// Plans a drive. Errors: ErrorKind::refused with the range of an invalid value. `spans`, if given, is called with
+/// every span in order.
 Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(const CurveSpan&)>& spans = {});
 
-/// The latest manual deceleration point with which the drive still reaches SV at its last pulse, 0 if none does.
-/// Exact by trying: every later point ends faster.
+/// The latest manual deceleration point with which the drive still reaches SV at its last pulse, or 0. Exact by search:
+/// every later point ends faster.
 Result<std::int64_t> best_dec_point(const CurveData& data);
 
-/// The least AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: falling takes a
-/// little more pulses than rising did, most of all in S-curves. 65,535 if none does.
+/// The smallest AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: a deceleration
+/// takes slightly more pulses than the acceleration, most of all in S-curves. 65,535 if none does.
 Result<std::int64_t> best_offset(const CurveData& data);
 
-/// The drive with what makes it end at SV: the point of best_dec_point() where it falls with D, else best_offset(). A
-/// continuous drive is as it was.
+/// The drive completed so that it ends at SV: by the point of best_dec_point() if it decelerates with D, else by
+/// best_offset(). A continuous drive is unchanged.
 Result<CurveData> with_slow_end(const CurveData& data);
 
-/// Pulses that the fall from `v` to SV takes, rounded up.
+/// Pulses of the deceleration from `v` to SV, rounded up.
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v);
-/// The speed, V units, after `pulses` of a T-curve's fall that began at `v`: SV if they suffice.
+/// Speed, V units, after `pulses` of a T-curve's deceleration from `v`: SV if they suffice.
 std::int64_t speed_after_fall(const CurveData& data, std::int64_t v, std::int64_t pulses);
 
 }  // namespace motionrack::mcx314

@@ -258,7 +258,7 @@ void Driver::SetSCurve(unsigned axes, bool on) {
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));
     for (const int i : channels_of(axes)) kept(i).from_known = false;
-    if (axes & path_axes_) pieces_ = {};  // where its axes began is no longer known
+    if (axes & path_axes_) pieces_ = {};  // the start of its axes is no longer known
     return {};
 }
 Result<void> Driver::EPS(unsigned axes, std::int64_t value) {
@@ -277,7 +277,7 @@ std::int32_t Driver::ReadLPS(int axis) {
 std::int32_t Driver::ReadEPS(int axis) {
     return static_cast<std::int32_t>(read_data(axis, cmd::READ_EP));
 }
-// CV and CA are 16-bit: the chip fetches them to RR6, and what RR7 shows then is not documented.
+// CV and CA are 16-bit: the chip fetches them to RR6, and the content of RR7 is then undocumented.
 std::int32_t Driver::ReadCV(int axis) {
     return static_cast<std::int32_t>(read_data(axis, cmd::READ_CV) & 0xFFFFu);
 }

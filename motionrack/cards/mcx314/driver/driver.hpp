@@ -1,8 +1,9 @@
-// The MCX314 function library: the source's functions over a register port, with every argument's range checked before
-// anything is written. It knows the chip only by its registers, so it cannot tell a virtual chip from a real one.
+// The MCX314 function library: the source's functions over a register port. The range of every argument is checked
+// before anything is written. The library accesses the chip only through its registers, so it works with a virtual chip
+// as with a real one.
 //
 // Functions with the source's names (CamelCase) take register units; see units.hpp for millimetres and curves.hpp for
-// plans. Axis masks: X 1, Y 2, Z 4, U 8 and their sums. What is refused (ErrorKind::refused) wrote nothing.
+// plans. Axis masks: X 1, Y 2, Z 4, U 8 and their sums. A refused call (ErrorKind::refused) has written nothing.
 #pragma once
 
 #include <motionrack/base/port.hpp>
@@ -24,21 +25,21 @@ class Driver {
     // ---- initial
     /// Software reset of the chip; waits its 875 ns.
     void RESET();
-    /// RESET, then every mode register, AO, LP and EP written 0, whatever the chip's own defaults are.
+    /// RESET, then writes 0 to every mode register, AO, LP and EP, independent of the chip's own defaults.
     void initialise();
     /// Pulse output: `mode` 0 two pulse trains, 1 pulse and direction (WR2 PLSMD).
     Result<void> SetPulseMode(unsigned axes, int mode);
-    /// Levels of the pulse outputs: `negative` pulses; `direction_high` direction output High in + direction.
+    /// Levels of the pulse outputs: `negative` pulses; `direction_high`: direction output High in + direction.
     Result<void> SetPulseLevels(unsigned axes, bool negative, bool direction_high);
-    /// The multiple M, 1 .. 500: pulses a second = V * M. Writes R = 8,000,000 / M. Not while driving.
+    /// The multiple M, 1 .. 500: pulses/s = V * M. Writes R = 8,000,000 / M. Not while driving.
     Result<void> SetMultiple(unsigned axes, std::int64_t multiple);
-    /// R, 16,000 .. 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving.
+    /// R, 16,000 .. 8,000,000: pulses/s = V * 8,000,000 / R. Not while driving.
     Result<void> SetRange(unsigned axes, std::int64_t range);
     Result<void> SetRange(std::int64_t range) { return SetRange(xyzu, range); }
     /// Writes the smallest whole multiple with which V <= 8,000 reaches `pulses_a_second`, 1 .. 4,000,000.
     Result<void> SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second);
     Result<void> SetMaxSpeed(std::int64_t pulses_a_second) { return SetMaxSpeed(xyzu, pulses_a_second); }
-    /// R as it is, 16,000 .. 13,856,407: axes two and three of constant vector speed take more than 8,000,000.
+    /// R as it is, 16,000 .. 13,856,407: axes two and three of constant vector speed use more than 8,000,000.
     Result<void> WriteRange(unsigned axes, std::int64_t range);
 
     // ---- speeds and ramps
@@ -46,21 +47,21 @@ class Driver {
     Result<void> SetV(unsigned axes, std::int64_t value);   ///< drive speed, 1 .. 8,000; also while driving
     Result<void> SetA(unsigned axes, std::int64_t value);   ///< acceleration, 1 .. 8,000 (125 * M pulses/s2)
     Result<void> SetD(unsigned axes,
-                      std::int64_t value);  ///< deceleration, 1 .. 8,000; used where SetAsymmetric() is on
+                      std::int64_t value);                  ///< deceleration, 1 .. 8,000; used if SetAsymmetric() is on
     Result<void> SetAA(unsigned axes, std::int64_t value);  ///< K, 1 .. 65,535: jerk 62.5e6 / K * M pulses/s3
-    /// Pulses kept for the end at SV, 0 .. 65,535; nothing, as at first: what each drive needs, by with_slow_end().
+    /// Pulses reserved for the end at SV, 0 .. 65,535; absent (initially): the need of each drive, by with_slow_end().
     Result<void> SetAO(unsigned axes, std::optional<std::int64_t> value);
     /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
     Result<void> Pulse(unsigned axes, std::int64_t pulses);
-    /// The chip finds the deceleration itself. Arcs cannot.
+    /// The chip determines the deceleration point itself. Not for arcs.
     Result<void> AutoDec(unsigned axes = xyzu);
     /// Fixed drives decelerate after `point` pulses, 0 .. 268,435,455.
     Result<void> ManualDec(unsigned axes, std::int64_t point);
     Result<void> ManDec(unsigned axes, std::int64_t point) { return ManualDec(axes, point); }
-    /// The point alone, also while driving with manual deceleration.
+    /// Sets only the point, also while driving with manual deceleration.
     Result<void> SetDecPoint(unsigned axes, std::int64_t point);
-    /// Decelerations take D instead of A. Curves with automatic deceleration then get the point that plan_drive()
-    /// finds.
+    /// Decelerations use D instead of A. Curves with automatic deceleration then get the point that plan_drive()
+    /// determines.
     Result<void> SetAsymmetric(unsigned axes, bool on);
     /// S-curve or T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
@@ -75,10 +76,10 @@ class Driver {
                           std::int64_t pulses);
     Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                           bool negative = false);
-    /// What TCurve_F (`k` 0) or SCurve_F with these numbers will do; nothing is written.
+    /// Plan of TCurve_F (`k` 0) or SCurve_F with these numbers; writes nothing.
     Result<CurvePlan> plan(int axis, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                            std::int64_t pulses) const;
-    /// Starts what Pulse() set, each axis in its direction, all at the same tick.
+    /// Starts the drives set by Pulse(), each axis in its direction, all at the same tick.
     Result<void> DriveFixed(unsigned axes);
     /// The bare commands 20h..27h.
     void Drive(unsigned axes, bool negative);
@@ -89,16 +90,16 @@ class Driver {
     void QuickStop(unsigned axes);
 
     // ---- while driving (flight.cpp)
-    /// Stops the axes of the mask, with everything that is interpolated with them. An empty mask is refused, never
+    /// Stops the axes of the mask and all axes interpolated with them. An empty mask is refused; it does not mean
     /// "all".
     Result<void> stop(unsigned axes, StopKind kind);
     void stop_all(StopKind kind);
-    /// Gives driving axes another V, 1 .. 8,000. Refused where it would have no effect: an axis that stands, is in an S
-    /// ramp (the chip takes it only after the ramp) or decelerates to its end.
+    /// Changes V of driving axes, 1 .. 8,000. Refused if it would have no effect: an axis is stationary, is in an S
+    /// ramp (the chip applies it only after the ramp) or decelerates to its end.
     Result<void> change_speed(unsigned axes, std::int64_t v);
-    /// Gives a fixed drive that was started by this library another number of pulses, counted from its start, signed.
-    /// Refused: the other direction; fewer than are made and still needed for the deceleration (with `margin` of time
-    /// at the present speed); in an S ramp; once it decelerates to its end. A refusal says how far the axis is.
+    /// Changes the number of pulses of a fixed drive started by this library, counted from its start, signed. Refused:
+    /// the opposite direction; fewer pulses than already made plus those for the deceleration (with `margin` of time at
+    /// the present speed); during an S ramp; during the final deceleration. The refusal states the pulses made.
     Result<void> change_pulses(int axis, std::int64_t pulses, Duration margin = milliseconds(1));
 
     // ---- interpolation (interpolation.cpp)
@@ -107,64 +108,64 @@ class Driver {
     Result<void> SetFP(unsigned axes, std::int64_t finish);  ///< finish point of lines and arcs, relative to the start
     Result<void> SetP(unsigned axes, std::int64_t finish) { return SetFP(axes, finish); }
     /// Lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis. Lines, arcs, chains and
-    /// patterns are refused while an interpolation runs, of whatever axes; they end a chain or a pattern left open.
+    /// patterns are refused while any interpolation runs; they end a chain or a pattern left open.
     Result<void> Line2D_C(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_T(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_S(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_C(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_T(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_S(const LINEDATA& data, unsigned axes);
-    /// Arcs. Refused where the finish point is off the circle by more than arc_tolerance(). The T-curve takes the point
-    /// of ManualDec() of the first axis if that is in force, else one that is computed from the arc's basic pulses.
+    /// Arcs. Refused if the finish point is off the circle by more than arc_tolerance(). The T-curve uses the point of
+    /// ManualDec() of the first axis if that is active, else a point computed from the arc's basic pulses.
     Result<void> CircleCW_C(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCCW_C(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCW_T(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCCW_T(const CIRCLEDATA& data, unsigned axes);
-    /// Where the chip ends such an arc, and its basic pulses; nothing is written.
+    /// End of such an arc on the chip, and its basic pulses; writes nothing.
     Result<rules::ArcEnd> arc_end(const CIRCLEDATA& data, unsigned axes, bool clockwise) const;
-    /// Part of the radius that a finish point may be off the circle (at least 3 pulses): 0 .. 1, 0.01 at first.
+    /// Maximum distance of a finish point from the circle over the radius (at least 3 pulses): 0 .. 1, initially 0.01.
     Result<void> set_arc_tolerance(double part);
     double arc_tolerance() const { return arc_tolerance_; }
-    /// Later lines and arcs keep the speed along the path: two axes stepping together take 1.414 times as long, three
-    /// 1.732 times. 1: off, 2: two axes, 3: three axes.
+    /// Keeps the path speed of later lines and arcs constant: two axes stepping together take 1.414 times as long,
+    /// three 1.732 times. 1: off, 2: two axes, 3: three axes.
     Result<void> SetVectorSpeed(int axes_count);
-    /// Speed of every axis, pulses a second, signed, also in interpolations that this library started: the mean over
-    /// some pulses. Refused in a bit pattern, and where the interpolation was started by Line() or Arc(), or LPS() has
-    /// moved its counters.
+    /// Speed of every axis, pulses/s, signed, also in interpolations started by this library: the mean over some
+    /// pulses. Refused in a bit pattern, in an interpolation started by Line() or Arc(), and after LPS() has moved its
+    /// counters.
     Result<std::array<double, 4>> axis_speeds();
 
-    /// The bare registers: AX1, AX2 (, AX3) channels; constant vector speed of two axes; interrupt at each joint.
+    /// Direct register access: AX1, AX2 (, AX3) channels; constant vector speed of two axes; junction interrupt.
     void SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_joints);
-    /// A line of two or three axes: finish points -8,388,608 .. 8,388,607. Starts, or is queued behind the running one.
+    /// A line of two or three axes: finish points -8,388,608 .. 8,388,607. Starts or queues it.
     Result<void> Line(const Finish* ends, int count);
     Result<void> Arc(const Finish (&ends)[2], bool clockwise);
     void EnableDeceleration(bool on);
     void ClearInterpolationInterrupt();
-    /// Interrupt at each joint of continuous interpolation, and when the pattern stack wants data.
+    /// Interrupt at each junction of continuous interpolation, and when the pattern stack needs data.
     void EnableInterpolationInterrupts(bool joints, bool patterns);
 
     // ---- continuous interpolation (chain.cpp)
-    // ContStart, then ContLine and ContArc as often as wanted, then ContEnd. The last segment given is kept back until
-    // the next call, because only the last one decelerates. Each waits until the chip takes it, at most `timeout`.
+    // ContStart, then any number of ContLine and ContArc, then ContEnd. The last segment is held back until the next
+    // call, because only the last one decelerates. Each call waits until the chip takes it, at most `timeout`.
     Result<void> ContStart(const CONTDATA& data);
     /// P of the axes in the mask (two or three). `v`: speed from this segment on, 0: unchanged.
     Result<void> ContLine(unsigned axes, const FourAxes& finish, std::int64_t v = 0,
                           Duration timeout = whole_seconds(60));
     Result<void> ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise,
                          std::int64_t v = 0, Duration timeout = whole_seconds(60));
-    /// Gives the last segment and waits for the end.
+    /// Writes the last segment and waits for its end.
     Result<ContOutcome> ContEnd(Duration timeout = whole_seconds(60));
 
     // ---- bit patterns and steps (patterns.cpp)
-    // BP2D or BP3D, up to three BPStack, BPStart, more BPStack while it runs, BPEnd. The last word holds the end code.
+    // BP2D or BP3D, up to three BPStack, BPStart, more BPStack while it runs, BPEnd. The last word has the end code.
     Result<void> BP2D(const BPDATA& data, unsigned axes);
     Result<void> BP3D(const BPDATA& data, unsigned axes);
     /// Waits for room on the stack, at most `timeout`.
     Result<void> BPStack(const BPWORD& word, Duration timeout = whole_seconds(60));
     Result<void> BPStart();
-    /// Gives the registers back and waits for the end of the drive.
+    /// Restores the registers and waits for the end of the drive.
     Result<void> BPEnd(Duration timeout = whole_seconds(60));
-    /// Who makes the steps of the next interpolation.
+    /// Source of the steps of the next interpolation.
     Result<void> SetStep(StepBy by);
     /// One basic pulse of an interpolation whose steps come by command (3Ah).
     Result<void> Step();
@@ -184,23 +185,23 @@ class Driver {
     Result<void> InPosSig(int n, unsigned axes);                          ///< in-position acts at: 0 Low, 1 High
     Result<void> SetStopInput(unsigned axes, int input, StopInput mode);  ///< IN0..IN3
     Result<void> SetExternalDrive(unsigned axes, ExternalDrive mode);     ///< nEXPP, nEXPM
-    /// MCX314As: what an axis does (`actions`, SM7) when one of its `conditions` (SM6) comes about. 0, 0: nothing.
+    /// MCX314As: actions of an axis (`actions`, SM7) on one of its `conditions` (SM6). 0, 0: none.
     Result<void> SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions);
     /// MCX314As: the condition CMD of the axes.
     Result<void> Synchronous(unsigned axes);
-    /// MCX314As: the counter that the axis' synchronous action has saved.
+    /// MCX314As: the counter saved by the axis' synchronous action.
     std::int32_t ReadBR(int axis);
-    /// nOUT0 .. nOUT7; 4..7 while they are not used for the drive's status.
+    /// nOUT0 .. nOUT7; 4..7 only while they do not show the drive's status.
     Result<void> SetOutput(unsigned axes, int output, bool high);
     Result<void> ShowDriveStatus(unsigned axes, bool on);  ///< nOUT4..7 show CMP+, CMP-, accelerating, decelerating
     InputLevels inputs(int axis);
 
-    /// Interrupts (cause::..): enables more, disables some, reads and clears what came since the last call.
+    /// Interrupts (cause::..): enables, disables, and reads and clears the interrupts since the last call.
     Result<void> EnableInterrupt(unsigned axes, std::uint16_t causes);
     Result<void> DisableInterrupt(unsigned axes, std::uint16_t causes = cause::all);
     std::uint16_t read_interrupts(int axis);
 
-    /// WR1, WR2, WR3 as words; the driver keeps what it wrote, per axis.
+    /// WR1, WR2, WR3 as words; the driver stores the written word per axis.
     void WriteMode1(unsigned axes, std::uint16_t word);
     void WriteMode2(unsigned axes, std::uint16_t word);
     void WriteMode3(unsigned axes, std::uint16_t word);
@@ -215,29 +216,29 @@ class Driver {
     Result<void> SetCompM(unsigned axes, std::int64_t value);  ///< COMP-
     std::int32_t ReadLPS(int axis);
     std::int32_t ReadEPS(int axis);
-    std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at rest; in interpolation of the first axis only
-    std::int32_t ReadCA(int axis);  ///< present acceleration, A units; at constant speed the last one
+    std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at standstill; in paths only of AX1
+    std::int32_t ReadCA(int axis);  ///< present acceleration, A units; at constant speed the last value
     MainStatus status();
     AxisStatus axis_status(int axis);
     bool moving(unsigned axes) { return status().driving(axes); }
-    /// Everything a message needs.
+    /// Complete report of an axis for messages.
     AxisReport report(int axis);
-    /// The reports of the axes that have an error, or were stopped by an input; "" if none.
+    /// Reports of the axes with an error or stopped by an input; "" if none.
     std::string error_text(unsigned axes = xyzu);
 
-    /// Refuses what is no channel, in the name of `who`.
+    /// Refuses an invalid channel; `who`: function in the message.
     static Result<void> check_channel(int axis, const char* who);
 
-    /// Waits until none of the axes drives. Errors: ErrorKind::machine after `timeout`; ErrorKind::stopped where the
-    /// user asked to stop (the axes are then decelerated and standing).
+    /// Waits until none of the axes drives. Errors: ErrorKind::machine after `timeout`; ErrorKind::stopped if the user
+    /// requested a stop (the axes are then decelerated to standstill).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);
-    /// The same, and ErrorKind::machine with the reports if one was stopped by a limit, an alarm or the emergency
+    /// The same, with ErrorKind::machine and the reports if an axis was stopped by a limit, an alarm or the emergency
     /// input.
     Result<void> wait_until_done(unsigned axes, Duration timeout);
 
-    /// What was last written of a parameter, cmd::R .. cmd::L: nothing after a reset.
+    /// Last written value of a parameter, cmd::R .. cmd::L; absent after a reset.
     std::optional<std::int64_t> written(int axis, unsigned code) const { return kept(axis).data.at(code); }
-    /// Pulses a second of one V unit: 8,000,000 / R; 0 before R was written.
+    /// Pulses/s of one V unit: 8,000,000 / R; 0 before R is written.
     double multiple(int axis) const;
 
     RegisterPort& port() { return port_; }
@@ -250,22 +251,22 @@ class Driver {
         Curve kind = Curve::constant;
         std::int64_t SV = 0, V = 0, A = 0, D = 0, K = 0;
     };
-    /// One axis as the library wrote it.
+    /// Last written values of one axis.
     struct Kept {
         std::array<std::optional<std::int64_t>, 16> data = {};  ///< by command code
         std::array<std::uint16_t, 3> mode = {};
-        std::int64_t own_range = 0;  ///< R of the axis' own drives; constant vector speed may have written another
+        std::int64_t own_range = 0;  ///< R of the axis' own drives; constant vector speed may have changed it
         std::int64_t dec_point = 0;
         bool manual = false;
         bool asymmetric = false;
         bool own_offset = false;  ///< SetAO
         bool negative = false;    ///< direction of Pulse(), or of the last drive
         bool from_known = false;
-        std::int32_t from = 0;                                 ///< LP where the present fixed drive began
+        std::int32_t from = 0;                                 ///< LP at the start of the present fixed drive
         std::optional<std::int64_t> finish = {}, centre = {};  ///< SetFP, SetCP
-        std::uint16_t interrupts = 0;                          ///< read while waiting, not handed out yet
+        std::uint16_t interrupts = 0;                          ///< read during a wait, not yet returned
     };
-    /// A piece of an interpolation. `from`: LP of its axes at its start.
+    /// A segment of an interpolation. `from`: LP of its axes at its start.
     struct Piece {
         unsigned axes = 0;
         bool arc = false, clockwise = false;
@@ -279,9 +280,9 @@ class Driver {
         Speeds speeds = {};
         std::optional<Piece> kept_back = {};
         std::int64_t kept_back_v = 0,
-                     next_v = 0;  ///< V to be written when a piece begins: the one kept back, the queued one
+                     next_v = 0;  ///< V to be written at the start of a segment: the held-back one, the queued one
         std::int64_t segments = 0;
-        FourAxes at = {};  ///< LP at the end of what was given
+        FourAxes at = {};  ///< LP at the end of all segments given
     };
     struct Pattern {
         unsigned axes = 0;
@@ -298,10 +299,10 @@ class Driver {
     void write_data(unsigned axes, unsigned code, std::uint32_t value);
     std::uint32_t read_data(int axis, unsigned code);
     void write_mode(unsigned axes, int number, std::uint16_t word);
-    /// Sets bits of a mode register, axis by axis, keeping the rest.
+    /// Sets bits of a mode register per axis and keeps the others.
     void set_mode(unsigned axes, int number, Field bits, unsigned value);
     void put(unsigned axes, const Parameter& parameter, std::int64_t value);
-    /// While one lives WR2 .. WR7 are themselves, also if an open bit pattern uses their places.
+    /// While an instance exists, WR2 .. WR7 are accessible also during an open bit pattern.
     class PlainRegisters {
       public:
         explicit PlainRegisters(Driver& driver) : driver_(driver.pattern_.axes != 0 ? &driver : nullptr) {
@@ -320,7 +321,7 @@ class Driver {
     void write_path_mode(std::uint16_t word);
     bool fetch_interrupts(int axis);
 
-    // Checks: nothing is written.
+    // Checks: write nothing.
     static Result<void> check_count(const char* who, unsigned axes, int count);
     static Result<void> check_speeds(unsigned axes, const Speeds& speeds);
     static Result<void> check_standing(unsigned axes, const char* who, MainStatus main);
@@ -331,7 +332,7 @@ class Driver {
     Result<void> check_chain_speed(int axis, std::int64_t v) const;
     std::string not_changeable(int axis, MainStatus main);
 
-    // A check and what it is for.
+    // A check and its purpose.
     Result<void> write(unsigned axes, const Parameter& parameter, std::int64_t value);
     Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest,
                               const char* meanings);
@@ -373,11 +374,10 @@ class Driver {
     RegisterPort& port_;
     Interrupt& interrupt_;
     std::array<Kept, 4> kept_ = {};
-    std::uint16_t outputs_ = 0;    ///< WR4 as written
-    std::uint16_t path_mode_ = 0;  ///< WR5 as written
-    unsigned path_axes_ = 0;       ///< of the last interpolation
-    std::array<Piece, 2> pieces_ =
-        {};  ///< the last two given: the running and the queued one, or the one before and the running
+    std::uint16_t outputs_ = 0;         ///< WR4 as written
+    std::uint16_t path_mode_ = 0;       ///< WR5 as written
+    unsigned path_axes_ = 0;            ///< axes of the last interpolation
+    std::array<Piece, 2> pieces_ = {};  ///< the last two segments: running and queued, or previous and running
     Chain chain_;
     Pattern pattern_;
     double arc_tolerance_ = 0.01;

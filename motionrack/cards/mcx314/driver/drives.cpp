@@ -1,4 +1,4 @@
-// Fixed and continuous drives: everything is checked, then the parameters are written, then the command.
+// Fixed and continuous drives: checks everything, then writes the parameters, then the command.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/driver/checks.hpp>
@@ -25,7 +25,7 @@ Result<void> Driver::check_speeds(unsigned axes, const Speeds& speeds) {
     return {};
 }
 
-/// A constant speed is a start speed of V: the chip then has no ramp.
+/// Constant speed is a start speed of V: the chip then has no ramp.
 void Driver::put_speeds(unsigned axes, const Speeds& speeds) {
     put(axes, param::SV, speeds.kind == Curve::constant ? speeds.V : speeds.SV);
     put(axes, param::V, speeds.V);
@@ -50,7 +50,7 @@ CurveData Driver::curve_of(int axis, const Speeds& speeds, std::optional<std::in
     return curve;
 }
 
-/// As the next bare drive takes them.
+/// Parameters of the next direct drive.
 Driver::Speeds Driver::written_speeds(int axis) const {
     const auto last = [&](const Parameter& parameter, std::int64_t otherwise) {
         return written(axis, parameter.code).value_or(otherwise);
@@ -62,13 +62,13 @@ Driver::Speeds Driver::written_speeds(int axis) const {
     return out;
 }
 
-/// Constant vector speed of an interpolation may have left another R in the chip.
+/// Restores R, which constant vector speed of an interpolation may have changed.
 void Driver::own_range_again(unsigned axes) {
     for (const int i : channels_of(axes))
         if (kept(i).data[cmd::R] != kept(i).own_range) put(1u << i, param::vector_range, kept(i).own_range);
 }
 
-/// With what makes it end at SV, unless the user has given that.
+/// Adds the data for an end at SV, unless the user has set them.
 Result<CurveData> Driver::planned_curve(const char* who, int axis, Speeds speeds,
                                         std::optional<std::int64_t> pulses) const {
     const Kept& own = kept(axis);
@@ -118,7 +118,7 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     return {};
 }
 
-/// WR3, and DP or AO, of the next drive.
+/// Writes WR3, and DP or AO, for the next drive.
 void Driver::put_deceleration(int axis, const CurveData& curve) {
     const unsigned own = 1u << axis;
     const bool manual = curve.dec_point.has_value();
@@ -130,8 +130,8 @@ void Driver::put_deceleration(int axis, const CurveData& curve) {
     if (word != mode3(axis)) write_mode(own, 3, word);
 }
 
-/// Remembers where each axis begins, then starts all at one tick: those of one direction with one command; where there
-/// are two directions both commands are held until 25h.
+/// Stores the start of each axis, then starts all at one tick: axes of one direction with one command; with two
+/// directions both commands are held until 25h.
 void Driver::begin_fixed(unsigned axes) {
     unsigned minus = 0;
     for (const int i : channels_of(axes)) {
@@ -183,7 +183,7 @@ Result<void> Driver::DriveFixed(unsigned axes) {
     return {};
 }
 
-// ---- bare commands
+// ---- direct commands
 
 void Driver::Drive(unsigned axes, bool negative) {
     note_direction(axes, negative);

@@ -1,4 +1,4 @@
-// The runner of the homing tables.
+// Execution of the homing tables.
 #include <algorithm>
 #include <motionrack/cards/mcx314/driver/home.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
@@ -19,7 +19,7 @@ constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2"
 
 }  // namespace
 
-// ---- looking
+// ---- polling
 
 Home::Look Home::look() {
     Look out;
@@ -37,7 +37,7 @@ bool Home::limit_in_way(const Look& look, SearchDirection way) const {
     return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
-/// The change of the home input that a drive waits for is its edge, once; every other change is a bounce.
+/// The first change of the awaited home input is its edge; every later change is bounce.
 void Home::note_switch(const Look& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
@@ -51,15 +51,15 @@ void Home::note_switch(const Look& look, Instant now) {
         ++report_.bounces;
 }
 
-/// The chip slows down at the first contact, whatever the contacts do at the instant of a look: that tells where the
-/// edge was.
+/// The chip decelerates at the first contact, independent of bounce at the instant of a poll: the deceleration locates
+/// the edge.
 void Home::note_braking(const Look& look, Instant now) {
     if (braking_ || state_->until != HomingStopInput::on || !(look.switch_on || look.status.decelerating())) return;
     braking_ = edge_here(look, now);
 }
 
 ChipHomingEdge Home::edge_here(const Look& look, Instant now) {
-    // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own
+    // At constant speed the chip stops at the edge itself; otherwise the edge was after the last poll, or within its
     // accesses.
     const bool exact = state_->pace != HomingSpeed::fast;
     const bool index = state_->until == HomingStopInput::index;
@@ -73,7 +73,7 @@ ChipHomingEdge Home::edge_here(const Look& look, Instant now) {
             now};
 }
 
-// ---- beginning
+// ---- start
 
 Result<void> Home::start(const HomeSettings& settings, Instant now) {
     const HomeSettings before = std::exchange(settings_, settings);
@@ -112,13 +112,13 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     return {};
 }
 
-// ---- the machine
+// ---- state machine
 
 void Home::step(Instant now) {
     if (!running_) return;
     const Look seen = look();
     note_switch(seen, now);
-    // RR1 tells of the last drive: only of ours once there is one.
+    // RR1 describes the last drive; it is valid only after a drive of this homing.
     const unsigned ended_by = state_->does == HomingAction::wait_end ? seen.status.rr1 : 0u;
     if (state_->does == HomingAction::wait_stop) {
         run(seen, now);
@@ -130,7 +130,7 @@ void Home::step(Instant now) {
         fail(HomeFault::stopped, seen, now);
     } else {
         run(seen, now);
-        // START states lead on at once, to a wait at the latest.
+        // START states continue at once, at most to a wait.
         while (running_ && state_->does != HomingAction::wait_end && state_->does != HomingAction::wait_steady &&
                state_->does != HomingAction::wait_stop)
             run(seen, now);
@@ -200,7 +200,7 @@ void Home::run(const Look& look, Instant now) {
     }
 }
 
-/// WR1 for the present state: the stop input at the level that ends the drive, and an interrupt at its end.
+/// WR1 for the present state: the stop input with the level that ends the drive, and an interrupt at its end.
 std::uint16_t Home::stop_inputs() const {
     const unsigned others = mode_before_[0] & ~0xFFu;
     const bool index = state_->until == HomingStopInput::index;
@@ -233,7 +233,7 @@ void Home::drive(const Look& look, Instant now) {
         MOTIONRACK_CHECK(driver_.SetA(mask(), settings_.a));
         return driver_.Pulse(mask(), planned_);
     }();
-    MOTIONRACK_ASSERT(written.has_value());  // check_ready() has seen the ranges
+    MOTIONRACK_ASSERT(written.has_value());  // check_ready() has checked the ranges
     driver_.Drive(mask(), settings_.negative == (state_->way == SearchDirection::towards));
     at_speed_ = false;
     braking_.reset();
@@ -241,7 +241,7 @@ void Home::drive(const Look& look, Instant now) {
     leave_by(HomingTransition::done, look, now);
 }
 
-/// Ends a WAIT state when the drive has ended, by what ended it.
+/// Ends a WAIT state at the end of the drive, by its cause.
 void Home::wait_end(const Look& look, Instant now) {
     if (look.driving) {
         at_speed_ = at_speed_ || (look.cv >= settings_.v && !look.switch_on);
@@ -252,7 +252,7 @@ void Home::wait_end(const Look& look, Instant now) {
     const bool limit = plus_limit_stopped.test(look.status.rr1) || minus_limit_stopped.test(look.status.rr1);
     const int input = state_->until == HomingStopInput::index ? settings_.index_input : settings_.input;
     const bool reached = state_->until != HomingStopInput::distance && look.status.stopped_by_input(input);
-    // At constant speed the drive ends at the input's place, also where a limit switch acts at the same one.
+    // At constant speed the drive ends at the input's position, even if a limit switch acts at the same position.
     if (reached && (!limit || state_->pace != HomingSpeed::fast)) return drive_reached(look, now);
     if (limit) {
         const bool again = turned_;
@@ -272,7 +272,7 @@ void Home::wait_end(const Look& look, Instant now) {
          look, now);
 }
 
-/// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.
+/// The awaited input has ended the drive. Its present level may be bounce; the chip's stop flag is decisive.
 void Home::drive_reached(const Look& look, Instant now) {
     const ChipHomingEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
     report_.edges.push_back(edge);
@@ -303,7 +303,7 @@ void Home::drive_reached(const Look& look, Instant now) {
     leave_by(HomingTransition::done, look, now);
 }
 
-/// Edges on the way towards the switch are compared with those before them.
+/// Compares the edges of the approach with those of the previous approach.
 bool Home::is_edge_of_switch(const ChipHomingEdge& edge) {
     const auto up = static_cast<double>(way_between(report_.stays.front().from_lp, edge.lp));
     const double way = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
@@ -313,7 +313,7 @@ bool Home::is_edge_of_switch(const ChipHomingEdge& edge) {
     return !conflict_;
 }
 
-/// Where types 1 and 3 end depends on the speed at the switch: they want it to be V.
+/// The end of types 1 and 3 depends on the speed at the switch, which must be V.
 bool Home::stopped_early() const {
     return state_->pace == HomingSpeed::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
 }
@@ -321,12 +321,12 @@ bool Home::stopped_early() const {
 void Home::zero(const Look& look, Instant now) {
     report_.zero_lp = look.lp;
     report_.zero_ep = driver_.ReadEPS(axis_);
-    static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has seen the ranges
+    static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has checked the ranges
     static_cast<void>(driver_.EPS(mask(), settings_.home_counts));
     leave_by(HomingTransition::done, look, now);
 }
 
-// ---- ending
+// ---- end
 
 void Home::stop() {
     if (!running_ || stop_asked_) return;
@@ -356,20 +356,20 @@ void Home::finish(const Look& look, Instant now) {
 
 // ---- arithmetic
 
-/// Pulses of the present drive so far.
+/// Pulses made by the present drive.
 std::int64_t Home::distance(const Look& look) const {
     return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp));
 }
 
-/// Pulses from SV to V and a hundredth of a second at V, so that a look falls into it.
+/// Pulses from SV to V plus a hundredth of a second at V, so that a poll falls into it.
 std::int64_t Home::run_up() const {
     const auto v = static_cast<double>(settings_.v), sv = static_cast<double>(settings_.sv);
-    const double m = hertz(1) > 0 ? hertz(1) : 500;  // where nobody wrote R: the longest
+    const double m = hertz(1) > 0 ? hertz(1) : 500;  // if R was never written: the longest run-up
     const double ramp = m * (v * (v + 1) - sv * (sv + 1)) / (250.0 * static_cast<double>(settings_.a));
     return std::min(param::pulses.max, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
 }
 
-/// Longest time that a drive can take: the way at its speed, two ramps, a second.
+/// Maximum duration of a drive: the distance at its speed, two ramps, a second.
 Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
     if (hertz(1) <= 0) return settings_.timeout;
     const double ramps = 2 * static_cast<double>(settings_.v) / (rules::rate_unit * static_cast<double>(settings_.a));

@@ -1,10 +1,10 @@
-// Homing one axis: carries out a table of START and WAIT states (home_table.hpp) over the register port, without
+// Homing of one axis: executes a table of START and WAIT states (home_table.hpp) over the register port, without
 // blocking.
 //
 //   start(now) ──► step(now), step(now), .. every few ms or when the chip interrupts ──► homed() or failed, report()
 //
-// Every drive is a fixed one of at most `travel` pulses, and stops are the chip's own (WR1): where the axis stops does
-// not depend on how often step() is called, and if the host dies the axis stops by itself.
+// Every drive is a fixed drive of at most `travel` pulses, and stops are the chip's own (WR1). The stop position is
+// therefore independent of the rate of step() calls, and the axis also stops if the host fails.
 #pragma once
 
 #include <motionrack/base/switch_edges.hpp>
@@ -17,52 +17,52 @@ namespace motionrack::mcx314 {
 /// Speeds are in V units (8,000,000 / range pulses a second), distances in pulses.
 struct HomeSettings {
     /// 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index; 5 as 1, on
-    /// to the index, then back and again, slowly, to the switch: the source's HomeType4.
+    /// to the index, then back and slowly to the switch again: the source's HomeType4.
     int type = 2;
-    bool negative = true;                     ///< direction in which the switch is searched
+    bool negative = true;                     ///< direction of the search for the switch
     int input = 0;                            ///< the home switch: IN0 .. IN3
-    bool active_high = false;                 ///< its level
+    bool active_high = false;                 ///< its active level
     int index_input = 2;                      ///< the encoder's index: IN0 .. IN3, types 3 to 5
-    bool index_high = true;                   ///< its level
-    std::int64_t range = 0;                   ///< R, 16,000 .. 8,000,000; 0: as it was written before
+    bool index_high = true;                   ///< its active level
+    std::int64_t range = 0;                   ///< R, 16,000 .. 8,000,000; 0: the value written before
     std::int64_t sv = 100;                    ///< 1 .. 8,000
     std::int64_t v = 1000;                    ///< speed of the search, 1 .. 8,000
     std::int64_t a = 100;                     ///< acceleration and deceleration, 1 .. 8,000
     std::int64_t back_v = 0;                  ///< speed off the switch, 1 .. sv; 0: sv
     std::int64_t slow_v = 0;                  ///< second approach and index, 1 .. sv; 0: half of sv
-    std::int64_t travel = param::pulses.max;  ///< longest way of a search, 1 .. 268,435,455
+    std::int64_t travel = param::pulses.max;  ///< maximum distance of a search, 1 .. 268,435,455
     std::int64_t index_after =
-        -1;  ///< pulses from the switch to the index, within a quarter of `turn`; -1: wherever it is first
-    std::int64_t turn = 0;  ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
-    std::int64_t hysteresis = -1;  ///< way back until the switch is released; -1: not known, edges are not compared
-    std::int64_t repeats = 2;      ///< its edges come again within so many pulses
-    std::int64_t clearance = 50;   ///< driven on after the switch is released, 0 .. travel
-    Duration settle = milliseconds(5);      ///< how long contacts must be at rest, 0 .. 10 s
-    Duration timeout = whole_seconds(600);  ///< of one state, > 0; less where the way and the speed tell
-    bool turn_at_limit = true;              ///< at the limit switch, search the other way
+        -1;  ///< pulses from the switch to the index, within a quarter of `turn`; -1: the first index found
+    std::int64_t turn = 0;         ///< pulses of a motor revolution: maximum distance of the index search; 0: `travel`
+    std::int64_t hysteresis = -1;  ///< switch hysteresis, pulses; -1: unknown, edges are not compared
+    std::int64_t repeats = 2;      ///< repeatability of its edges, pulses
+    std::int64_t clearance = 50;   ///< distance driven after the switch is released, 0 .. travel
+    Duration settle = milliseconds(5);      ///< time without a change after which contacts have settled, 0 .. 10 s
+    Duration timeout = whole_seconds(600);  ///< limit for one state, > 0; less if distance and speed imply less
+    bool turn_at_limit = true;              ///< at the limit switch, reverse the search
     std::int64_t home_position = 0;         ///< LP at home, 32 bit
     std::int64_t home_counts = 0;           ///< EP at home, 32 bit
-    // For sentences.
-    std::string name = {};  ///< of the axis; "": X, Y, Z, U
+    // For messages.
+    std::string name = {};  ///< name of the axis; "": X, Y, Z, U
     std::string unit = "pulses";
     double pulses_per_unit = 1;  ///< not 0
 };
 
-/// Settings as the source's HomeType functions take them: WR1Reg is WR1 with the home input and its level, and IN2 and
-/// its level for the index. Errors: refused, no input enabled.
+/// Settings from the arguments of the source's HomeType functions: WR1Reg is WR1 with the home input and its level, and
+/// IN2 with its level for the index. Errors: refused, no input enabled.
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A);
 
 class Home {
   public:
     Home(Driver& driver, int axis) : driver_(driver), axis_(axis) {}
 
-    /// Begins. Refused (nothing moves, the position stays as trusted as it was): settings out of range, the axis
-    /// drives, alarm, emergency stop, both limits active. From here on the position is not trusted, and the software
-    /// limits are off until it is.
+    /// Starts the homing. Errors: refused (nothing moves, the position keeps its validity) for settings out of range, a
+    /// driving axis, alarm, emergency stop, or both limits active. After the start the position is invalid and the
+    /// software limits are disabled, until homing succeeds.
     Result<void> start(const HomeSettings& settings, Instant now);
-    /// One look; never waits. `now` must not go back.
+    /// Executes one poll; never waits. `now` must not decrease.
     void step(Instant now);
-    /// Decelerates and gives up. In every state; after the end nothing happens.
+    /// Decelerates and aborts. Valid in every state; no effect after the end.
     void stop();
 
     bool running() const { return running_; }
@@ -75,7 +75,7 @@ class Home {
     int axis() const { return axis_; }
 
   private:
-    /// What one look at the chip gives.
+    /// Data of one poll of the chip.
     struct Look {
         bool driving = false;
         AxisStatus status;
@@ -126,12 +126,12 @@ class Home {
     std::optional<EdgeConflict> conflict_;
     bool running_ = false;
     bool stop_asked_ = false;
-    bool switch_on_ = false;                 ///< as last seen, or as the chip's stop tells
-    bool edge_in_state_ = false;             ///< the change that the state waits for was seen; the rest is bounce
-    std::optional<ChipHomingEdge> braking_;  ///< the first look at which a search was found to slow down
+    bool switch_on_ = false;                 ///< as last seen, or as the chip's stop shows
+    bool edge_in_state_ = false;             ///< the edge that the state waits for was seen; further changes are bounce
+    std::optional<ChipHomingEdge> braking_;  ///< first poll that showed a deceleration of the search
     bool at_speed_ = false;                  ///< V was reached in this drive
     bool turned_ = false;                    ///< at a limit
-    bool again_ = false;                     ///< with a run-up
+    bool again_ = false;                     ///< repetition with a run-up
     Instant steady_since_{};
     Instant deadline_ = never;
     std::int32_t last_lp_ = 0;

@@ -1,4 +1,4 @@
-// Loops around Home that let the port's time pass.
+// Loops around Home that advance the port's time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Result<void> finish_homes(std::span<Home* const> homes, Duration timeout, const 
             for (Home* home : homes) home->stop();
         }
         if (!any_running(homes)) break;
-        // The interrupt of a drive's end wakes at once. It is fetched, so that the line can rest.
+        // The interrupt of a drive's end wakes at once. It is read so that the line becomes inactive.
         const Instant before = host.now();
         const bool woken = host.wait(home_look_every);
         bool ours = false;

@@ -1,5 +1,4 @@
-// The tables of homing. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to
-// FAILED.
+// The homing tables. A failure (see HomeFault) leads from every state to STOPPING_WAIT, and from there to FAILED.
 #include <motionrack/cards/mcx314/driver/home_table.hpp>
 
 namespace motionrack::mcx314 {
@@ -53,7 +52,7 @@ constexpr HomeState settle_start = {
 constexpr HomeState settle_wait(std::string_view next) {
     return wait_steady("SETTLE_WAIT", "contacts come to rest", {{{off, next}, {on, "BACK_START"}}});
 }
-/// Where the search did not begin before the switch, it begins anew, for the index behind it.
+/// If the search did not begin before the switch, it is repeated for the index behind the switch.
 constexpr HomeState settle_wait_indexed = wait_steady(
     "SETTLE_WAIT", "contacts come to rest", {{{unseen, "SEARCH_START"}, {off, "SLOW_START"}, {on, "BACK_START"}}});
 constexpr HomeState slow_start = drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT",

@@ -1,4 +1,4 @@
-// The ways of homing as tables: START states write a drive and lead on at once, WAIT states look at one status.
+// Homing methods as tables: START states write a drive and continue at once, WAIT states poll one status.
 //
 //   CHECK_START ─off─► SEARCH_START ► SEARCH_WAIT ─on─► REST ─on─► BACK_START ► BACK_WAIT ─off─► CLEAR ► SETTLE ...
 //        ├─on────────────────────────────────────────────────────►┘  ▲                          ... ─off─► SLOW ...
@@ -12,29 +12,29 @@
 
 namespace motionrack::mcx314 {
 
-/// What a state of a homing does. All but the three waits and the ends lead on at once.
+/// Action of a homing state. All states except the three waits and the ends continue at once.
 enum class HomingAction : std::uint8_t {
-    look,         ///< looks where the axis stands
+    look,         ///< reads the position of the axis
     drive,        ///< writes stop input, speed and pulses, and starts
-    wait_end,     ///< until the drive has ended (RR0), then looks why (RR1)
-    settle,       ///< notes the time
+    wait_end,     ///< until the drive has ended (RR0), then reads the cause (RR1)
+    settle,       ///< records the time
     wait_steady,  ///< until the home input has not changed for the settling time (RR4, RR5)
     zero,         ///< writes LP and EP
-    wait_stop,    ///< until the axis stands after a failure
+    wait_stop,    ///< until standstill after a failure
     end
 };
-enum class SearchDirection : std::uint8_t { towards, away };  ///< the switch, as the direction of the search has it
+enum class SearchDirection : std::uint8_t { towards, away };  ///< of the switch, by the search direction
 enum class HomingSpeed : std::uint8_t { fast, back, slow };   ///< fast has ramps; back and slow are constant speeds
 enum class HomingStopInput : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
 
-/// What leads from a state to the next one.
+/// Condition of a transition.
 enum class HomingTransition : std::uint8_t {
-    done,   ///< it did what it should
+    done,   ///< the action is complete
     on,     ///< the home input is active
-    off,    ///< it is not
-    limit,  ///< the limit switch in the way was reached, or is active
-    early,  ///< the switch came before the speed V was reached
-    unseen  ///< the home input is not active, and the index has not been seen
+    off,    ///< the home input is inactive
+    limit,  ///< the limit switch ahead was reached, or is active
+    early,  ///< the switch acted before the speed V was reached
+    unseen  ///< the home input is inactive, and the index has not been seen
 };
 
 struct HomeExit {
@@ -52,7 +52,7 @@ struct HomeState {
     HomingStopInput until = HomingStopInput::distance;
 };
 
-/// A way of homing: what runs, and the same as a declared state machine for people, traces and checks.
+/// A homing method: the executed table, and the same as a declared state machine for documents, traces and checks.
 struct HomeTable {
     std::span<const HomeState> states;
     MachineInfo machine;

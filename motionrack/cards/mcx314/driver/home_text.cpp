@@ -1,4 +1,4 @@
-// Homing in words: what is refused, and a sentence for every way it can end.
+// Homing messages: refusals, and a sentence for every result.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ Result<void> HomeReport::result() const {
     return motionrack::fail(fault == HomeFault::stopped ? ErrorKind::stopped : ErrorKind::machine, sentence);
 }
 
-// ---- what is refused
+// ---- refusals
 
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
     if (type < 1 || type > 4)
@@ -121,7 +121,7 @@ Result<void> Home::check_ready() {
 
 // ---- sentences
 
-/// A way: "1,200 pulses" or "3.7500 mm".
+/// A distance: "1,200 pulses" or "3.7500 mm".
 std::string Home::text(std::int64_t pulses) const {
     if (settings_.unit == "pulses") return grouped(pulses) + " pulses";
     return fmt::format("{:.4f} {}", static_cast<double>(pulses) / std::fabs(settings_.pulses_per_unit), settings_.unit);
@@ -136,7 +136,7 @@ std::string Home::switch_text() const {
     return fmt::format("the home switch (IN{}, active {})", settings_.input, settings_.active_high ? "High" : "Low");
 }
 
-/// What was wrong with switch or index, and what to do.
+/// The fault of switch or index, and its remedy.
 std::pair<std::string, std::string> Home::input_failure(const std::string& how_far) const {
     const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input,
                                           settings_.index_high ? "High" : "Low");
@@ -175,7 +175,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
     }
 }
 
-/// What went wrong, how far it came, where it stands, what to do; or where home is.
+/// The failure, its position, the present position and the remedy; or the home position.
 std::string Home::why_failed(const Look& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
     if (report_.homed)

@@ -1,5 +1,5 @@
-// Lines and arcs: everything is checked, then speeds of the first axis, finish points, centres and WR5 are written,
-// then the command.
+// Lines and arcs: checks everything, then writes speeds of the first axis, finish points, centres and WR5, then the
+// command.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool is_zero(const FourAxes& values, unsigned axes) {
 
 }  // namespace
 
-// ---- the bare registers
+// ---- direct register access
 
 void Driver::write_path_mode(std::uint16_t word) {
     const PlainRegisters plain(*this);
@@ -123,7 +123,7 @@ Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
                                                            : "three axes: xyz 7, xyu 11, xzu 13, yzu 14"));
 }
 
-/// Finish points and centres in range and useful.
+/// Checks that finish points and centres are in range and consistent.
 Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     for (const int i : channels_of(piece.axes)) {
         MOTIONRACK_CHECK(check(1u << i, param::finish, piece.finish[static_cast<std::size_t>(i)]));
@@ -157,7 +157,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
             who, piece.finish[h], piece.finish[v], reach, radius, allowed, end.first, end.second));
 }
 
-/// The points of a call: those in the data, or all those that SetFP and SetCP kept.
+/// The points of a call: those in the data, or all those stored by SetFP and SetCP.
 Driver::Piece Driver::piece_of(unsigned axes, const FourAxes& finish, const FourAxes* centre, bool clockwise) const {
     Piece piece{axes, centre != nullptr, clockwise, finish, centre ? *centre : FourAxes{}, {}, vector_axes_};
     const bool use_kept = is_zero(centre ? *centre : finish, axes);
@@ -180,9 +180,9 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
     return most;
 }
 
-// ---- starting
+// ---- start
 
-/// R of the axes that constant vector speed uses, WR5, points and the command of one piece.
+/// Writes R of the axes for constant vector speed, WR5, points and the command of one segment.
 void Driver::put_piece(const Piece& piece) {
     const ChannelList list = channels_of(piece.axes);
     const int vector_axes = std::min(piece.vector_axes, list.count);
@@ -204,7 +204,7 @@ void Driver::put_piece(const Piece& piece) {
             piece.arc ? (piece.clockwise ? cmd::ARC_CW : cmd::ARC_CCW) : (list.count == 3 ? cmd::LINE3 : cmd::LINE2));
 }
 
-/// Where the axes of a piece stand.
+/// Present position of the axes of a segment.
 void Driver::read_start(Piece& piece) {
     for (const int i : channels_of(piece.axes)) piece.from[static_cast<std::size_t>(i)] = ReadLPS(i);
 }

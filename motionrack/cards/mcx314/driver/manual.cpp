@@ -1,4 +1,4 @@
-// Jog, step, manual home: a small machine around single drive commands.
+// Jog, step, manual home: a small state machine around single drive commands.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// From the last pulse one way to the first one back: a motor that stops and starts the other way at once has to take
-/// twice its start speed.
+/// Pause between the last pulse in one direction and the first in the other: an immediate reversal would be a velocity
+/// step of twice the start speed.
 constexpr Duration turn_rest = milliseconds(20);
 
 constexpr StateInfo states[] = {
@@ -72,7 +72,7 @@ Result<void> Manual::set(const ManualSettings& settings) {
     return {};
 }
 
-/// Whether a manual drive at `v` may start now, or go on.
+/// Checks that a manual drive at `v` may start now, or continue.
 Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     const auto refuse = [&](const std::string& why) {
         return fail(ErrorKind::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
@@ -105,7 +105,7 @@ std::int64_t Manual::way_left(bool negative) {
     return negative ? at - settings_.travel->min : settings_.travel->max - at;
 }
 
-/// Within a travel the drive has the pulses to its end and no more: the chip itself cannot go beyond.
+/// Within a travel the drive has only the pulses to its end: the chip itself cannot exceed it.
 Result<void> Manual::begin_jog() {
     why_.clear();
     const bool negative = wanted_ < 0;
@@ -133,7 +133,7 @@ Result<void> Manual::jog(std::int64_t v, Instant now) {
         if (state_ == ManualState::jogging || state_ == ManualState::turning) stop();
         return {};
     }
-    step(now);  // what has ended meanwhile
+    step(now);  // a motion may have ended in the meantime
     MOTIONRACK_CHECK(check_ready("Jog", v));
     const bool turns = (v < 0) != (wanted_ < 0);
     if (state_ == ManualState::standing) {
@@ -217,7 +217,7 @@ void Manual::step(Instant now) {
     state_ = ManualState::standing;
 }
 
-/// Why it ended; fixed drives of others keep no pulses for their end.
+/// Reason of the end. Fixed drives of other functions reserve no pulses for their end.
 void Manual::end_drive() {
     why_ = driver_.axis_status(axis_).why_stopped();
     if (!settings_.travel || state_ == ManualState::stepping) return;

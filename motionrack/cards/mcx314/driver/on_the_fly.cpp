@@ -1,4 +1,4 @@
-// What may be changed while axes drive, and stopping them.
+// Changes to driving axes, and stops.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/driver/checks.hpp>
@@ -17,7 +17,7 @@ void Driver::stop_all(StopKind kind) {
     command(xyzu, kind == StopKind::slow ? cmd::SLOW_STOP : cmd::QUICK_STOP);
 }
 
-/// Why a change of a driving axis would have no effect; "" if it has one.
+/// Reason why a change of a driving axis would have no effect; "" if it has one.
 std::string Driver::not_changeable(int axis, MainStatus main) {
     const std::string name = axes_text(1u << axis);
     if (!main.driving(1u << axis)) return name + " stands";

@@ -1,5 +1,5 @@
-// Functions of the Driver that its sentences name, and their names in the function library, which has plain numbers as
-// arguments: in C with mcx314_ in front.
+// Driver functions named in its messages, and their names in the function library, which has plain numbers as
+// arguments: in C with the prefix mcx314_.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace motionrack::mcx314 {
 struct OwnName {
     std::string_view driver, library;
 };
-/// The longer of two that begin alike comes first.
+/// Of two names with the same beginning, the longer one comes first.
 inline constexpr std::array own_names = {
     OwnName{"ContStart", "contour_begin"},    OwnName{"ContLine", "contour_line"},
     OwnName{"ContArc", "contour_arc"},        OwnName{"ContEnd", "contour_end"},
@@ -21,7 +21,7 @@ inline constexpr std::array own_names = {
     OwnName{"SetOutput", "set_output"},
 };
 
-/// A sentence of the Driver with the names of the library, each behind `prefix`.
+/// Replaces the names in a message of the Driver by those of the library, each with `prefix`.
 inline std::string with_own_names(std::string_view sentence, std::string_view prefix) {
     std::string out(sentence);
     for (const OwnName& name : own_names)

@@ -1,5 +1,4 @@
-// The numbers that data commands take, with the range that the function library lets through and the name its messages
-// use.
+// Parameters of data commands, with the range that the function library accepts and the name in its messages.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@ struct Parameter {
     const char* name = "";
 };
 
-/// A parameter with the range that the map documents.
+/// A parameter with its documented range from the map.
 consteval Parameter documented(std::string_view command, const char* name) {
     const CommandInfo& info = command_named(map::commands, command);
     return {info.code, info.min, info.max, name};
@@ -34,11 +33,11 @@ inline constexpr Parameter EP = documented("EP", "The real position EP");
 inline constexpr Parameter COMP_PLUS = documented("COMP_PLUS", "The comparison value COMP+");
 inline constexpr Parameter COMP_MINUS = documented("COMP_MINUS", "The comparison value COMP-");
 inline constexpr Parameter AO = documented("AO", "The acceleration counter offset AO");
-/// Pulses of a fixed drive: their sign chooses the command, the register takes the number.
+/// Pulses of a fixed drive: the sign selects the command, the register takes the magnitude.
 inline constexpr Parameter pulses{cmd::P, -map::max_pulses, map::max_pulses, "The number of output pulses P"};
-/// Finish point of an interpolation: the same register as 24-bit number with sign.
+/// Finish point of an interpolation: the same register as a signed 24-bit number.
 inline constexpr Parameter finish{cmd::P, map::min_24, map::max_24, "The finish point P"};
-/// R of the axes that give the second and third speed of constant vector speed: up to 8,000,000 * 1.732.
+/// R of the axes for the second and third speed of constant vector speed: up to 8,000,000 * 1.732.
 inline constexpr Parameter vector_range{cmd::R, R.min, 13'856'407, "The range R"};
 }  // namespace param
 

@@ -1,7 +1,7 @@
-// Bit patterns: the host stacks 16 steps a word, three words ahead; and interpolation step by step.
+// Bit patterns: the host stacks 16 steps per word, three words ahead; and interpolation step by step.
 //
 //   36h  WR2..WR7 become BP1P BP1M BP2P BP2M BP3P BP3M      38h  stacks them
-//   34h, 35h  start      RR0 BPSC: words on the stack, 3: no room      37h  WR2..WR7 are themselves again
+//   34h, 35h  start      RR0 BPSC: words on the stack, 3: full         37h  WR2..WR7 are themselves again
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/driver/checks.hpp>
@@ -119,7 +119,7 @@ Result<void> Driver::BPEnd(Duration timeout) {
     return wait_until_done(axes, timeout);
 }
 
-/// A chain or a pattern that is open but does not run any more.
+/// Ends a chain or a pattern that is open but no longer running.
 void Driver::abandon_path() {
     chain_ = {};
     if (pattern_.axes != 0) close_pattern();
@@ -149,7 +149,7 @@ Result<void> Driver::Step() {
     return {};
 }
 
-/// The chip has one interpolator: what is given while it runs would be queued, or change what runs.
+/// The chip has one interpolator: a new command would be queued, or change the running interpolation.
 Result<void> Driver::check_free(unsigned axes, const char* who) {
     const MainStatus main = status();
     MOTIONRACK_CHECK(check_standing(axes, who, main));

@@ -1,9 +1,9 @@
-// Pulses that a fixed drive keeps for its end (AO) where its speed is changed on the way; T-curves.
+// Pulses reserved for the end (AO) of a fixed drive whose speed is changed on the fly; T-curves.
 //
-//   The chip counts the pulses of its rising ramps, less those of the falling ones, and begins the last fall when only
-//   so many are left. In a ramp it stays at each speed for one step before it leaves it: a rise does so at its lowest
-//   speed and not at its highest, a fall the other way round. So every fall takes a little more than the rise before it
-//   gave; without these pulses the drive would end above its start speed.
+//   The chip counts the pulses of its accelerating ramps, less those of the decelerating ones, and begins the final
+//   deceleration when only this number is left. A ramp holds each speed for one step before leaving it: an
+//   acceleration holds its lowest speed but not its highest, a deceleration the reverse. So every deceleration takes
+//   slightly more pulses than the acceleration before it; without the reserve a drive would end above its start speed.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@
 
 namespace motionrack::mcx314 {
 
-/// Speeds are V units, not negative.
+/// Speeds are V units, >= 0.
 class RampReserve {
   public:
     RampReserve() = default;
-    /// Of a drive that begins now. `pulses_per_v`: pulses that a step of a ramp takes for each unit of its speed.
+    /// Reserve of a drive that begins now. `pulses_per_v`: pulses of a ramp step per unit of its speed.
     RampReserve(std::int64_t sv, double pulses_per_v, std::int64_t v)
         : sv_(sv), pulses_per_v_(pulses_per_v), from_(std::min(sv, v)), wanted_(v) {}
 
-    /// The drive has the speed `cv` and is to go on at `v`.
+    /// Records a change at the speed `cv` to the new speed `v`.
     void change(std::int64_t cv, std::int64_t v) {
         lost_ += taken(from_ - cv) + 1;
-        if (wanted_ < cv) lost_ += taken(cv);  // a fall is left in the middle of a step
+        if (wanted_ < cv) lost_ += taken(cv);  // a deceleration is left in the middle of a step
         from_ = cv;
         wanted_ = v;
     }
-    /// What the last fall may take besides the pulses that the chip has counted, never too few.
+    /// Pulses of the final deceleration beyond those that the chip has counted; an upper bound.
     std::int64_t pulses() const {
         const double last = taken(from_ - wanted_) + taken(std::max(from_, wanted_) - sv_);
         return static_cast<std::int64_t>(std::ceil(lost_ + last)) + rounding;

@@ -1,4 +1,4 @@
-// Real units over the function library.
+// Conversion of physical units for the function library.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/driver/real_axis.hpp>
@@ -29,7 +29,7 @@ Result<void> RealAxis::check_set(const char* who) const {
                             axis_ >= 0 && axis_ < 4 ? axes_text(1u << axis_) : "no axis"));
 }
 
-/// The curve of a move, as the library makes it end at its start speed.
+/// The curve of a move, completed so that it ends at its start speed.
 Result<CurveData> RealAxis::curve(std::int64_t pulses) const {
     CurveData out = setting_.curve();
     out.pulses = rules::magnitude(pulses);
@@ -49,7 +49,7 @@ Result<Rounded> RealAxis::move(double distance) {
     MOTIONRACK_TRY(const Rounded rounded, to_pulses(scale_, distance));
     const unsigned own = 1u << axis_;
     const CurveData data = setting_.curve();
-    // AO acts at once, so it must not be written to a drive under way; the curve is then refused.
+    // AO acts at once, so it must not be written during a drive; the curve is then refused.
     if (!driver_.moving(own)) MOTIONRACK_CHECK(driver_.SetAO(own, std::nullopt));
     if (data.s_curve)
         MOTIONRACK_CHECK(driver_.SCurve_F(own, data.SV, data.V, data.A, data.K, rounded.value));

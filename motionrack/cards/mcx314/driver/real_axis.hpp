@@ -1,9 +1,9 @@
 // One axis of the card in mm (degrees) and s.
 //
-//   RealAxis x(driver, 0, {200});                      // 200 pulses a mm
-//   auto set = x.set({100, 2, 500});                   // mm/s, mm/s, mm/s2: what the card makes of it is in *set
-//   auto plan = x.plan(50);                            // how long, how far while accelerating, ..: nothing moves
-//   auto moved = x.move(50);                           // 50 mm; *moved says what was rounded
+//   RealAxis x(driver, 0, {200});                      // 200 pulses per mm
+//   auto set = x.set({100, 2, 500});                   // mm/s, mm/s, mm/s2: *set contains the rounded values
+//   auto plan = x.plan(50);                            // duration, acceleration distance, ..: no motion
+//   auto moved = x.move(50);                           // 50 mm; *moved contains the rounding
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -13,36 +13,36 @@ namespace motionrack::mcx314 {
 
 class RealAxis {
   public:
-    /// `axis`: channel 0 X .. 3 U; `encoder`: counts a unit, if there is one. The driver must outlive this.
+    /// `axis`: channel 0 X .. 3 U; `encoder`: counts per unit, if present. The driver must outlive this object.
     RealAxis(Driver& driver, int axis, Scale scale, Scale encoder = {0})
         : driver_(driver), axis_(axis), scale_(scale), encoder_(encoder) {}
 
-    /// Chooses R and writes R, SV, V, A, D, K for the next moves. Refused while the axis drives.
+    /// Selects R and writes R, SV, V, A, D, K for the next moves. Refused while the axis drives.
     Result<RealSetting> set(const RealDrive& drive);
     const RealSetting& setting() const { return setting_; }
 
-    /// What a move would be. Errors: nothing set.
+    /// Plan of a move. Errors: not set.
     Result<RealPlan> plan(double distance) const;
     /// Starts a move by a distance, or to a position. S-curve if a jerk is set; the point of an asymmetric deceleration
-    /// is computed. Gives what the distance was rounded to.
+    /// is computed. Returns the rounded distance.
     Result<Rounded> move(double distance);
     Result<Rounded> move_to(double position);
     /// Drives until stopped.
     Result<void> run(bool negative);
-    /// Another speed for the drive under way, at most what R reaches; see Driver::change_speed.
+    /// Changes the speed of the present drive, at most to the reach of R; see Driver::change_speed.
     Result<Rounded> change_speed(double speed);
-    /// Another end for the move under way: a distance from where it began; see Driver::change_pulses.
+    /// Changes the end of the present move: a distance from its start; see Driver::change_pulses.
     Result<Rounded> change_distance(double distance);
 
     double position() { return static_cast<double>(driver_.ReadLPS(axis_)) / scale_.pulses_per_unit; }
-    /// By the encoder; 0 without one.
+    /// Position by the encoder; 0 without one.
     double encoder_position() {
         return encoder_.pulses_per_unit > 0 ? static_cast<double>(driver_.ReadEPS(axis_)) / encoder_.pulses_per_unit
                                             : 0;
     }
-    /// The counter LP becomes `position`, to the nearest pulse.
+    /// Sets the counter LP to `position`, to the nearest pulse.
     Result<Rounded> set_position(double position);
-    /// Units a second, signed; also in an interpolation.
+    /// Velocity, units/s, signed; also in an interpolation.
     Result<double> speed();
 
   private:

@@ -57,7 +57,7 @@ Result<void> Driver::InPosSig(int n, unsigned axes) {
 Result<void> Driver::SetStopInput(unsigned axes, int input, StopInput mode) {
     MOTIONRACK_CHECK(check_axes(axes, "SetStopInput"));
     MOTIONRACK_CHECK(check_switch("SetStopInput", input, 3, "the number of the input IN0 .. IN3"));
-    // IN0L, IN0E, IN1L, IN1E, ..: level and enable of each input are neighbours.
+    // IN0L, IN0E, IN1L, IN1E, ..: level and enable of each input are adjacent.
     const auto high = static_cast<std::uint16_t>(field("WR1", "IN0L").mask << 2 * input);
     const auto enable = static_cast<std::uint16_t>(field("WR1", "IN0E").mask << 2 * input);
     for (const int i : channels_of(axes)) {
@@ -122,7 +122,7 @@ Result<void> Driver::ShowDriveStatus(unsigned axes, bool on) {
 
 InputLevels Driver::inputs(int axis) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
-    // Two axes a register, eight bits each, all in the order of X.
+    // Two axes per register, eight bits each, all in the order of X.
     const unsigned both = port_.read(axis < 2 ? reg::RR4 : reg::RR5);
     const unsigned word = axis % 2 == 0 ? both : both >> 8;
     InputLevels levels;
@@ -161,7 +161,8 @@ std::uint16_t Driver::read_interrupts(int axis) {
     return std::exchange(kept(axis).interrupts, std::uint16_t{0});
 }
 
-/// Reading RR3 clears it, so what a wait reads is kept for read_interrupts(). True if something had come.
+/// Reading RR3 clears it, so the interrupts read by a wait are stored for read_interrupts(). Returns true if there were
+/// any.
 bool Driver::fetch_interrupts(int axis) {
     Kept& own = kept(axis);
     command(1u << axis, cmd::NOP);

@@ -1,4 +1,4 @@
-// Status words in words.
+// Status words as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// What to do about a bit; everything else of it is in the map.
+/// Remedies of status bits; all other text is in the map.
 struct Advice {
     std::string_view reg, name, next;
 };
@@ -78,7 +78,7 @@ constexpr std::array<StatusBit, count_bits()> make_bits() {
 
 constexpr auto bits = make_bits();
 
-/// Why a drive ended: the latched bits first, then what is live.
+/// Reason for the end of a drive: the latched bits first, then the live ones.
 struct Cause {
     std::string_view reg;
     std::uint16_t mask;

@@ -1,4 +1,4 @@
-// The chip's status words, decoded: what each bit is called, what it means and what to do next.
+// The chip's status words, decoded: name, meaning and remedy of each bit.
 #pragma once
 
 #include <array>
@@ -28,26 +28,26 @@ struct AxisStatus {
     bool accelerating() const { return field("RR1", "ASND").test(rr1); }
     bool constant() const { return field("RR1", "CNST").test(rr1); }
     bool decelerating() const { return field("RR1", "DSND").test(rr1); }
-    /// In a ramp of an S-curve.
+    /// True in a ramp of an S-curve.
     bool in_s_ramp() const {
         return field("RR1", "AASND").test(rr1) || field("RR1", "ACNST").test(rr1) || field("RR1", "ADSND").test(rr1);
     }
-    /// Stands on, or was stopped by, the limit switch; live or latched.
+    /// True if the limit switch is active or has stopped the axis; live or latched.
     bool at_plus_limit() const { return field("RR2", "HLMTP").test(rr2) || field("RR1", "LMTP").test(rr1); }
     bool at_minus_limit() const { return field("RR2", "HLMTM").test(rr2) || field("RR1", "LMTM").test(rr1); }
     bool at_software_limit() const { return field("RR2", "SLMTP").test(rr2) || field("RR2", "SLMTM").test(rr2); }
     bool at_limit() const { return at_plus_limit() || at_minus_limit() || at_software_limit(); }
     bool alarm() const { return field("RR2", "ALARM").test(rr2) || field("RR1", "ALARM").test(rr1); }
     bool emergency() const { return field("RR2", "EMG").test(rr2) || field("RR1", "EMG").test(rr1); }
-    /// Stopped by input n, 0..3.
+    /// True if stopped by input n, 0..3.
     bool stopped_by_input(int n) const { return (field("RR1", "IN0").mask << n & rr1) != 0; }
-    /// Why the last drive ended, as a sentence part ("the + limit switch was reached"); empty if it ended as commanded.
+    /// Reason for the end of the last drive, as a phrase ("the + limit switch was reached"); empty for a normal end.
     std::string why_stopped() const;
-    /// What to do about it, as a sentence; empty if nothing.
+    /// Remedy, as a sentence; empty if none is needed.
     std::string what_next() const;
 };
 
-/// One axis at one moment, for messages and screens.
+/// One axis at one instant, for messages and screens.
 struct AxisReport {
     int axis = 0;
     bool driving = false;
@@ -59,18 +59,18 @@ struct AxisReport {
     std::string text() const;
 };
 
-/// A bit of RR0..RR3 for people. Names and meanings are those of the map.
+/// A readable bit of RR0..RR3. Names and meanings are those of the map.
 struct StatusBit {
     std::string_view reg;
     std::string_view name;
     std::uint16_t mask = 0;
     std::string_view meaning;
-    std::string_view next;  ///< what to do; "": nothing
+    std::string_view next;  ///< remedy; "": none
 };
 
 /// Every field of RR0, RR1, RR2, RR3.
 std::span<const StatusBit> status_bits();
-/// The fields that are not 0 in a word of `reg`, a line each: "LMTP: stopped by nLMTP. Move ..".
+/// The nonzero fields in a word of `reg`, one per line: "LMTP: stopped by nLMTP. Move ..".
 std::string explain(std::string_view reg, std::uint16_t word);
 
 /// Levels of an axis' inputs (RR4, RR5), 1 High.

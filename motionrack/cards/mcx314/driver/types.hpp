@@ -1,4 +1,4 @@
-// What the function library takes and gives: axis masks, the data of interpolations, kinds of stops and signals.
+// Arguments and results of the function library: axis masks, interpolation data, kinds of stops and signals.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace motionrack::mcx314 {
 
-/// Axis masks: X 1, Y 2, Z 4, U 8, and their sums. Functions that read one axis take its channel, 0 X .. 3 U.
+/// Axis masks: X 1, Y 2, Z 4, U 8, and their sums. Functions for one axis take its channel, 0 X .. 3 U.
 inline constexpr unsigned axis_x = 1, axis_y = 2, axis_z = 4, axis_u = 8, xyzu = 0xF;
 
 /// "XY" for 3.
@@ -36,14 +36,14 @@ constexpr ChannelList channels_of(unsigned axes) {
     return out;
 }
 
-/// Pulses or counts from one reading of a 32-bit counter to another; counters wrap.
+/// Pulses or counts between two readings of a 32-bit counter; counters wrap.
 constexpr std::int64_t way_between(std::int32_t from, std::int32_t to) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
 }
 
 using FourAxes = std::array<std::int64_t, 4>;
 
-/// A line. Finish points are relative to the present place, of the axes in the mask; all 0: those that SetFP() set.
+/// A line. Finish points are relative to the present position, for the axes in the mask; all 0: those set by SetFP().
 /// The source names the structure without listing it.
 struct LINEDATA {
     std::int64_t SV = 0;  ///< initial speed, 1 .. 8,000; not used by Line.._C
@@ -67,13 +67,13 @@ struct CIRCLEDATA {
 /// A bit-pattern drive: its speeds.
 struct BPDATA {
     std::int64_t SV = 0;        ///< initial speed; not used without A
-    std::int64_t V = 0;         ///< drive speed, 1 .. 8,000: steps of the pattern a second, times the multiple
+    std::int64_t V = 0;         ///< drive speed, 1 .. 8,000: steps of the pattern per second, times the multiple
     std::int64_t A = 0;         ///< acceleration and deceleration, 1 .. 8,000; 0: constant speed V
-    std::int64_t DecPoint = 0;  ///< steps of the pattern after which it decelerates; used with A
+    std::int64_t DecPoint = 0;  ///< step of the pattern at which it decelerates; used with A
 };
 
 /// Sixteen steps of a pattern, the lowest bit first: a 1 in `plus` steps the axis in + direction, in `minus` in -
-/// direction; in both at once: the drive ends at this step.
+/// direction; a 1 in both ends the drive at this step.
 struct BPWORD {
     std::array<std::uint16_t, 3> plus = {};
     std::array<std::uint16_t, 3> minus = {};
@@ -87,15 +87,15 @@ struct CONTDATA {
     std::int64_t D = 0;   ///< deceleration at the end; 0: as A
 };
 
-/// How a chain ended.
+/// Result of a chain.
 struct ContOutcome {
     std::int64_t segments = 0;
     std::int64_t end_speed =
-        0;  ///< V units at the last pulse as planned; above SV where the last segment was too short
+        0;  ///< planned speed at the last pulse, V units; above SV if the last segment was too short
 };
 
 enum class StopKind : std::uint8_t {
-    slow,  ///< decelerating to SV; at once where the axis drives at SV or slower
+    slow,  ///< decelerating to SV; at once if the axis drives at SV or slower
     quick  ///< at once
 };
 
@@ -105,7 +105,7 @@ enum class StopInput : std::uint8_t { off, at_low, at_high };
 /// nEXPP, nEXPM.
 enum class ExternalDrive : std::uint8_t { off, continuous, fixed };
 
-/// Who makes the steps of an interpolation.
+/// Source of the steps of an interpolation.
 enum class StepBy : std::uint8_t { generator, command, wire };
 
 /// Causes of interrupts of an axis, as in RR3.

@@ -16,10 +16,10 @@ constexpr double max_range_multiple = 500;
 constexpr double max_drive_units = static_cast<double>(rules::max_units);
 constexpr double max_distance = 2'147'483'647;
 
-/// One value of a drive: what it is called, and how much of it one M gives at most.
+/// One value of a drive: its name, and its maximum for M = 1.
 struct Kind {
     const char* name;
-    const char* time;  ///< s, s2 or s3: units a second, ..
+    const char* time;  ///< s, s2 or s3: units/s, ..
     double max_per_multiple;
 };
 constexpr Kind speed_kind{"drive speed", "s", max_drive_units};
@@ -35,14 +35,14 @@ Result<void> check_scale(const Scale& scale) {
                             scale.pulses_per_unit));
 }
 
-/// Finite, above 0 and within reach of the multiple.
+/// Checks that a value is finite, above 0 and within reach of the multiple.
 Result<void> check_value(const Kind& kind, const Scale& scale, double value, double multiple) {
     if (!std::isfinite(value) || value <= 0)
         return fail(ErrorKind::refused,
                     fmt::format("The {} is {} units/{}, but it must be more than 0. Nothing was set.", kind.name, value,
                                 kind.time));
     const double most = kind.max_per_multiple * multiple;
-    // R is a whole number, so the multiple that was chosen may miss by the last digit of a double.
+    // R is a whole number, so the chosen multiple may miss by the last digit of a double.
     if (value * scale.pulses_per_unit <= most * (1 + 1e-12)) return {};
     return fail(ErrorKind::refused,
                 fmt::format("The {} of {} units/{} is {:.0f} pulses/{}, but the chip makes at most {:.0f}{}: {:.6g} "
@@ -73,7 +73,7 @@ Rounded rounded(const Scale& scale, double asked, double unit_pulses, const Para
     return {asked, static_cast<double>(value) * unit_pulses / scale.pulses_per_unit, value};
 }
 
-/// The jerk is the reciprocal of its register: of the two neighbours the one that is nearer.
+/// The jerk is the reciprocal of its register: selects the nearer of the two neighbours.
 Rounded rounded_jerk(const Scale& scale, double asked, double multiple) {
     const double exact = jerk_unit * multiple / (asked * scale.pulses_per_unit);
     auto real = [&](std::int64_t k) { return jerk_unit * multiple / (static_cast<double>(k) * scale.pulses_per_unit); };
@@ -109,7 +109,8 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
                                    drive.jerk * pulses / jerk_kind.max_per_multiple});
     const double widest =
         std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.min), static_cast<double>(param::R.max));
-    // V is what fits into the widest range; R is then as much narrower as makes V the asked speed, rounded to reach it.
+    // V is the largest value within the widest range; R is then reduced until V gives the requested speed, rounded to
+    // reach it.
     const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_drive_units);
     const double range =
         std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.min), widest);

@@ -1,8 +1,8 @@
-// Millimetres (degrees) and seconds to registers and back, with what the rounding does to every value.
+// Conversion of millimetres (degrees) and seconds to registers and back, with the rounding of every value.
 //
-// The chip counts speeds in units of M = 8,000,000 / R pulses/s, accelerations in 125 M pulses/s2, and the jerk as
-// 62.5e6 M / K pulses/s3. A small M resolves finely but ends low: real_setting() takes the smallest M that reaches what
-// is asked, then moves R a little so that the drive speed comes out as asked.
+// The chip counts speeds in units of M = 8,000,000 / R pulses/s, accelerations in 125 M pulses/s2, and the jerk
+// as 62.5e6 M / K pulses/s3. A small M resolves finely but has a low maximum: real_setting() selects the smallest M
+// that reaches the requested values, then adjusts R slightly for the requested drive speed.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace motionrack::mcx314 {
 
-/// What a pulse is worth: pulses a mm, or a degree; more than 0.
+/// Pulse scale: pulses per mm, or per degree; > 0.
 struct Scale {
     double pulses_per_unit = 1;
 };
 
 /// A drive in mm (degrees) and s.
 struct RealDrive {
-    double speed = 0;         ///< drive speed, more than 0
-    double start_speed = 0;   ///< speed at the start and at the end of ramps, more than 0
-    double acceleration = 0;  ///< more than 0; of an S-curve the greatest
+    double speed = 0;         ///< drive speed, > 0
+    double start_speed = 0;   ///< speed at the start and at the end of ramps, > 0
+    double acceleration = 0;  ///< > 0; for an S-curve the maximum
     double deceleration = 0;  ///< 0: as the acceleration
     double jerk = 0;          ///< 0: T-curve
 };
 
-/// A value as asked and as the card has it.
+/// A value as requested and as realised by the card.
 struct Rounded {
     double asked = 0;
     double real = 0;
     std::int64_t value = 0;  ///< in the register
-    /// (real - asked) / asked; 0 where 0 was asked for.
+    /// (real - asked) / asked; 0 if 0 was requested.
     double error() const { return asked == 0 ? 0 : (real - asked) / asked; }
 };
 
@@ -41,22 +41,22 @@ struct RealSetting {
     Rounded speed, start_speed, acceleration, deceleration, jerk;
     bool s_curve = false;
     bool asymmetric = false;  ///< D is not A
-    /// Greatest of the relative errors, without sign.
+    /// Largest magnitude of the relative errors.
     double worst_error() const;
-    /// A line a value: "speed 33.3 -> V 6660: 33.3004 (+0.001 %)".
+    /// One line per value: "speed 33.3 -> V 6660: 33.3004 (+0.001 %)".
     std::string text() const;
-    /// The curve in register units; no pulses yet.
+    /// The curve in register units, without pulses.
     CurveData curve() const;
 };
 
-/// Chooses R. Errors: ErrorKind::refused with the greatest possible value in the same unit; also for what is not a
-/// number, or not above 0.
+/// Selects R. Errors: ErrorKind::refused with the maximum possible value in the same unit; also for values that are not
+/// numbers or not above 0.
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive);
 /// The same with a given R, 16,000 .. 8,000,000.
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range);
-/// Back from registers.
+/// Conversion back from registers.
 RealDrive real_values(const Scale& scale, const CurveData& curve);
-/// The nearest whole pulse. Errors: not a number, or further than 2,147,483,647 pulses.
+/// The nearest whole pulse. Errors: not a number, or beyond 2,147,483,647 pulses.
 Result<Rounded> to_pulses(const Scale& scale, double distance);
 
 /// A plan in real units.

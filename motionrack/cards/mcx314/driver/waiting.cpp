@@ -1,4 +1,4 @@
-// Looking at the axes and waiting for them; every wait has a time-out.
+// Polling of the axes, and waits; every wait has a time-out.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -50,8 +50,8 @@ std::string Driver::error_text(unsigned axes) {
 
 // ---- waiting
 
-/// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest;
-/// time passes also where the line is active for somebody else.
+/// Waits for the interrupt line, at most `slice`. Reads the interrupts of `axes` so that the line becomes inactive;
+/// time also passes if the line is active for other axes.
 void Driver::doze(unsigned axes, Duration slice) {
     const Instant before = interrupt_.now();
     const bool woken = interrupt_.wait(slice);
@@ -75,7 +75,7 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
                 ErrorKind::machine,
                 fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
                             to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
-        // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at now and then.
+        // The drive-end interrupt, if enabled, wakes at once; otherwise the status is polled.
         doze(axes, default_poll_period);
     }
     if (stopped) return fail(ErrorKind::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
@@ -91,7 +91,7 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
 
 // ---- speeds
 
-/// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
+/// Share of the basic pulses that step each axis of a segment, signed, at the present position of the axes.
 std::array<double, 4> Driver::shares(const Piece& piece) {
     std::array<double, 4> out = {};
     const ChannelList list = channels_of(piece.axes);
@@ -100,7 +100,8 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
         for (const int i : channels_of(piece.axes)) out[i] = static_cast<double>(piece.finish[i]) / longest;
         return out;
     }
-    // On a circle the axes' speeds are as the other's distance from the centre; the axis nearer to it steps every time.
+    // On a circle the velocity of an axis is proportional to the other's distance from the centre; the axis nearer to
+    // it steps every time.
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
     auto from_centre = [&](std::size_t i) {
         const std::int64_t moved = way_between(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
@@ -138,7 +139,7 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
     return out;
 }
 
-/// R over many basic pulses: with constant vector speed it is longer for those that step more than one axis.
+/// Mean R over many basic pulses: with constant vector speed it is longer for pulses that step more than one axis.
 double Driver::mean_range(const Piece& piece, int generator, const std::array<double, 4>& share) const {
     const ChannelList list = channels_of(piece.axes);
     const auto own = static_cast<double>(kept(generator).own_range);

@@ -1,4 +1,4 @@
-// The arguments of the library's functions: names as in the source, ranges as the Driver checks them.
+// The arguments of the library's functions: names as in the source, ranges as checked by the Driver.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the rows of the declaration do: the arguments in their order to the function of the Driver, its result in words.
+// Calls of the declaration's rows: pass the arguments in order to the function of the Driver, and format its result.
 #pragma once
 
 #include <motionrack/cards/mcx314/library/library.hpp>
@@ -26,7 +26,7 @@ Result<CallAnswer> set(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(axes_of(v[0]), v[1]));
     return written();
 }
-/// (data), of all axes
+/// (data), all axes
 template <Result<void> (Driver::*function)(unsigned, std::int64_t)>
 Result<CallAnswer> set_all(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(xyzu, v[0]));
@@ -38,13 +38,13 @@ Result<CallAnswer> turn(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(static_cast<int>(v[0]), axes_of(v[1])));
     return written();
 }
-/// (n), of all axes
+/// (n), all axes
 template <Result<void> (Driver::*function)(int, unsigned)>
 Result<CallAnswer> turn_all(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(static_cast<int>(v[0]), xyzu));
     return written();
 }
-/// (axis), one of them
+/// (axis), a single axis
 template <std::int32_t (Driver::*function)(int)>
 Result<CallAnswer> read(LibraryChip& chip, Values v) {
     const std::int32_t value = (chip.driver.*function)(channel_of_mask(v[0]));
@@ -84,13 +84,13 @@ Result<CallAnswer> arc_t(LibraryChip& chip, Values v) {
     return arc(chip, function, {v[0], v[1], v[2], v[3], {}, {}}, v.subspan(4));
 }
 
-/// A row of the declaration with what it does.
+/// A row of the declaration with its call.
 struct FunctionRow {
     FunctionInfo info;
     Call call = nullptr;
 };
 std::span<const FunctionRow> function_rows();
-/// The functions that the source does not list; they follow the source's.
+/// Functions that the source does not list; their names follow the source's.
 std::span<const FunctionRow> own_rows();
 
 }  // namespace motionrack::mcx314::functions

@@ -71,7 +71,7 @@ constexpr std::array logical = {axes, of("data", param::LP, pulse_unit, "what th
 constexpr std::array real = {axes, of("data", param::EP, "counts", "what the real position becomes", 0)};
 constexpr std::array compare = {axes, of("data", param::COMP_PLUS, pulse_unit, "place of the software limit", 0)};
 
-// ---- what has no row of its own kind
+// ---- functions with individual rows
 
 Result<CallAnswer> set_pulse_mode(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK(chip.driver.SetPulseMode(axes_of(v[0]), static_cast<int>(v[1])));

@@ -1,4 +1,4 @@
-// Calls, and what they have in common.
+// Calls, and their common parts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -95,7 +95,7 @@ Result<CallAnswer> arc(LibraryChip& chip, ArcFunction function, const CIRCLEDATA
 
 namespace {
 
-/// The sentence of a homing, what it found, and how long each of its states took.
+/// The sentence of a homing, its findings, and the duration of each of its states.
 std::string diagnosis(const HomeReport& report) {
     std::string out = report.sentence;
     for (const std::string& note : report.notes) out += ' ' + note;

@@ -1,4 +1,4 @@
-// The function library by its declaration: functions by name with numbers as arguments, for pages and orders.
+// The function library by its declaration: functions by name with numbers as arguments, for pages and scripts.
 #pragma once
 
 #include <motionrack/base/function_library.hpp>
@@ -7,10 +7,10 @@
 
 namespace motionrack::mcx314 {
 
-/// The 57 functions of the source, then those that it names without listing them.
+/// The 57 functions of the source, then those that it mentions without listing them.
 std::span<const FunctionInfo> library_functions();
 
-/// The host's time for the library's functions: axes end their pulses at once when a stop is asked for.
+/// Host time for the library's functions: a requested stop ends the pulses of all axes at once.
 class QuickStops final : public Interrupt {
   public:
     QuickStops(RegisterPort& port, Interrupt& inner) : port_(port), inner_(inner) {}
@@ -36,8 +36,8 @@ class QuickStops final : public Interrupt {
     Interrupt& inner_;
 };
 
-/// The card for the library's functions: nothing is written any more when a stop is asked for, so that no drive begins
-/// that a function was about to order.
+/// Card access for the library's functions: writes are blocked once a stop is requested, so that a function cannot
+/// start another drive.
 class GuardedPort final : public RegisterPort {
   public:
     GuardedPort(RegisterPort& port, const Interrupt& host) : port_(port), host_(host) {}
@@ -51,15 +51,15 @@ class GuardedPort final : public RegisterPort {
     const Interrupt& host_;
 };
 
-/// What the functions work on.
+/// Context of the functions.
 struct LibraryChip {
     Driver driver;
-    unsigned home_axes = axis_x;  ///< of HomeType1 .. 4
+    unsigned home_axes = axis_x;  ///< axes of HomeType1 .. 4
 };
 
 class Library final : public FunctionLibrary {
   public:
-    /// Port and interrupt must outlive it.
+    /// Port and interrupt must outlive the library.
     Library(RegisterPort& port, Interrupt& interrupt)
         : stops_(port, interrupt), guarded_(port, interrupt), chip_{Driver(guarded_, stops_)} {}
 

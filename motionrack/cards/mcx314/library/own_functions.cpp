@@ -1,4 +1,4 @@
-// Functions for what the source names without listing it: homed axes, stops, status, contours, bit patterns.
+// Functions that the source mentions without listing them: homed axes, stops, status, contours, bit patterns.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/library/arguments.hpp>

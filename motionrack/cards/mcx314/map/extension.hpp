@@ -1,5 +1,5 @@
-// What only the MCX314As has, declared once: the words of commands 60h (extension mode) and 64h (synchronous action
-// mode), input filters, widths of the deviation counter clear pulse, steps and states of the automatic home search.
+// Declarations of the MCX314As only: the words of commands 60h (extension mode) and 64h (synchronous action mode),
+// input filters, widths of the deviation counter clear pulse, steps and states of the automatic home search.
 //
 //   WR7:WR6 ──60h──► EM7:EM6     WR7:WR6 ──64h──► SM7:SM6     (of the axes in WR0)
 #pragma once
@@ -71,7 +71,7 @@ inline constexpr FieldInfo sm7_fields[] = {
     {"INT", 0x8000, "action: interrupt, RR3 SYNC"},
 };
 
-/// Delays of the input filters by FL, in ticks of 125 ns. What a filter certainly removes is 7/8 of it.
+/// Delays of the input filters by FL, in ticks of 125 ns. Pulses up to 7/8 of the delay are certainly removed.
 inline constexpr std::array<std::int32_t, 8> filter_ticks = {16, 2'048, 4'096, 8'192, 16'384, 32'768, 65'536, 131'072};
 
 /// Widths of the deviation counter clear pulse by DCCW, in ticks of 125 ns.
@@ -79,9 +79,9 @@ inline constexpr std::array<std::int32_t, 8> clear_ticks = {80, 160, 800, 1'600,
 
 /// A state of the home search in which the axis drives.
 struct HomeDrive {
-    int hmst;   ///< what RR2 HMST shows
-    int step;   ///< 1 .. 4: whose enable and direction bits count
-    bool back;  ///< it drives against its step's direction
+    int hmst;   ///< value of RR2 HMST
+    int step;   ///< 1 .. 4: step with the enable and direction bits
+    bool back;  ///< drives against its step's direction
     bool slow;  ///< at HV instead of V
 };
 inline constexpr HomeDrive home_drives[] = {

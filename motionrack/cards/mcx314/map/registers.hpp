@@ -1,8 +1,8 @@
 // The MCX314's registers, declared once: WR0..WR7 and RR0..RR7 on a 16-bit bus, and the bit-pattern registers that
 // share WR2..WR7.
 //
-//   offset   00h  02h  04h  06h  08h  0Ah  0Ch  0Eh          WR1..WR3, RR1..RR3 exist once an axis: the axis is the one
-//   write    WR0  WR1  WR2  WR3  WR4  WR5  WR6  WR7          (or those) of the last command that named any
+//   offset   00h  02h  04h  06h  08h  0Ah  0Ch  0Eh          WR1..WR3, RR1..RR3 exist per axis: they access the axis
+//   write    WR0  WR1  WR2  WR3  WR4  WR5  WR6  WR7          (or axes) of the last command with an axis
 //   read     RR0  RR1  RR2  RR3  RR4  RR5  RR6  RR7
 #pragma once
 
