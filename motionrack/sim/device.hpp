@@ -1,4 +1,4 @@
-// What lives in virtual time: cards, parts and observers.
+// Devices in virtual time: cards, parts and observers.
 #pragma once
 
 #include <cstddef>
@@ -10,40 +10,40 @@
 
 namespace motionrack::sim {
 
-/// The order of things that happen at one instant.
+/// Order of events at one instant.
 enum class Phase : std::uint8_t { wires, cards, parts, observers };
 
-/// A device acts at the instants it asked for (Kernel::schedule), and is told of wires it listens to. Everything
-/// reached from act, on_wire and level_at runs in virtual time: no allocation, no locks, no I/O, no text.
+/// A device acts at the instants it scheduled (Kernel::schedule) and is notified of wires it listens to. Everything
+/// reached from on_scheduled, on_wire and level_at runs in virtual time: no allocation, no locks, no I/O, no text.
 class Device {
   public:
     virtual ~Device() = default;
-    /// Called when the scheduled instant has come.
+    /// Called at the scheduled instant.
     virtual void on_scheduled(Instant now) = 0;
-    /// A wire this device listens to has a new level. `pin` is the number given to Kernel::listen.
+    /// A wire with this device as listener has a new level. `pin`: number given to Kernel::add_listener.
     virtual void on_wire(int pin, int level, Instant now) { (void)pin, (void)level, (void)now; }
-    /// The level of a wire that this device drives lazily (Kernel::drive_lazily), at `now`.
+    /// Level of a lazily driven wire (Kernel::drive_lazily) at `now`.
     virtual int level_at(int pin, Instant now) const { return (void)pin, (void)now, 0; }
-    /// Someone began or ceased to want the changes of a lazily driven wire; schedule accordingly.
+    /// A lazily driven wire has gained its first or lost its last subscriber; schedule accordingly.
     virtual void wanted_changed(int pin, bool wanted, Instant now) { (void)pin, (void)wanted, (void)now; }
-    /// A lazily driven wire is held at `level` from outside (Kernel::force), or no longer.
+    /// A lazily driven wire is forced to `level` from outside (Kernel::force), or released.
     virtual void forced_changed(int pin, bool forced, int level, Instant now) {
         (void)pin, (void)forced, (void)level, (void)now;
     }
-    /// Everything that a snapshot must hold, as bytes of trivially copyable state.
+    /// The complete state for a snapshot, as bytes of trivially copyable state.
     virtual std::span<std::byte> state() { return {}; }
-    /// The part of it that Kernel::state_hash reads: all, unless it is large and a state that is read has a hash of it.
+    /// The part that Kernel::state_hash reads: all, unless it is large and another state contains its hash.
     virtual std::span<std::byte> hashed_state() { return state(); }
-    /// Injects a fault by name; false if this device has no such fault. `value` is the fault's parameter, 0 clears it.
+    /// Injects a fault by name; returns false if the fault is unknown. `value`: parameter of the fault, 0 clears it.
     virtual bool fault(std::string_view name, double value, Instant now) {
         return (void)name, (void)value, (void)now, false;
     }
 };
 
-/// A device that puts off what its listeners need not have at once. The kernel calls sync at the end of each run.
+/// A device that defers work that its listeners do not need at once. The kernel calls sync at the end of each run.
 class DeferringDevice : public Device {
   public:
-    /// Hands over whatever has been put off (edges to listeners) up to and including `now`, in virtual time.
+    /// Delivers all deferred work (edges to listeners) up to and including `now`, in virtual time.
     virtual void sync(Instant now) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Edges that are found one by one, put together to batches: for motions that have no even pulses.
+// Collects single edges into batches: for position functions without even pulses.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace motionrack::sim {
 
 class EdgeBatcher {
   public:
-    /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the
-    /// batch with it is handed over first.
+    /// Adds an edge at `at`, not before the last one, with `count` after it; `step` +1 or -1. Delivers the batch first
+    /// if the edge does not fit into it.
     void add(EdgeListener& listener, Instant at, std::int64_t count, int step) {
         const bool fits =
             batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
@@ -23,14 +23,14 @@ class EdgeBatcher {
         }
         batch_.at[batch_.size++] = static_cast<std::uint32_t>((at - batch_.origin).count());
     }
-    /// What has come together.
+    /// Delivers the collected edges.
     void hand_over(EdgeListener& listener) {
         if (batch_.size > 0) listener.edges(batch_);
         batch_.size = 0;
     }
 
   private:
-    /// Ticks from a batch's first edge to its last.
+    /// Ticks from the first to the last edge of a batch.
     static constexpr std::int64_t longest = std::numeric_limits<decltype(EdgeBatch::at)::value_type>::max();
     EdgeBatch batch_{};
 };

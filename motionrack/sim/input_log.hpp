@@ -1,4 +1,4 @@
-// Everything that came into a rack from outside, with its instant: replaying it gives the same history, bit for bit.
+// All external inputs of a rack, with their instants: a replay gives the same history, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ struct Input {
     friend bool operator==(const Input&, const Input&) = default;
 };
 
-/// Grows between runs only, never inside one.
+/// Grows only between runs.
 class InputLog {
   public:
     void add(const Input& input) {
         if (keeps_) inputs_.push_back(input);
     }
-    /// Nothing more is kept: for worlds that run for ever and are never replayed.
+    /// Stops recording: for worlds that run without end and are never replayed.
     void keep_no_more() { keeps_ = false; }
     const std::vector<Input>& inputs() const { return inputs_; }
 
@@ -37,8 +37,8 @@ class InputLog {
 
 class Kernel;
 
-/// Plays `inputs` into a fresh world of the same wiring: each enters at its instant, then time goes on to `end`.
-/// `apply` does one input (write the register, force the wire); it is called between runs.
+/// Replays `inputs` into a new world of the same wiring: each at its instant, then advances to `end`. `apply` executes
+/// one input (writes the register, forces the wire); it is called between runs.
 void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end,
             const std::function<void(const Input&)>& apply);
 

@@ -8,7 +8,7 @@ namespace motionrack::sim {
 
 namespace {
 constexpr std::size_t queue_capacity = 4096;
-constexpr std::size_t max_changes = 20'000;  // of wires at one event
+constexpr std::size_t max_changes = 20'000;  // wire changes in one event
 }  // namespace
 
 DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
@@ -120,7 +120,7 @@ void Kernel::change(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
     if (w.level == level) return;
     if (!started_) {
-        w.level = level;  // how the world begins is no change
+        w.level = level;  // initial levels are not changes
         return;
     }
     if (queue_size_ - queue_head_ >= queue_capacity || queue_size_ >= max_changes) {
@@ -128,7 +128,7 @@ void Kernel::change(WireId wire, int level) {
             report(no_device, wires_never_settle, static_cast<std::int64_t>(index(wire)),
                    static_cast<std::int64_t>(queue_size_));
         unsettled_ = true;
-        return;  // it keeps its level, which is what its listeners heard last
+        return;  // the wire keeps its level, which its listeners received last
     }
     w.level = level;
     queue_[queue_size_++ % queue_capacity] = {wire, 0, level};
@@ -176,7 +176,7 @@ bool Kernel::wanted(WireId wire) const {
 
 void Kernel::force(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
-    w.level = this->level(wire);  // of a lazily driven wire
+    w.level = this->level(wire);  // level of a lazily driven wire
     w.forced = 1;
     change(wire, level);
     if (lazy(wire)) owner_of(wire).forced_changed(wires_[index(wire)].lazy_pin, true, level, state_.now);
@@ -206,7 +206,7 @@ WireId Kernel::find_wire(std::string_view name) const {
     return WireId::none;
 }
 
-// ---- looking and rewinding
+// ---- inspection and rewinding
 
 std::vector<Condition> Kernel::conditions(std::uint64_t after) const {
     std::vector<Condition> out;
@@ -237,8 +237,8 @@ std::span<std::byte> bytes_of_vector(std::vector<T>& v) {
 
 }  // namespace
 
-/// Calls visit(span) for every piece of the rack's state, always in the same order, those of a device as `of` gives
-/// them; conditions are what was told of it.
+/// Calls visit(span) for every part of the rack's state in a fixed order; `of` selects the state of a device.
+/// Conditions are excluded.
 template <class Visit>
 void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
     visit(bytes_of(state_));
@@ -247,8 +247,8 @@ void Kernel::each_piece(Visit visit, std::span<std::byte> (Device::*of)()) {
     for (Slot& slot : devices_) visit((slot.device->*of)());
 }
 
-/// The end of a snapshot: the conditions that are kept, in the order of the ring, and the changes of wires that were
-/// made between runs and have not reached their listeners yet.
+/// Last part of a snapshot: the stored conditions, in the order of the ring, and wire changes made between runs that
+/// have not reached their listeners yet.
 std::array<std::span<std::byte>, 2> Kernel::tail() {
     MOTIONRACK_ASSERT(queue_head_ == 0);
     const auto kept = static_cast<std::size_t>(std::min<std::uint64_t>(state_.condition_count, condition_capacity));

@@ -1,9 +1,9 @@
-// The one clock of a rack: runs devices in the order (instant, phase, sequence) and carries the levels of wires.
+// The common clock of a rack: runs devices in the order (instant, phase, sequence) and transports wire levels.
 //
-//   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► act(t) ──► set_wire ──► queue ──► on_wire, same tick
+//   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► on_scheduled(t) ─► set_wire ─► queue ─► on_wire
 //
-// After start() nothing reached from run_until allocates, locks or does I/O. Input from outside enters between runs and
-// is what the InputLog (input_log.hpp) records.
+// After start(), no code reached from run_until allocates, locks or does I/O. External input enters between runs and is
+// recorded by the InputLog (input_log.hpp).
 #pragma once
 
 #include <array>
@@ -21,34 +21,36 @@ namespace motionrack::sim {
 enum class DeviceId : std::uint16_t {};
 enum class WireId : std::uint16_t { none = 0xFFFF };
 
-/// A condition of the machine: something a user must hear of that is no failure of the program.
+/// A condition of the machine: reported to the user, but not an error of the program.
 struct Condition {
     Instant at{};
     DeviceId device{};
-    std::uint16_t code = 0;  ///< the device's own number; its room turns it into a sentence
-    std::int64_t a = 0;      ///< numbers for the sentence
+    std::uint16_t code = 0;  ///< the device's own code; its module turns it into a sentence
+    std::int64_t a = 0;      ///< values for the sentence
     std::int64_t b = 0;
 };
 
-/// The device of conditions that the kernel itself reports.
+/// The device of the kernel's own conditions.
 inline constexpr DeviceId no_device{0xFFFF};
-/// The kernel's condition: wires led in a circle and would have changed for ever at one instant. a: number of a wire of
-/// them, left at the level that it had; b: changes carried out before.
+/// Condition of the kernel: a loop of wires would change without end at one instant. a: number of a wire in the loop,
+/// which keeps its level; b: changes executed before.
 inline constexpr std::uint16_t wires_never_settle = 1;
 
-/// Why a run ended before its time.
+/// Reason for the end of a run.
 enum class RunEnd : std::uint8_t {
-    reached,  ///< virtual time is what was asked for
-    broken    ///< a device called break_run (an interrupt line fell, a buffer is nearly full), or a condition was met
+    reached,  ///< the requested virtual time is reached
+    broken    ///< a device called break_run (an interrupt line fell, a buffer is nearly full), or a condition was
+              ///< reported
 };
 
-/// What ends a run early, beside break_run.
+/// Additional causes that end a run early.
 enum class RunBreak : std::uint8_t {
     none,
-    conditions  ///< the event in which a condition is reported is the last one
+    conditions  ///< ends the run after the event that reports a condition
 };
 
-/// All state of a rack at one instant; restoring is copying back. Belongs to the kernel (wiring) it was taken from.
+/// Complete state of a rack at one instant; restoring copies it back. Valid only for the kernel (wiring) it was taken
+/// from.
 struct Snapshot {
     std::vector<std::byte> bytes;
 };
@@ -57,49 +59,48 @@ class Kernel {
   public:
     static constexpr std::size_t condition_capacity = 4096;
 
-    // ---- building, before start()
+    // ---- construction, before start()
     DeviceId add(Device& device, Phase phase, std::string name);
-    /// A wire with its level at rest. Names are unique ("motion.xlmtp"). `bits`: how many a recording shows of the
-    /// level; 1: whether it is 0. `same`: no new wire, but a further name of this one.
+    /// Adds a wire with its level at rest. Names are unique ("motion.xlmtp"). `bits`: recorded bits of the level; 1:
+    /// whether it is not 0. `same`: adds a further name to this wire.
     WireId add_wire(std::string name, int level, int bits = 1, WireId same = WireId::none);
-    /// `device` is told (on_wire with `pin`) of every change, while it wants it (see want).
+    /// Notifies `device` (on_wire with `pin`) of every change while it is subscribed (see subscribe).
     void listen(WireId wire, DeviceId device, int pin);
-    /// The wire's level is asked of `device` (level_at with `pin`) while nobody wants its changes.
+    /// Takes the level from `device` (level_at with `pin`) while the wire has no subscriber.
     void drive_lazily(WireId wire, DeviceId device, int pin);
-    /// No more devices or wires; buffers are made.
+    /// Ends the construction and allocates the buffers.
     void start();
 
     // ---- running
-    /// Runs until virtual time is `until`, or a device or `at` breaks the run. On return every device has been synced.
+    /// Runs to virtual time `until`, or until a device or `at` breaks the run. Syncs every device before it returns.
     RunEnd run_until(Instant until, RunBreak at = RunBreak::none);
     /// Ends run_until after the present event.
     void break_run() { break_ = true; }
     Instant now() const { return state_.now; }
 
     // ---- for devices
-    /// When `device` wants to act next (>= now, or never); replaces what it asked for before.
+    /// Schedules `device` (>= now, or never); replaces its previous request.
     void schedule(DeviceId device, Instant at);
-    /// Sets a wire's level now; listeners hear of it at this instant, first in, first out.
+    /// Sets a wire's level now; listeners are notified at this instant, first in, first out.
     void set_wire(WireId wire, int level);
     int level(WireId wire) const;
-    /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven
-    /// lazily).
+    /// Subscribes a listener to changes or unsubscribes it (initially subscribed, except to lazily driven wires).
     void subscribe(WireId wire, DeviceId device, bool wanted);
     bool wanted(WireId wire) const;
-    /// Whether drive_lazily was called for it.
+    /// True if drive_lazily was called for the wire.
     bool lazy(WireId wire) const { return wires_[index(wire)].lazy_pin >= 0; }
     void report(DeviceId device, std::uint16_t code, std::int64_t a = 0, std::int64_t b = 0);
 
     // ---- from outside, between runs
-    /// Holds a wire at `level` whatever drives it (a stuck line, a hand on a switch) until release.
+    /// Forces a wire to `level` (a stuck line, a manually operated switch) until release.
     void force(WireId wire, int level);
     void release(WireId wire);
     bool forced(WireId wire) const { return wire_state_[index(wire)].forced != 0; }
-    /// Runs what is due at this very instant (after a port access or a forced wire).
+    /// Executes the events of this very instant (after a port access or a forced wire).
     void settle();
 
-    WireId find_wire(std::string_view name) const;  ///< WireId::none if there is none
-    /// Its first name, or a further one; empty if it has not so many.
+    WireId find_wire(std::string_view name) const;  ///< WireId::none if unknown
+    /// First or further name of a wire; empty beyond the last one.
     const std::string& wire_name(WireId wire, std::size_t further = 0) const;
     int wire_bits(WireId wire) const { return wires_[index(wire)].bits; }
     std::size_t wire_count() const { return wires_.size(); }
@@ -107,21 +108,21 @@ class Kernel {
     Device& device(DeviceId id) { return *devices_[index(id)].device; }
     std::size_t device_count() const { return devices_.size(); }
 
-    /// Conditions since the start but for the first `after`, oldest first; at most condition_capacity are kept,
-    /// dropped_conditions() counts the rest.
+    /// Conditions since the start except the first `after`, oldest first; at most condition_capacity are kept,
+    /// dropped_conditions() counts the others.
     std::vector<Condition> conditions(std::uint64_t after = 0) const;
     std::uint64_t dropped_conditions() const;
-    /// Events run since the start: what a run costs.
+    /// Events executed since the start: the cost of a run.
     std::uint64_t events() const { return state_.events; }
 
     Snapshot snapshot();
     void restore(const Snapshot& snapshot);
-    /// Equal worlds, equal hash.
+    /// Hash of the state; equal for equal worlds.
     std::uint64_t state_hash();
-    /// Equal histories of wires and conditions, equal hash.
+    /// Hash of the histories of wires and conditions; equal for equal histories.
     std::uint64_t trace_hash() const { return state_.trace_hash; }
 
-    /// An observer that hears of every wire change (a recorder); called in phase observers order, may be nullptr.
+    /// An observer of every wire change (a recorder), called in phase observers; may be nullptr.
     class WireObserver {
       public:
         virtual ~WireObserver() = default;
@@ -154,19 +155,19 @@ class Kernel {
     };
     struct WireState {
         std::int32_t level = 0;
-        std::int32_t driven = 0;   // what its driver says, while forced
-        std::uint32_t wants = 0;   // bit i: listener i wants changes
-        std::uint32_t forced = 0;  // as wide as the others: padding would get into the state's hash
+        std::int32_t driven = 0;   // level of its driver while forced
+        std::uint32_t wants = 0;   // bit i: listener i is subscribed
+        std::uint32_t forced = 0;  // as wide as the others: padding would enter the state's hash
     };
     struct Due {
         Instant at = never;
-        std::uint64_t order = 0;  // phase in the top byte, then the sequence in which it was asked for
+        std::uint64_t order = 0;  // phase in the top byte, then the sequence number of the request
 
         bool is_before(const Due& other) const { return at < other.at || (at == other.at && order < other.order); }
     };
     struct Change {
         WireId wire{};
-        std::uint16_t reserved = 0;  // padding would get into the state's hash
+        std::uint16_t reserved = 0;  // padding would enter the state's hash
         std::int32_t level = 0;
     };
     struct State {
@@ -188,10 +189,10 @@ class Kernel {
     std::array<std::span<std::byte>, 2> tail();
 
     std::vector<Slot> devices_;
-    std::vector<DeferringDevice*> deferring_;  // those of devices_, in their order
+    std::vector<DeferringDevice*> deferring_;  // subset of devices_, in the same order
     std::vector<Wire> wires_;
     std::vector<Due> due_;
-    std::size_t earliest_ = 0;  // of due_, while it is known
+    std::size_t earliest_ = 0;  // index in due_, while known
     bool knows_earliest_ = false;
     std::vector<WireState> wire_state_;
     std::vector<Change> queue_;  // fixed capacity after start; queue_head_ .. queue_size_

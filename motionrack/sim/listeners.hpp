@@ -1,8 +1,8 @@
-// Who listens to a motion, for those that are one.
+// Listeners of a PositionFunction, for its implementations.
 //
-//   watch(slot, below, above) ──► Watches, in the owner's state: a snapshot has them
-//   the count moves           ──► notify_crossed: who watched a range that is left hears of it, once
-//   the law changes           ──► notify_rate: all hear of it
+//   watch(slot, below, above) ──► Watches, in the owner's state: a snapshot contains them
+//   the count changes         ──► notify_crossed: once to each listener whose range is left
+//   the law changes           ──► notify_rate: to all listeners
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace motionrack::sim {
 
 class Listeners {
   public:
-    /// What each slot watches; open at both ends if nothing.
+    /// Watched range of each slot; open at both ends if unused.
     using Watches = std::array<Range, PositionFunction::max_listeners>;
 
-    /// Before the kernel starts; the listener's slot.
+    /// Adds a listener before the kernel starts; returns its slot.
     int add(PositionListener& listener) {
         MOTIONRACK_ASSERT(size_ < PositionFunction::max_listeners);
         all_[static_cast<std::size_t>(size_)] = &listener;
@@ -29,7 +29,7 @@ class Listeners {
     void notify_rate(double before, double after, Instant now) const {
         for (int i = 0; i < size_; ++i) (*this)[i].rate_changed(before, after, now);
     }
-    /// Whose range `count` has left hears of it, and watches nothing until it says so anew.
+    /// Notifies, and disarms, every listener whose range no longer contains `count`.
     void notify_crossed(Watches& watches, std::int64_t count, Instant now) const {
         for (int i = 0; i < size_; ++i) {
             Range& watch = watches[static_cast<std::size_t>(i)];
@@ -38,7 +38,7 @@ class Listeners {
             (*this)[i].crossed(now);
         }
     }
-    /// The range in which nobody has anything to hear.
+    /// The range in which no listener needs a notification.
     static Range unwatched_range(const Watches& watches) {
         Range all;
         for (const Range& watch : watches) all = all.within(watch);

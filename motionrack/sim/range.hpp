@@ -1,4 +1,4 @@
-// The range that a count has not left, and the interval that it comes into.
+// Watched range of a count, and interval of counts.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace motionrack::sim {
 
-/// What is watched: left as soon as count <= below or count >= above, as Motion::watch has it.
+/// A watched range: left as soon as count <= below or count >= above, as in PositionFunction::watch.
 struct Range {
     std::int64_t below = unwatched_below;
     std::int64_t above = unwatched_above;
@@ -15,7 +15,7 @@ struct Range {
     constexpr bool left(std::int64_t count) const {
         return (count <= below && below != unwatched_below) || (count >= above && above != unwatched_above);
     }
-    /// What lies in both.
+    /// Intersection of both ranges.
     constexpr Range within(const Range& other) const {
         return {std::max(below, other.below), std::min(above, other.above)};
     }
@@ -26,13 +26,13 @@ struct Range {
     friend constexpr bool operator==(const Range&, const Range&) = default;
 };
 
-/// Places in a row, both ends included: a cam, a block.
+/// Consecutive positions, both ends included: a cam, a block.
 struct Interval {
     std::int64_t from = 0;
     std::int64_t to = 0;
 
     constexpr bool has(std::int64_t count) const { return count >= from && count <= to; }
-    /// The range around `count` in which it stays in the interval, before it or behind it.
+    /// Range around `count` in which it stays within, before or behind the interval.
     constexpr Range side_of(std::int64_t count) const {
         if (count < from) return {unwatched_below, from};
         if (count > to) return {to, unwatched_above};

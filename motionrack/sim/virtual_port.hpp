@@ -1,4 +1,4 @@
-// The bus and interrupt line of a virtual card: every access takes bus time, waiting lets the world run.
+// The bus and interrupt line of a virtual card: every access takes bus time, every wait runs the simulation.
 //
 //   driver ──► VirtualPort (16-bit registers) ──┐
 //   driver ──► VirtualBytePort (8-bit ports) ───┴─► VirtualHost ──► Kernel::run_until
@@ -14,7 +14,7 @@
 
 namespace motionrack::sim {
 
-/// A host's time and interrupt input.
+/// Time and interrupt input of a host.
 class VirtualHost : public Interrupt {
   public:
     bool wait(Duration timeout) override;
@@ -22,20 +22,20 @@ class VirtualHost : public Interrupt {
     Instant now() const override { return kernel_.now(); }
     bool stop_requested() const override { return is_set(stop_) || is_set(halted_); }
 
-    /// The flag a signal handler sets (Ctrl-C); may be nullptr.
+    /// The flag of a signal handler (Ctrl-C); may be nullptr.
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
-    /// The flag of the rack's stop latch, which counts as well; may be nullptr.
+    /// The flag of the rack's stop latch, which also counts; may be nullptr.
     void set_halted_flag(const std::atomic<bool>* halted) { halted_ = halted; }
-    /// How long the host takes from an interrupt that wakes it to its next step; 0 at first.
+    /// Delay of the host from an interrupt to its next step; initially 0.
     void set_latency(Duration latency) { latency_ = latency; }
     /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
   protected:
-    /// `interrupt`: the card's line, `active`: its level when an interrupt is asked for. `access`: the time one access
-    /// takes (0 or more). `log` may be nullptr.
+    /// `interrupt`: the card's line, `active`: its level while an interrupt is requested. `access`: duration of one
+    /// access (>= 0). `log` may be nullptr.
     VirtualHost(Kernel& kernel, DeviceId id, WireId interrupt, int active, Duration access, InputLog* log);
-    /// Lets the time of an access pass and notes it.
+    /// Advances the time of an access and logs it.
     void begin_access(InputKind kind, std::uint32_t offset, std::uint16_t value);
 
     Kernel& kernel_;

@@ -1,4 +1,4 @@
-// Copying levels and wants from wire to wire.
+// Copies levels and subscriptions from wire to wire.
 #include <motionrack/sim/wire_connections.hpp>
 #include <utility>
 

@@ -1,7 +1,8 @@
-// Joins wires: the level of one (an output of a part) is that of another (an input of a card), at the same instant.
+// Connects wires: the level of one (an output of a part) becomes that of another (an input of a card) at the same
+// instant.
 //
 //   part ──► from ══ WireConnections ══► to ──► card
-//            from ◄── want ─────── to                    a lazily driven wire stays lazy through a junction
+//            from ◄── subscribe ── to                    a lazily driven wire stays lazy through a connection
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,13 @@
 
 namespace motionrack::sim {
 
-/// All junctions of a rack in one device. Any number may start at one wire; at most one may end at a wire.
+/// All connections of a rack in one device. Any number may start at one wire; at most one may end at a wire.
 class WireConnections final : public Device {
   public:
     explicit WireConnections(Kernel& kernel, std::string name = "junctions");
 
-    /// From now on `to` follows `from`; `inverted`: 0 becomes 1, all else 0. Before Kernel::start, and after `from`'s
-    /// owner has said whether it drives it lazily. A `to` at another level than `from` changes at instant 0.
+    /// Makes `to` follow `from`; `inverted`: 0 becomes 1, every other level 0. Call before Kernel::start, and after a
+    /// lazy driver of `from` is registered. A `to` at another level than `from` changes at instant 0.
     void join(WireId from, WireId to, bool inverted = false);
 
     void on_scheduled(Instant now) override;

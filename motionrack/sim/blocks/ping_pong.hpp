@@ -1,6 +1,6 @@
-// Two buffers between a writer that never waits and a reader that is never shown half of anything.
+// Double buffer between a writer that never waits and a reader that never sees a partial value.
 //
-//   writer ──► [ A ] ──publish──► reader claims A; the writer goes on in B, again and again, until A is given back
+//   writer ──► [ A ] ──publish──► reader claims A; the writer rewrites B until A is released
 //              [ B ]
 #pragma once
 
@@ -9,40 +9,40 @@
 
 namespace motionrack::sim {
 
-/// State only; trivially copyable if T is.
+/// Plain state; trivially copyable if T is.
 template <class T>
 struct PingPong {
     static constexpr std::int32_t none = -1;
 
-    /// The writer begins: the buffer that nobody has claimed, and if both are free the one not published last.
+    /// Begins a write: takes the unclaimed buffer or, if both are free, the one not published last.
     T& begin() {
         filling = claimed != none ? 1 - claimed : published != none ? 1 - published : 0;
         return buffers[static_cast<std::size_t>(filling)];
     }
-    /// What begin() gave.
+    /// The buffer of begin().
     T& current() { return buffers[static_cast<std::size_t>(filling)]; }
     const T& current() const { return buffers[static_cast<std::size_t>(filling)]; }
     bool begun() const { return filling != none; }
-    /// The writer has finished a whole.
+    /// Publishes the complete value.
     void publish() {
         published = filling;
         filling = none;
     }
-    /// The writer gives up; what it began is no longer anybody's.
+    /// Aborts a write; its buffer becomes free.
     void abandon() {
         if (filling == published) published = claimed;
         filling = none;
     }
-    /// The reader takes what was published last; if that is being overwritten, it keeps what it had. nullptr: nothing
+    /// Claims the value published last; while that is being overwritten, the reader keeps its old one. nullptr: none
     /// yet.
     const T* claim() {
         if (published != filling) claimed = published;
         return held();
     }
     void release() { claimed = none; }
-    /// What the reader has claimed; nullptr if nothing.
+    /// The claimed value; nullptr: none.
     const T* held() const { return claimed != none ? &buffers[static_cast<std::size_t>(claimed)] : nullptr; }
-    /// What was published last, whoever reads it; nullptr if nothing or if it is being overwritten.
+    /// The value published last, claimed or not; nullptr: none, or it is being overwritten.
     const T* last() const {
         return published != none && published != filling ? &buffers[static_cast<std::size_t>(published)] : nullptr;
     }

@@ -1,4 +1,4 @@
-// The closed forms of a divided clock.
+// Closed forms of a divided clock.
 #include <algorithm>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/blocks/pulse_train.hpp>
@@ -55,7 +55,7 @@ void PulseTrain::stop(Instant now) {
     notify_rate(before, now);
 }
 
-// ---- Motion
+// ---- PositionFunction
 
 std::int64_t PulseTrain::count(Instant t) const {
     return state_.count + pulses(t) * state_.direction;
@@ -122,8 +122,8 @@ void PulseTrain::hand_over(Instant now) {
     std::int64_t n = from < state_.origin ? 0 : pulses(from);
     while (n < last) {
         batch_.origin = pulse_instant(n + 1);
-        // Edge i of the batch is i periods after its first; the first period may be another one, so it is in a batch of
-        // its own.
+        // Edge i of the batch is i periods after the first edge. The first period may differ, so it is a batch of its
+        // own.
         const std::int64_t most = n == 0 && state_.first != state_.then ? 1 : std::int64_t{EdgeBatch::capacity};
         batch_.tick = clock_ * state_.then;
         batch_.step = state_.direction;

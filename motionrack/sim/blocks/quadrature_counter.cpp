@@ -1,4 +1,4 @@
-// The transition table, and its arithmetic on sixteen samples at a time.
+// The transition table, and vectorised decoding of sixteen samples at a time.
 #include <algorithm>
 #include <cstring>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
@@ -10,7 +10,7 @@ namespace motionrack::sim {
 void ClosedFormCounter::watch(PositionFunction& motion, int slot, std::int64_t below, std::int64_t above) const {
     const bool no_below = below == unwatched_below;
     const bool no_above = above == unwatched_above;
-    // In divided counts of the motion.
+    // In divided counts of the position function.
     std::int64_t low = no_below ? unwatched_below : below - offset_;
     std::int64_t high = no_above ? unwatched_above : above - offset_;
     if (reversed_) {
@@ -34,7 +34,7 @@ namespace {
 
 constexpr int bad = 2;
 
-// [before * 4 + after], lines B A: what counts all edges.
+// [before * 4 + after], lines B A: counts of all edges.
 constexpr int all_edges[16] = {
     /* from 00 */ 0,   +1,  -1,  bad,
     /* from 01 */ -1,  0,   bad, +1,
@@ -52,7 +52,7 @@ int QuadratureDecoder::lines(std::uint8_t lines) {
         return 0;
     }
     if (edges_ != Edges::all) {
-        // The edge's number in the period, from the lower of its two phases.
+        // Index of the edge in the period, from the lower of its two phases.
         const int lower = change > 0 ? before : lines_;
         const int number = (lower ^ (lower >> 1)) - first_;
         if ((number & (edges_ == Edges::both_of_a ? 1 : 3)) != 0) change = 0;
@@ -74,7 +74,7 @@ void QuadratureDecoder::index(int level, bool clear) {
 
 namespace {
 
-// Portable vectors of the compiler: SSE2 on every x86-64, plain code where there are none.
+// Portable vectors of the compiler: SSE2 on every x86-64, scalar code without vector support.
 using Bytes = std::uint8_t __attribute__((vector_size(16)));
 constexpr std::size_t width = sizeof(Bytes);
 
@@ -84,7 +84,7 @@ Bytes load(const std::uint8_t* from) {
     return out;
 }
 
-// The phase 0 .. 3 of lines in Gray code; bytes hold two bits, so a shift of wider lanes would do no harm either.
+// The phase 0 .. 3 of lines in Gray code; bytes hold two bits, so a shift of wider lanes is safe too.
 Bytes phase(Bytes lines) {
     return lines ^ ((lines & 2) != 0 ? Bytes{} + 1 : Bytes{});
 }
@@ -110,7 +110,7 @@ void BatchDecoder::decode(const std::uint8_t* lines, std::size_t size) {
     };
     one(lines_, lines[0]);
     lines_ = lines[size - 1];
-    // Sample i with sample i - 1, from i = 1 on. A byte lane takes at most 255 ones before it is summed.
+    // Sample i with sample i - 1, from i = 1 on. A byte lane sums at most 255 ones.
     std::size_t i = 1;
     while (i + width <= size) {
         const std::size_t blocks = std::min<std::size_t>((size - i) / width, 255);
@@ -128,7 +128,7 @@ void BatchDecoder::decode(const std::uint8_t* lines, std::size_t size) {
 }
 
 void lines_of_batch(const EdgeBatch& batch, std::uint8_t* lines) {
-    // Phases repeat every four edges, so sixteen edges later the lines are the same.
+    // Phases repeat every four edges, so the lines are the same sixteen edges later.
     Bytes row;
     for (std::size_t i = 0; i < width; ++i)
         row[i] = lines_of(batch.first_count + batch.step * static_cast<std::int64_t>(i));

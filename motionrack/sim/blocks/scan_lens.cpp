@@ -1,4 +1,4 @@
-// The optics of two mirrors and an f-theta lens, both ways.
+// Optics of two mirrors and an f-theta lens, forward and inverse.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ double height(const ScanLens& lens, double theta) {
 double slope(const ScanLens& lens, double theta) {
     return lens.f_mm[0] + theta * (2 * lens.f_mm[1] + theta * (3 * lens.f_mm[2] + theta * 4 * lens.f_mm[3]));
 }
-/// Optical radians of a bit.
+/// Optical radians per bit.
 double radians_per_bit(const ScanLens& lens) {
     return 2 * (lens.calibration_deg / 0.96) * (pi / 180) / full_bits;
 }

@@ -1,9 +1,9 @@
-// Two scan mirrors and an f-theta lens: where the spot is in the image plane for what the mirrors are told.
+// Two scan mirrors and an f-theta lens: position of the spot in the image plane for the commanded mirror angles.
 //
 //   beam ──► X mirror ──► Y mirror ──► lens ──► (x, y) mm      tan of the two optical angles,
 //                                                              then height = f1 t + f2 t^2 + ..
 //
-// Card (correction tables) and part (the lens in the beam) are the same optics; it reproduces a maker's own tables
+// Card (correction tables) and part (the lens in the beam) share the same optics. It reproduces a maker's own tables
 // to 1.5 bits.
 #pragma once
 
@@ -22,14 +22,14 @@ struct ScanLens {
     double bits_per_mm = 8656;      ///< K, 1 .. 1e6
 };
 
-/// Ranges, finite numbers, and a height that grows all the way out to the field's corner.
+/// Checks ranges, finite numbers, and that the height increases up to the field's corner.
 Result<void> check(const ScanLens& lens);
 
-/// The spot in mm for mirrors at (x, y) bits, -524288 .. 524288 and a little beyond.
+/// The spot in mm for mirrors at (x, y) bits, -524288 .. 524288 with a small margin.
 Spot spot_of(const ScanLens& lens, Spot bits);
 
-/// The bits that put the spot at (x, y) mm: Newton's method, to about 1e-9 bits where the lens reaches; a place that it
-/// does not reach gives the bits at which the method stopped, beyond the range.
+/// The bits for a spot at (x, y) mm, by Newton's method, to about 1e-9 bits within the reach of the lens. For a
+/// position out of reach it returns the last iterate, which is beyond the range.
 Spot bits_for(const ScanLens& lens, Spot mm);
 
 }  // namespace motionrack::sim

@@ -1,4 +1,4 @@
-// The crossings, rates and faults of one axis; axis_machine_faces.cpp has what others hear of it.
+// Crossings, rates and faults of one axis; axis_mechanics_adapters.cpp has the outputs to listeners.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/parts/edge_generator.hpp>
@@ -8,9 +8,9 @@ namespace motionrack::parts {
 namespace {
 
 constexpr int index_pin = 0;
-/// Of what the motor follows at once: smaller changes of the rate are steps of a ramp.
+/// Part of start_stop_hz: smaller rate changes are steps of a ramp.
 constexpr double ramp_step = 0.125;
-/// A rate that is almost the rotor's would take longer to show than there is time.
+/// Bounds the time to step loss for a rate almost equal to that of the rotor.
 constexpr double max_strain_s = 1e6;
 constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
@@ -65,14 +65,14 @@ std::span<const std::string_view> AxisMechanics::fault_names() {
     return axis_machine_faults;
 }
 
-// ---- What the pulses tell
+// ---- notifications of the pulses
 
 void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now) {
-    // Along a ramp, whose steps the rotor follows as they come.
+    // Along a ramp the rotor follows each step.
     const auto follow = [this](double to) {
         if (state_.strain.deadline == never) state_.strain.steady_hz += to - state_.motor.rate_hz;
     };
-    follow(pulses_before);  // along a curve the rate has drifted since it was told last
+    follow(pulses_before);  // along a curve the rate has drifted since the last notification
     motor_.note_rate(pulses_before);
     feel(now);
     if (std::fabs(rate - pulses_before) <= ramp_step * motor_.settings().start_stop_hz) follow(rate);
@@ -91,7 +91,7 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     notify_rate(motor_.rotor_rate(before), now);
 }
 
-/// Time has passed at the present rate.
+/// Updates the smoothed rate for the elapsed time.
 void AxisMechanics::feel(Instant now) {
     Strain& s = state_.strain;
     const double part = std::min(1.0, to_seconds(now - s.steady_at) * 1e3);
@@ -99,7 +99,7 @@ void AxisMechanics::feel(Instant now) {
     s.steady_at = now;
 }
 
-/// The motor is to follow `rate` and cannot; how long until it shows?
+/// Starts a strain: the motor cannot follow `rate`; computes the time until step loss.
 void AxisMechanics::strain(double rate, Instant now) {
     Strain& s = state_.strain;
     const double told = state_.motor.rate_hz;
@@ -111,7 +111,7 @@ void AxisMechanics::strain(double rate, Instant now) {
     const double full_step = static_cast<double>(motor_.settings().microsteps);
     const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
     const double room = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
-    if (room > 0 && apart == 0) {  // the pulses have the rotor's rate again, before it showed
+    if (room > 0 && apart == 0) {  // the pulses have returned to the rotor's rate before a step loss
         s.deadline = never;
         s.steady_hz = rate;
         s.steady_at = now;
@@ -123,8 +123,8 @@ void AxisMechanics::strain(double rate, Instant now) {
     notify_rate(told, now);
 }
 
-/// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the
-/// pulses since then were not that fast on the whole.
+/// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
+/// loss if the mean pulse rate since then was low enough.
 void AxisMechanics::give_way(Instant now) {
     Strain& s = state_.strain;
     s.deadline = never;
@@ -134,7 +134,7 @@ void AxisMechanics::give_way(Instant now) {
         s.steady_at = now;
         return;
     }
-    pulses_->deliver_edges();  // those before the rotor is lost are still its own
+    pulses_->deliver_edges();  // the pulses before the step loss still move the rotor
     const double rate = state_.motor.rate_hz;
     motor_.note_rate(s.rate_hz);
     change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
@@ -151,7 +151,7 @@ void AxisMechanics::notify_rate(double before, Instant now) {
 }
 
 void AxisMechanics::crossed(Instant now) {
-    state_.aimed = {1, -1};  // a watch that was told of is no more
+    state_.aimed = {1, -1};  // a notified watch is cleared
     if (check_ends(now)) return;
     check(now);
 }
@@ -224,7 +224,7 @@ void AxisMechanics::check_switches(std::int64_t rotor, Instant now) {
 }
 
 void AxisMechanics::check_index(std::int64_t rotor) {
-    // The index may be passed within one microstep: the wire shows it all the same.
+    // The index may be passed within one microstep: the wire shows it nevertheless.
     const int level = encoder_.index(rotor);
     if (state_.index_level == level) kernel_.set_wire(index_wire_, 1 - level);
     kernel_.set_wire(index_wire_, level);
@@ -248,7 +248,7 @@ void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
     }
 }
 
-// Watches the nearest place of all where something happens.
+// Watches the nearest position of any event.
 void AxisMechanics::aim(Instant now) {
     if (checking_) return;
     const std::int64_t rotor = rotor_at(now);
@@ -272,7 +272,7 @@ void AxisMechanics::aim(Instant now) {
     pulses_->watch(slot_, all.below, all.above);
 }
 
-// Asks for the next instant at which something happens without a pulse.
+// Schedules the next event that needs no pulse.
 void AxisMechanics::put_off() {
     Instant next = std::min(state_.pending, state_.strain.deadline);
     for (const LimitSwitch& s : switches_) next = std::min(next, s.next());

@@ -1,12 +1,12 @@
-// One axis of a machine: motor, axle, encoder and switches behind the pulses of a card.
+// Mechanics of one axis: motor, transmission, encoder and switches driven by the pulses of a card.
 //
-//   card's pulses ──Motion──► Stepper ──rotor()──► Transmission ──► position(t) in mm or degrees
+//   card's pulses ───────────► Stepper ──rotor()──► Transmission ──► position(t) in mm or degrees
 //                               │                   └─► limit_plus, limit_minus, home   (wires)
-//                               └─► Encoder ──encoder() Motion──► card,  enc_z          (lazy wire)
+//                               └─► Encoder ──encoder()────────► card,  enc_z          (lazy wire)
 //
-// Nothing is done for a pulse. The machine takes one listener slot of the pulses and watches there the nearest place
-// where anything happens: a switch, the index if someone wants it, an end of travel, a watch on rotor() or encoder(). A
-// step of the pulse rate costs one comparison. Edges are made only while someone listens to them.
+// Single pulses cost no time. The machine uses one listener slot of the pulses and watches the nearest position of an
+// event: a switch, the index if it has subscribers, an end of travel, a watch on rotor() or encoder(). A step of the
+// pulse rate costs one comparison. Edges are generated only for listeners.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@
 
 namespace motionrack::parts {
 
-/// Positions are mm (linear) or degrees (rotary), as axle.travel_per_rev has it.
+/// Positions are in mm (linear) or degrees (rotary), by axle.travel_per_rev.
 struct AxisMechanicsSettings {
     StepperSettings motor;
     TransmissionSettings axle;
@@ -38,41 +38,42 @@ struct AxisMechanicsSettings {
 class AxisMechanics final : public sim::Device, private sim::PositionListener, private sim::EdgeListener {
   public:
     /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home
-    /// where there is such a switch, NAME.enc_z (lazily driven) where there is an encoder.
+    /// for existing switches, NAME.enc_z (lazily driven) for an encoder.
     AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings);
     ~AxisMechanics() override;
     AxisMechanics(const AxisMechanics&) = delete;
     AxisMechanics& operator=(const AxisMechanics&) = delete;
 
-    /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its
-    /// start position and is that of the pulses on the wire: writing a card's position register must not change it.
+    /// Sets the source of the motor's pulses; once, before Kernel::start. Count 0 is the start position. The count is
+    /// that of the pulses on the wire: a write to a card's position register must not change it.
     void connect(sim::PositionFunction& pulses);
 
-    /// The rotor in microsteps (pulses), 0 at the start. Up to Motion::max_listeners listeners, one edge listener.
+    /// The rotor in microsteps (pulses), 0 at the start. Up to PositionFunction::max_listeners listeners, one edge
+    /// listener.
     sim::PositionFunction& rotor();
-    /// The encoder's counts as a decoder at the end of its lines sees them, 0 at the start. As rotor(); without encoder
-    /// it stays 0.
+    /// The encoder's counts as a decoder at the end of its lines counts them, 0 at the start. Otherwise as rotor();
+    /// without an encoder it stays 0.
     sim::PositionFunction& encoder();
     bool has_encoder() const { return encoder_.present(); }
     /// The lines A and B at `t`.
     Lines encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
-    /// Hears the edges of the pulses themselves, of which there can be one listener only: this machine, if it makes
-    /// edges.
+    /// Sets the listener for the edges of the pulses. The pulses have only one edge listener, which is this machine if
+    /// it generates edges.
     void listen_pulse_edges(sim::EdgeListener* listener);
 
-    /// The truth: where the table is at `t` (not before the last event, not after the present), mm or degrees.
+    /// True position of the table at `t` (not before the last event, not after the present), mm or degrees.
     double position(Instant t) const { return axle_.position(rotor_at(t)); }
-    /// How fast the rotor moves the table by the present law, mm/s or degrees/s, signed.
+    /// True velocity of the table by the present law, mm/s or degrees/s, signed.
     double speed() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
-    /// Pulses - rotor at `t`: 0 while nothing was lost; a multiple of 4 full steps while in step.
+    /// Pulses - rotor at `t`: 0 without step loss; a multiple of 4 full steps while in step.
     std::int64_t lost_steps(Instant t) const { return pulses_at(t) - rotor_at(t); }
     std::int64_t lost_steps() const { return lost_steps(kernel_.now()); }
     bool in_step() const { return motor_.in_step(); }
-    /// The greatest speed so far at which the motor was in step, mm/s or degrees/s.
+    /// Highest velocity so far with the motor in step, mm/s or degrees/s.
     double top_speed() const { return state_.top_hz * axle_.units_per_pulse(); }
     double units_per_pulse() const { return axle_.units_per_pulse(); }
 
-    /// The machine's wires; WireId::none if the part is absent.
+    /// Wires of the machine; WireId::none if the part is absent.
     sim::WireId limit_minus_wire() const { return switch_wire_[0]; }
     sim::WireId limit_plus_wire() const { return switch_wire_[1]; }
     sim::WireId home_wire() const { return switch_wire_[2]; }
@@ -83,8 +84,8 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     const LimitSwitch& limit_plus() const { return switches_[1]; }
     const LimitSwitch& home() const { return switches_[2]; }
 
-    /// The faults that fault() knows:
-    ///   motor.stall            the axle is held fast while not 0
+    /// Faults that fault() accepts:
+    ///   motor.stall            the axle is blocked while not 0
     ///   motor.lose_steps n     the rotor falls back against its motion by about n pulses (see Stepper::push)
     ///   motor.push n           the rotor is moved by about n microsteps
     ///   encoder.broken_a, encoder.broken_b, encoder.swapped       while not 0, one at a time
@@ -119,15 +120,14 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         MechanicsAdapter face_;
     };
     struct Watch {
-        Range counts;  // what the listener asked for
+        Range counts;  // requested by the listener
         Range rotor;   // the same, in microsteps
     };
-    /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have
-    /// gone one full step away from where the rate before would have them, not sooner: a pulse early or late does no
-    /// harm.
+    /// The pulse rate has changed by more than the motor follows at once. Step loss occurs when the pulses deviate by
+    /// one full step from the previous rate, not sooner: a pulse that is early or late has no effect.
     struct Strain {
         double steady_hz =
-            0;  // the rate as the rotor's inertia feels it: the pulses' rate, its jumps smoothed over a millisecond
+            0;  // the rate that the rotor's inertia follows: the pulse rate with jumps smoothed over a millisecond
         Instant steady_at{};
         double rate_hz = 0;  // the steady rate when the strain began
         Instant since{};
@@ -141,11 +141,11 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         EncoderState encoder;
         std::array<LimitSwitchState, switch_count> switches;
         std::array<std::array<Watch, slots>, face_count> watches;
-        Range index;  // rotor range in which the index line does not change, while it is wanted
-        Range aimed;  // what is watched at the pulses
+        Range index;  // rotor range of a constant index line, while subscribed
+        Range aimed;  // watched range of the pulses
         double top_hz = 0;
-        Instant pending = never;       // when a watch that is left already is to be told
-        std::int64_t edges_until = 0;  // the rotor after the last edge handed over
+        Instant pending = never;       // instant of the notification for a watch that is already left
+        std::int64_t edges_until = 0;  // the rotor after the last delivered edge
         Instant last_edge{};           // the instant of that edge
         std::int32_t index_wanted = 0;
         std::int32_t index_level = 0;
@@ -163,7 +163,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     int add_listener(MechanicsAdapter face, sim::PositionListener& listener);
     void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
 
-    /// Runs `change` of the motor, which may move the rotor or take it out of step, and lets everything know.
+    /// Runs `change` of the motor, which may move the rotor or cause a step loss, and updates all dependent state.
     template <class Change>
     void change_motor(Instant now, Change change);
     void report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor);
@@ -201,7 +201,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};
     sim::EdgeListener* pulse_edges_ = nullptr;
     std::unique_ptr<EdgeMaker> maker_;
-    bool checking_ = false;  // within check(): aim() waits for its end
+    bool checking_ = false;  // within check(): defers aim() to its end
 };
 
 }  // namespace motionrack::parts

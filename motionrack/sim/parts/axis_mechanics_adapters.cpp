@@ -1,4 +1,4 @@
-// What others see and hear of one axis: rotor and encoder as motions, the index wire, the edges.
+// Outputs of one axis: rotor and encoder as position functions, the index wire, the edges.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/parts/edge_generator.hpp>
@@ -74,7 +74,8 @@ void AxisMechanics::edges(const sim::EdgeBatch& batch) {
     if (pulse_edges_) pulse_edges_->edges(batch);
     if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
     std::int64_t size = batch.size;
-    // A rotor that has just met its end of travel still owes the edges up to there; one that stands owes none.
+    // A rotor that has just reached its end of travel still delivers the edges up to there; a stationary one delivers
+    // none.
     if (!motor_.in_step())
         size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
     if (size == 0) return;

@@ -1,4 +1,4 @@
-// Sentences for the conditions of a simulated axis.
+// Messages for the conditions of a simulated axis.
 #include <fmt/format.h>
 
 #include <motionrack/sim/parts/conditions.hpp>

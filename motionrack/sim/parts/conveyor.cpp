@@ -1,4 +1,4 @@
-// Travel of belts and rotary tables, and what their encoder counts.
+// Travel of belts and rotary tables, and the counts of their encoder.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double track_tick_s = 1e-5;
 
-/// -1 .. 1, the same for the same tick.
+/// Pseudo-random value -1 .. 1, a function of the tick.
 double tremble(std::int64_t tick) {
     return static_cast<double>(mixed_bits(static_cast<std::uint64_t>(tick) + golden_step) >> 11) * 0x1p-52 - 1;
 }
@@ -29,7 +29,7 @@ bool within(double v, double least, double greatest) {
     return v >= least && v <= greatest;
 }
 
-/// The first time at which something has gone `way` (0 or more) upwards; infinity if it never does.
+/// The first time at which an object has moved `way` (>= 0) upwards; infinity if never.
 double time_for(double way, double speed, double accel) {
     constexpr double never_s = std::numeric_limits<double>::infinity();
     if (!(way < never_s)) return never_s;
@@ -124,7 +124,7 @@ double Conveyor::driven(double law, double t_s) const {
 
 double Conveyor::travel_by_hand(double after_s) const {
     const Driving& d = driving_;
-    const double missing_s = std::max(0.0, d.ramp_s - after_s);  // of the ramp
+    const double missing_s = std::max(0.0, d.ramp_s - after_s);  // remaining part of the ramp
     return d.speed * after_s - d.accel / 2 * (d.ramp_s * d.ramp_s - missing_s * missing_s);
 }
 
@@ -148,7 +148,7 @@ void Conveyor::follow_profile(double t_s) {
 double Conveyor::leaves(double from_s, double low, double high) const {
     constexpr double never_s = std::numeric_limits<double>::infinity();
     for (;;) {
-        // One piece of even acceleration after the other.
+        // Steps through the sections of constant acceleration.
         const auto& p = settings_.profile;
         double accel = 0, end_s = never_s;
         if (const Driving& d = driving_; d.by_hand && from_s < d.since_s + d.ramp_s) {
@@ -173,7 +173,7 @@ void Conveyor::counts(std::int64_t first_tick, std::span<std::int32_t> out) cons
         return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * track_tick_s;
     };
     for (std::size_t begin = 0; begin < out.size();) {
-        // The profile is looked through once a stretch, not once a tick.
+        // The profile is searched once per section, not once per tick.
         const std::ptrdiff_t point = point_before(time(begin));
         std::size_t end = out.size();
         if (point_before(time(end - 1)) != point)

@@ -1,4 +1,4 @@
-// The speed of a track, changed.
+// Speed changes of a conveyor.
 #include <array>
 #include <cmath>
 #include <motionrack/sim/parts/conveyor_drive.hpp>

@@ -1,12 +1,11 @@
-// What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile
-// says again.
+// Drive of a conveyor in virtual time: its speed can be set manually, or follow its profile again.
 //
 //   ConveyorDrive ──► Conveyor ──┬─► ConveyorPosition: counts of an encoder
 //                                ├─► ConveyorPosition: position of the parts
 //                                └─► ScanHead, SerialWordSource
 //
-// The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile
-// (its own profile again).
+// Faults: drive.speed x (x mm/s or degrees/s from now on, up to the maximum speed; 0: standstill), drive.profile
+// (follow the profile again).
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
@@ -20,18 +19,18 @@ namespace motionrack::parts {
 
 class ConveyorDrive final : public sim::Device {
   public:
-    /// Adds the device `name` to the kernel, before it starts. `max_velocity`: at most max_track_speed.
+    /// Adds the device `name` to the kernel before it starts. `max_velocity`: at most max_track_speed.
     ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
                   double max_velocity = max_track_speed);
 
     const Conveyor& track() const { return track_; }
     sim::DeviceId id() const { return id_; }
-    /// Before the start: hears that the speed has changed.
+    /// Adds a listener for speed changes; before the start.
     void add(ConveyorPosition& motion) { motions_.push_back(&motion); }
     static std::span<const std::string_view> fault_names();
 
     // ---- between runs
-    /// Brakes to a standstill, with its deceleration; `go_on`: as its profile says.
+    /// Decelerates to a standstill; `go_on`: follows the profile again.
     void stop(Instant now);
     void go_on(Instant now);
     bool stopped(Instant now) const { return track_.by_hand() && track_.speed(to_seconds(now)) == 0; }

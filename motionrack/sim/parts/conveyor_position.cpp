@@ -1,4 +1,4 @@
-// When a track's count is left.
+// Instants at which the count of a conveyor leaves a range.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +28,7 @@ double ConveyorPosition::rate(Instant t) const {
     return track_.speed(to_seconds(t)) * per_unit_;
 }
 
-/// The first instant at or after `from` at which the count is out of the range; it is in it at `from`.
+/// The first instant at or after `from` at which the count is out of the range; at `from` it is within.
 Instant ConveyorPosition::leaves(const Range& range, Instant from) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double low = range.below == sim::unwatched_below ? -infinity : static_cast<double>(range.below + 1) / per_unit_;
@@ -39,7 +39,7 @@ Instant ConveyorPosition::leaves(const Range& range, Instant from) const {
     }
     const double at_s = track_.leaves(to_seconds(from), low, high);
     if (!(at_s < endless_s / 2)) return never;
-    // The solution is near; the instant is the first tick of which the count itself says so.
+    // Searches near the solution for the first tick at which the count itself is out of the range.
     const Instant first = from + Duration{1};
     Instant at = std::max(first, Instant{static_cast<std::int64_t>(at_s * track_ticks_per_s)});
     Duration step{1};
@@ -79,7 +79,7 @@ void ConveyorPosition::set_edge_listener(sim::EdgeListener* listener) {
     edges_ = listener;
 }
 
-/// The edges since they were handed over last, each found by itself.
+/// Delivers the edges since the last delivery, each computed separately.
 void ConveyorPosition::hand_over(Instant now) {
     Instant at = state_.handed;
     state_.handed = now;

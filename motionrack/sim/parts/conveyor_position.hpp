@@ -1,8 +1,8 @@
-// A track as a motion in virtual time: its travel in counts, with the instants at which a count is left.
+// A conveyor as a position function in virtual time: its travel in counts, with the instants at which a range is left.
 //
-//   Conveyor (travel as a function of time) ──► floor(travel * counts a unit) ──► encoder, part sensor
+//   Conveyor (travel as a function of time) ──► floor(travel * counts per unit) ──► encoder, part sensor
 //
-// The count is a closed form of the time; nothing is done for a count that nobody watches.
+// The count is a closed form of time; an unwatched count costs no time.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,8 @@ namespace motionrack::parts {
 
 class ConveyorPosition final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
-    /// Adds the device `name` to the kernel, before it starts. `track` must live as long; not 0 counts a unit.
+    /// Adds the device `name` to the kernel before it starts. `track` must outlive it; its counts per unit must not be
+    /// 0.
     ConveyorPosition(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double counts_per_unit);
 
     std::int64_t count(Instant t) const override;
@@ -28,8 +29,8 @@ class ConveyorPosition final : public sim::DeferringDevice, public sim::Position
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
 
-    /// The track goes otherwise from now on; `speed_before`: its speed() until now. Edges up to now must have been
-    /// handed over.
+    /// Records a change of the conveyor's motion; `speed_before`: its speed() until now. Edges up to now must have been
+    /// delivered.
     void changed(double speed_before);
 
     void on_scheduled(Instant now) override;
@@ -40,7 +41,7 @@ class ConveyorPosition final : public sim::DeferringDevice, public sim::Position
     struct State {
         sim::Listeners::Watches watches{};
         Instant handed{};
-        std::int64_t handed_count = 0;  ///< after the last edge handed over
+        std::int64_t handed_count = 0;  ///< after the last delivered edge
     };
 
     Instant leaves(const Range& range, Instant from) const;

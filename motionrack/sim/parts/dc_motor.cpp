@@ -1,4 +1,4 @@
-// Laws of the rotor, and where they bring it.
+// Laws of motion of the rotor, and their end points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 3> dc_motor_faults = {"motor.load", "motor.stall", "motor.push"};
 constexpr Duration grid = microseconds(1);
 constexpr double grid_s = 1e-6;
-/// The rate is told again when the speed has changed by this part of the top speed.
+/// Listeners are notified of speed changes by this part of the top speed.
 constexpr double telling = 1.0 / 16;
 
 int sign_of(double x) {
@@ -46,7 +46,7 @@ double DcMotor::wanted_speed() const {
     return sign_of(state_.volts) * std::min(volts * settings_.gain, settings_.top_speed);
 }
 
-/// How it goes on from `speed` with the present voltage and load.
+/// Law of motion from `speed` on with the present voltage and load.
 DcMotorModel DcMotor::law_from(double speed) const {
     const double inertia = 1 + state_.load;
     const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
@@ -67,7 +67,7 @@ DcMotorModel DcMotor::law_from(double speed) const {
     if (std::fabs(error) > limit * lag * (1 + 1e-9)) {
         law.aim = sign_of(error) * limit - direction * friction;
         if (law.aim == 0) return law;
-        const double full = wanted - sign_of(error) * limit * lag;  // here the current comes off its limit
+        const double full = wanted - sign_of(error) * limit * lag;  // speed at which the current leaves its limit
         if ((full - speed) / law.aim > 0) ends((full - speed) / law.aim, full);
         if (law.aim * direction < 0) ends(-speed / law.aim, 0);
         ends(step / std::fabs(law.aim), speed + sign_of(law.aim) * step);
@@ -125,7 +125,7 @@ void DcMotor::begin_law(double speed, Instant now) {
     state_.law = law_from(speed);
 }
 
-/// Voltage, load or a hand have changed something.
+/// Handles a change of voltage, load or position by hand.
 void DcMotor::change(Instant now) {
     const double before = rate(now);
     begin_law(state_.held ? 0 : before, now);
@@ -146,7 +146,7 @@ Instant DcMotor::law_end() const {
     return state_.since + grid * static_cast<std::int64_t>(std::ceil(state_.law.end / grid_s));
 }
 
-/// The first instant of the present law at which the count is there; never if it does not come there.
+/// The first instant of the present law at which the count is reached; never if it is not.
 Instant DcMotor::reaches(std::int64_t there) const {
     const int direction = state_.law.direction();
     const Instant end = law_end();
@@ -180,7 +180,7 @@ Instant DcMotor::next(Instant now) const {
     return std::max(next, now);
 }
 
-/// At an end of travel the rotor stands at once.
+/// Stops the rotor at once at an end of travel.
 bool DcMotor::meet_ends(Instant now) {
     const int direction = state_.law.direction();
     const std::int64_t here = count(now);
@@ -249,7 +249,7 @@ void DcMotor::set_edge_listener(sim::EdgeListener* listener) {
     edges_ = listener;
 }
 
-/// The edges since they were handed over last, each found by itself.
+/// Delivers the edges since the last delivery, each computed separately.
 void DcMotor::hand_over(Instant now) {
     const Instant from = std::max(state_.handed, state_.since);
     state_.handed = now;

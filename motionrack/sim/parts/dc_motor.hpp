@@ -1,16 +1,16 @@
-// A DC motor with tacho behind a servo amplifier: the speed follows the voltage, with a lag, as far as current and load
-// let it.
+// A DC motor with tachometer on a servo amplifier: the speed follows the voltage with a lag, within the limits of
+// current and load.
 //
-//   volts --dead band--> x gain --saturation--> wanted speed --(current limit)--> torque --(inertia, friction)--> speed
-//                                                    ^------------ tacho -----------------------------------------'
+//   volts --dead band--> x gain --saturation--> commanded speed -(current limit)-> torque -(inertia, friction)--> speed
+//                                                    ^------------ tachometer ------------------------------------'
 //
-//   speed ^        ______ wanted          ramp: the current is at its limit, the speed rises evenly
-//         |     .-'                       lag: the rest of the way, 1/e of it each `lag`
-//         |    /                          stop: the same downwards; friction ends it, so that the rotor stands
+//   speed ^        ______ commanded       ramp: the current is at its limit, the speed rises linearly
+//         |     .-'                       lag: the remaining change, 1/e of it each `lag`
+//         |    /                          stop: the same downwards; friction ends it, so the rotor reaches standstill
 //         +---/--------------> time       after a finite time
 //
 // Between two changes of the voltage there are at most a ramp, a lag and a standstill; each is a closed form of time.
-// The rotor is looked at every whole microsecond of a law.
+// The rotor is evaluated at every whole microsecond of a law.
 #pragma once
 
 #include <cstdint>
@@ -25,37 +25,37 @@
 
 namespace motionrack::parts {
 
-/// Of the amplifier and the motor alone; counts are those of the rotor's encoder.
+/// Settings of the amplifier and the unloaded motor; counts are those of the rotor's encoder.
 struct DcMotorSettings {
-    double gain = 10'000;                     ///< > 0: counts a second for a volt
-    double top_speed = 100'000;               ///< > 0, at most 1e6: counts/s; saturation of the amplifier
-    double top_accel = 2e6;                   ///< counts/s2 at the current limit; greater than the friction
-    double lag_s = 0.01;                      ///< 0.0001 .. 10: the time constant of the speed
-    double friction = 20'000;                 ///< counts/s2, >= 0: how fast it would brake without current
-    double dead_band_v = 0.005;               ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
-    double load = 0;                          ///< 0 .. 1000: the load's inertia in units of the motor's own
-    std::optional<std::int64_t> end_minus{};  ///< counts where it runs into an end of travel; 0 lies between
+    double gain = 10'000;        ///< > 0: counts/s per volt
+    double top_speed = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
+    double top_accel = 2e6;      ///< counts/s2 at the current limit; greater than the friction
+    double lag_s = 0.01;         ///< 0.0001 .. 10: time constant of the speed
+    double friction = 20'000;    ///< counts/s2, >= 0: deceleration without current
+    double dead_band_v = 0.005;  ///< V, 0 .. 5: smaller voltages have no effect; larger ones are reduced by it
+    double load = 0;             ///< 0 .. 1000: inertia of the load relative to the motor
+    std::optional<std::int64_t> end_minus{};  ///< counts of the end of travel; 0 lies between the ends
     std::optional<std::int64_t> end_plus{};
 };
 
-/// One stretch of motion, times in seconds from its beginning.
+/// One section of motion, times in seconds from its start.
 struct DcMotorModel {
-    double speed0 = 0;  ///< counts/s at the beginning
-    double aim = 0;     ///< lag: the speed that it tends to; ramp: counts/s2
+    double speed0 = 0;  ///< counts/s at the start
+    double aim = 0;     ///< lag: the speed that it approaches; ramp: counts/s2
     double lag = 0;     ///< s; 0: a ramp
-    double end = 0;     ///< s; the law holds up to here, `endless`: for ever
-    double after = 0;   ///< the speed at the end
+    double end = 0;     ///< s; the law is valid up to here, `endless`: without limit
+    double after = 0;   ///< speed at the end
     static constexpr double endless = 1e9;
 
     double way(double seconds) const;
     double speed(double seconds) const;
-    /// +1, -1, or 0: it stands.
+    /// +1, -1, or 0 at standstill.
     int direction() const;
 };
 
 class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
-    /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
+    /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel before it starts.
     DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,
             const std::string& wire = {});
 
@@ -69,16 +69,16 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
 
     /// The rotor in counts, with its fraction.
     double position(Instant t) const;
-    /// What the tacho gives, as a part of the top speed.
+    /// Output of the tachometer, as a part of the top speed.
     double tacho(Instant t) const { return rate(t) / settings_.top_speed; }
-    /// +1, -1: stands at that end of travel.
+    /// +1, -1: stationary at that end of travel.
     int blocked() const { return state_.blocked; }
     double volts() const { return state_.volts; }
     sim::WireId drive_wire() const { return drive_; }
     sim::DeviceId id() const { return id_; }
     const DcMotorSettings& settings() const { return settings_; }
 
-    /// motor.load x: the load's inertia; motor.stall: held fast while not 0; motor.push n: moved by n counts by hand.
+    /// motor.load x: inertia of the load; motor.stall: blocked while not 0; motor.push n: moved by n counts by hand.
     static std::span<const std::string_view> fault_names();
 
     void on_scheduled(Instant now) override;
@@ -90,12 +90,12 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
   private:
     struct State {
         std::int64_t base = 0;  ///< counts at `since`
-        double part = 0.5;      ///< of a count, at `since`
+        double part = 0.5;      ///< fraction of a count, at `since`
         Instant since{};
         DcMotorModel law;
         double volts = 0;
         double load = 0;
-        double told = 0;  ///< the rate that listeners know
+        double told = 0;  ///< the rate last sent to listeners
         Instant handed{};
         sim::Listeners::Watches watches{};
         std::int32_t blocked = 0;

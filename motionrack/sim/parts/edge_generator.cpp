@@ -40,7 +40,7 @@ void AxisMechanics::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& 
     for (std::uint32_t i = 0; i < size; ++i) {
         const std::int64_t at = batch.at[i];
         rest += batch.step * num;
-        std::int64_t counts = 0;  // that this microstep turns the disc by
+        std::int64_t counts = 0;  // counts of the disc for this microstep
         for (; rest >= den; rest -= den) ++counts;
         for (; rest < 0; rest += den) ++counts;
         if (counts == 0) continue;

@@ -1,4 +1,4 @@
-// An emergency stop button: a mushroom that stays in until it is turned; its contact opens, and so does a broken wire.
+// An emergency stop button: a latching mushroom button, released by a turn. Its contact opens, as does a broken wire.
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
@@ -9,7 +9,7 @@ namespace motionrack::parts {
 
 class EmergencyButton final : public sim::Device {
   public:
-    /// Adds the device `name` and its wire of the same name (1: pressed, no current) to the kernel, before it starts.
+    /// Adds the device `name` and its wire of the same name (1: pressed, no current) to the kernel before it starts.
     EmergencyButton(sim::Kernel& kernel, const std::string& name)
         : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, name)), wire_(kernel.add_wire(name, 0)) {}
 
@@ -21,7 +21,7 @@ class EmergencyButton final : public sim::Device {
 
     void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
-    /// pressed, broken (wire): while not 0.
+    /// Faults while not 0: pressed, broken (wire).
     bool fault(std::string_view name, double value, Instant) override {
         if (name == "pressed")
             set(value != 0, state_.broken);

@@ -1,4 +1,4 @@
-// The encoder's closed forms.
+// Closed forms of the encoder.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
 #include <numeric>
@@ -15,7 +15,7 @@ int phase_of(std::int64_t disc) {
     return static_cast<int>(disc & 3);
 }
 
-/// The phase that the lines have behind the fault, when the disc is in `phase`.
+/// Phase of the lines with the fault, for the disc in `phase`.
 int faulty_phase(LineFault fault, int phase) {
     Lines l = lines_of_phase[phase];
     if (fault == LineFault::broken_a) l.a = 0;
@@ -63,8 +63,8 @@ void Encoder::set_fault(LineFault fault, std::int64_t rotor) {
     if (fault == state_.fault) return;
     const std::int64_t at = disc(rotor);
     const std::int64_t count = seen(at);
-    // The decoder sees the lines change from one phase to another: at most one count, or two (taken as up) if both
-    // lines change.
+    // The decoder receives a change of the lines from one phase to another: at most one count, or two (taken as up) if
+    // both lines change.
     const int change = (faulty_phase(fault, phase_of(at)) - faulty_phase(state_.fault, phase_of(at))) & 3;
     const std::int64_t after = count + (change == 3 ? -1 : change);
     state_.fault = fault;

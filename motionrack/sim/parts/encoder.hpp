@@ -1,13 +1,12 @@
-// A quadrature encoder on the rotor: counts as an exact ratio of microsteps, lines A, B and Z, and what broken wiring
-// makes of them.
+// A quadrature encoder on the rotor: counts as an exact ratio of microsteps, lines A, B and Z, and wiring faults.
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B
 //   A      ...  _/~~~~~~~\_______/~~       A high in phases 1 and 2
 //   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3
-//   Z      ...  ~~~\________ ... __/~~~    one count wide, where count is a multiple of counts_per_rev
+//   Z      ...  ~~~\________ ... __/~~~    one count wide, at multiples of counts_per_rev
 //
-// A line that is broken reads low: the other line alone makes a decoder count to and fro by one. Swapped lines count
-// backwards. Both are closed forms of the true count, so nothing needs to be counted edge by edge.
+// A broken line reads low: with only the other line a decoder's count alternates by one. Swapped lines count backwards.
+// Both are closed forms of the true count, so no edges need to be counted.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +15,13 @@
 namespace motionrack::parts {
 
 struct EncoderSettings {
-    std::int64_t counts_per_rev = 4000;  ///< quadrature counts (4 a line) of one turn; 0: there is no encoder
+    std::int64_t counts_per_rev = 4000;  ///< quadrature counts (4 per line) of one revolution; 0: no encoder
 };
 
 enum class LineFault : std::int32_t { none, broken_a, broken_b, swapped };
 
 struct EncoderState {
-    std::int64_t shift = 0;  ///< what the faults so far have done to the count; a multiple of 4
+    std::int64_t shift = 0;  ///< change of the count by faults so far; a multiple of 4
     LineFault fault = LineFault::none;
     std::int32_t reserved = 0;
 };
@@ -39,17 +38,17 @@ class Encoder {
     Encoder(const EncoderSettings& settings, std::int64_t pulses_per_rev, EncoderState& state);
 
     bool present() const { return settings_.counts_per_rev > 0; }
-    /// What the disc shows: floor(rotor * counts_per_rev / pulses_per_rev).
+    /// Count of the disc: floor(rotor * counts_per_rev / pulses_per_rev).
     std::int64_t disc(std::int64_t rotor) const { return num_ == den_ ? rotor : floor_div(Wide{rotor} * num_, den_); }
-    /// What a quadrature decoder at the end of the lines has counted.
+    /// Count of a quadrature decoder at the end of the lines.
     std::int64_t count(std::int64_t rotor) const { return seen(disc(rotor)); }
-    /// The count's rate, counts/s, when the rotor turns at `rotor_rate` microsteps/s.
+    /// Rate of the count, counts/s, at `rotor_rate` microsteps/s.
     double rate(double rotor_rate) const;
     Lines lines(std::int64_t rotor) const;
-    /// The index line: not touched by faults of A and B.
+    /// The index line: not affected by faults of A and B.
     int index(std::int64_t rotor) const { return floor_mod(disc(rotor), settings_.counts_per_rev) == 0; }
 
-    /// The rotor range around `rotor` in which `counts` is not left; if it is left already, the range is empty.
+    /// The rotor range around `rotor` within which the count stays in `counts`; empty if it is left already.
     Range rotor_range(const Range& counts, std::int64_t rotor) const;
     /// The rotor range around `rotor` in which the index line does not change.
     Range index_range(std::int64_t rotor) const;
@@ -57,11 +56,11 @@ class Encoder {
     void set_fault(LineFault fault, std::int64_t rotor);
     LineFault fault() const { return state_.fault; }
 
-    /// What the count becomes when the disc shows `disc`.
+    /// Count for the disc count `disc`.
     std::int64_t seen(std::int64_t disc) const;
-    /// Counts are microsteps, untouched: batches of edges can be handed through.
+    /// True if counts equal microsteps, without faults: batches of edges can be passed through.
     bool transparent() const { return num_ == den_ && state_.fault == LineFault::none && state_.shift == 0; }
-    /// Counts a microstep as a ratio in lowest terms.
+    /// Counts per microstep as a ratio in lowest terms.
     std::int64_t ratio_num() const { return num_; }
     std::int64_t ratio_den() const { return den_; }
 

@@ -1,4 +1,4 @@
-// Where the edges are, and watching for them.
+// Positions of the edges, and watches for them.
 #include <cstdlib>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/encoder_part.hpp>
@@ -20,9 +20,9 @@ EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Posi
 
 // ---- geometry
 
-/// The first place at which the count is n or more.
+/// The first position with a count of n or more.
 std::int64_t EncoderPart::place_of(std::int64_t n) const {
-    // Displacements in 2^-20 counts, so that all that follows is whole numbers.
+    // Displacements in 2^-20 counts, so all further arithmetic is in whole numbers.
     constexpr std::int64_t fine = 1 << 20;
     const double early = displacement(floor_mod(n, turn_)) * static_cast<double>(fine);
     const auto whole = static_cast<std::int64_t>(early < 0 ? early - 0.5 : early + 0.5);
@@ -31,7 +31,7 @@ std::int64_t EncoderPart::place_of(std::int64_t n) const {
 }
 
 std::int64_t EncoderPart::count_at(std::int64_t place) const {
-    // The count before is near, unless the place has jumped.
+    // The previous count is near, unless the position has jumped.
     const std::int64_t straight = floor_div(Wide{place} * turn_, place_per_turn_);
     std::int64_t n = std::llabs(straight - state_.count) < turn_ ? state_.count : straight;
     while (place_of(n + 1) <= place) ++n;
@@ -53,7 +53,7 @@ void EncoderPart::look(Instant now) {
         return;
     }
     if (state_.was_blind) {
-        // What turned unseen is known within a turn only: the shorter way is gone.
+        // Motion while blind is known only within a revolution: the shorter way is assumed.
         const std::int64_t away = state_.count - output_.shown();
         output_.rename(floor_div(away + turn_ / 2, turn_) * turn_);
         state_.was_blind = 0;

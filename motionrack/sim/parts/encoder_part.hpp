@@ -1,10 +1,10 @@
-// What turns a place into the lines of an encoder: a disc or scale whose edges are where they should be, or nearly.
+// Generates the lines of an encoder from a position: a disc or scale whose edges have small displacements.
 //
-//   Motion (fine counts of a rotor, a carriage) ──► edge n at place n * den / num, less its displacement
+//   PositionFunction (fine counts of a rotor, a carriage) ──► edge n at n * den / num, less its displacement
 //       ──► LineOutput ──► a b z
 //
-// One edge is one event: the part watches the place for the next edge on either side. For axes that only count, a
-// Motion connected to the card as a whole costs nothing for an edge; this part is for those whose lines matter.
+// One edge is one event: the part watches the position for the next edge on either side. An axis that only needs counts
+// connects a position function directly, without cost per edge; this part is for axes whose lines matter.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     sim::WireId a() const { return output_.a(); }
     sim::WireId b() const { return output_.b(); }
     sim::WireId z() const { return output_.z(); }
-    /// What the disc shows: the count that a perfect encoder and counter would have, 0 at place 0.
+    /// Count of a perfect encoder and counter, 0 at position 0.
     std::int64_t count() const { return state_.count; }
     sim::DeviceId id() const { return id_; }
-    /// Counts that were too quick for the electronics, in all.
+    /// Total of counts that were too fast for the electronics.
     std::int64_t lost() const { return output_.lost(); }
 
     void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
-    /// Those of LineOutput, also with "encoder." before them.
+    /// Faults of LineOutput, also with the prefix "encoder.".
     bool fault(std::string_view name, double value, Instant now) override;
 
   protected:
@@ -38,24 +38,24 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t turn,
                 std::int64_t place_per_turn, const LineOutputSettings& lines);
 
-    /// How far edge n (0 .. turn - 1) is seen too early, in counts; less than a quarter of a turn, and so smooth that
-    /// edges keep their order.
+    /// Displacement of edge n (0 .. turn - 1) towards early, in counts; less than a quarter of a revolution, and smooth
+    /// enough to keep the order of edges.
     virtual double displacement(std::int64_t n) const = 0;
-    /// True: nothing can be seen, the lines stay.
+    /// True: the encoder is blind, the lines are constant.
     virtual bool blind() const { return false; }
-    /// A fault's name without the "encoder." that may stand before it.
+    /// A fault's name without the optional prefix "encoder.".
     static std::string_view bare(std::string_view fault_name);
-    /// After displacement or blind have changed.
+    /// Call after a change of displacement or blind.
     void look_again(Instant now);
     std::int64_t turn() const { return turn_; }
 
     LineOutput& output() { return output_; }
 
-    /// For the parts' own state.
+    /// State of the derived parts.
     struct State {
         LineOutputState lines;
         std::int64_t count = 0;
-        std::int64_t own[4] = {};  ///< of the derived part
+        std::int64_t own[4] = {};  ///< state of the derived part
         std::uint32_t begun = 0;
         std::uint32_t was_blind = 0;
     };

@@ -1,4 +1,4 @@
-// The mirrors' motion, tick by tick, with the exact solution of the lag over a tick.
+// Motion of the mirrors, tick by tick, with the exact solution of the lag over a tick.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ Matrix times(const Matrix& a, const Matrix& b) {
     return {a[0] * b[0] + a[1] * b[2], a[0] * b[1] + a[1] * b[3], a[2] * b[0] + a[3] * b[2], a[2] * b[1] + a[3] * b[3]};
 }
 
-/// exp(m): the series of a 1024th, squared ten times.
+/// exp(m): the series for m / 1024, squared ten times.
 Matrix exponential_of(Matrix m) {
     for (double& v : m) v /= 1024;
     Matrix sum{1, 0, 0, 1}, term{1, 0, 0, 1};
@@ -46,7 +46,7 @@ Result<void> check(const GalvoSettings& s) {
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    const double w = 2 * pi * settings.natural_hz * galvo_tick_s;  // radians a tick
+    const double w = 2 * pi * settings.natural_hz * galvo_tick_s;  // radians per tick
     over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping * w});
     dead_ = static_cast<std::int64_t>(settings.dead_us / 10);
 }

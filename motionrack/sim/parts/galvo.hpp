@@ -1,8 +1,8 @@
-// Two scan mirrors behind a card: where they are for what they are told every 10 us.
+// Two scan mirrors behind a card: actual positions for the commanded ones of every 10 us.
 //
-//   told ──► dead time ──► second-order lag ──► speed limit ──► position at the end of the 10 us
+//   commanded ──► dead time ──► second-order lag ──► speed limit ──► position at the end of the 10 us
 //
-// Ideal mirrors are at the end of a tick where they were told to be at its begin: the micro-step takes its 10 us.
+// Ideal mirrors reach at the end of a tick the position commanded at its start: the micro-step takes its 10 us.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct GalvoSettings {
     double max_velocity_bits_ms = 800000;  ///< bits/ms, 1 .. 1e9
 };
 
-/// Ranges and finite numbers.
+/// Checks ranges and finite numbers.
 Result<void> check(const GalvoSettings& settings);
 
 class GalvoPair {
@@ -31,12 +31,12 @@ class GalvoPair {
     /// `settings` must pass check().
     explicit GalvoPair(const GalvoSettings& settings = {});
 
-    /// Positions at the ends of consecutive ticks, bits. The spans are of one length.
+    /// Positions at the ends of consecutive ticks, bits. The spans have equal length.
     void run(std::span<const std::int32_t> x, std::span<const std::int32_t> y, std::span<double> to_x,
              std::span<double> to_y);
-    /// Stands still at (x, y).
+    /// Sets the mirrors to standstill at (x, y).
     void reset(double x, double y);
-    /// How long the mirrors are behind a steady movement, us; to be set as the tracking error.
+    /// Lag of the mirrors in steady motion, us; for the tracking error setting.
     double lag_us() const;
 
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(mirrors_)); }
@@ -45,7 +45,7 @@ class GalvoPair {
     struct Mirror {
         double position = 0, speed = 0;  ///< bits, bits/tick
         std::int64_t head = 0;
-        std::array<double, max_dead_us / 10> late{};  ///< what was told, the dead time ago
+        std::array<double, max_dead_us / 10> late{};  ///< commanded values during the dead time
     };
     double step(Mirror& mirror, double told) const;
 

@@ -22,7 +22,7 @@ void LaserGate::change(std::int64_t half_us, bool on) {
     const auto last = [&]() -> Edge& {
         return s.edges[static_cast<std::size_t>((s.head + s.count - 1) % max_waiting)];
     };
-    // A pulse shorter than the difference of the delays never shines, a gap shorter than it is none.
+    // A pulse shorter than the difference of the delays gives no light; a shorter gap disappears.
     while (s.count > 0 && last().at >= at) --s.count;
     if (s.count == max_waiting) take_first();
     ++s.count;

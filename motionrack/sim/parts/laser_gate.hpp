@@ -1,7 +1,7 @@
-// The laser behind its gate: when it really shines, and with what power.
+// The laser behind its gate: the instants and the power of its light.
 //
 //   gate   ____|‾‾‾‾‾‾|____
-//   light  ______|‾‾‾‾‾‾‾|_      each edge later by its own delay
+//   light  ______|‾‾‾‾‾‾‾|_      each edge delayed by its own delay
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ class LaserGate {
   public:
     static Result<LaserGate> make(const LaserSettings& settings);
 
-    /// The gate changes `half_us` half-microseconds after 0 s; in order of time.
+    /// Records a change of the gate `half_us` half-microseconds after 0 s; in order of time.
     void change(std::int64_t half_us, bool on);
 
-    /// Where in a tick of 10 us the laser shines, as parts of it: 0 .. 1.
+    /// Interval of light within a tick of 10 us, as parts of it: 0 .. 1.
     struct Light {
         double from = 0, to = 0;
     };
-    /// Calls f(Light) for tick `tick`; ticks come in order, and changes of it are known.
+    /// Calls f(Light) for tick `tick`; ticks in order, with all changes of the tick known.
     template <class F>
     void shine(std::int64_t tick, F&& f) {
         double cursor = 0;
@@ -41,7 +41,7 @@ class LaserGate {
         }
         if (state_.on) f(Light{cursor, 1.0});
     }
-    /// Whether it may shine in this tick.
+    /// True if light is possible in this tick.
     bool dark(std::int64_t tick) const {
         return !state_.on && (state_.count == 0 || first().at >= static_cast<double>(tick + 1));
     }
@@ -49,16 +49,16 @@ class LaserGate {
     double power_w() const { return settings_.power_w; }
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
 
-    /// Changes that may wait for their delay; of more the earliest ones come at once.
+    /// Capacity for changes waiting for their delay; beyond it the earliest take effect at once.
     static constexpr std::int64_t max_waiting = 4096;
 
   private:
     struct Edge {
-        double at = 0;  ///< ticks
+        double at = 0;  ///< in ticks
         std::int64_t on = 0;
     };
     struct State {
-        std::array<Edge, max_waiting> edges{};  ///< a ring from `head`
+        std::array<Edge, max_waiting> edges{};  ///< ring buffer from `head`
         std::int64_t head = 0, count = 0, on = 0;
     };
     const Edge& first() const { return state_.edges[static_cast<std::size_t>(state_.head)]; }

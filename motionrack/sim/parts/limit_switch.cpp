@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-/// Well-mixed bits of a counter.
+/// Hash of a counter.
 std::uint64_t mixed(std::uint64_t x) {
     return mixed_bits(x + golden_step);
 }
@@ -39,7 +39,7 @@ bool LimitSwitch::acts(std::int64_t table) const {
 Range LimitSwitch::range() const {
     Range out;
     if (!present()) return out;
-    // Active above: left downwards at `off`; inactive: left upwards at `on`. The other side is the mirror image.
+    // Active above: left downwards at `off`; inactive: left upwards at `on`. The other orientation is the mirror image.
     const bool leaves_below = (settings_.side == SwitchSide::at_and_above) == active();
     (leaves_below ? out.below : out.above) = active() ? off_ : on_;
     return out;
@@ -75,7 +75,7 @@ void LimitSwitch::act(Instant now) {
 }
 
 int LimitSwitch::level() const {
-    // The first edge goes to the new level, each later one toggles; an even number of them ends there.
+    // The first edge goes to the new level, each later one toggles; an even number of them ends at the new level.
     bool contact = active() != ((state_.bounced & 1) != 0);
     if (state_.fault != SwitchFault::none) contact = state_.fault == SwitchFault::stuck_closed;
     return contact ? settings_.active_level : 1 - settings_.active_level;

@@ -1,4 +1,4 @@
-// The disc's geometry.
+// Geometry of the disc.
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double million = 1e6;  // the eccentricity is kept in millionths of a count
+constexpr double million = 1e6;  // the eccentricity is stored in millionths of a count
 
 LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
     LineOutputSettings out;

@@ -1,13 +1,12 @@
-// An incremental encoder, a disc or a linear scale, with lines A, B, Z as wires and every fault that the lines can
-// have.
+// An incremental encoder, a disc or a linear scale, with lines A, B, Z as wires and all line faults.
 //
 //        ___
-//       / . \  centre off the axis by the eccentricity: edges come early on one side, late on the other
-//      |  .  | dirt: some lines cannot be seen
+//       / . \  eccentric centre: edges come early on one side, late on the other
+//      |  .  | dirt: some lines are invisible
 //       \_|_/  index
 //
-// The faults: those of LineOutput (broken, swapped and inverted lines, noise, missing and double index, jitter, dirt,
-// over-speed), and "eccentricity" (counts, the greatest displacement; 0: none).
+// Faults: those of LineOutput (broken, swapped and inverted lines, noise, missing and double index, jitter, dirt,
+// over-speed), and "eccentricity" (counts, the maximum displacement; 0: none).
 #pragma once
 
 #include <motionrack/sim/parts/encoder_part.hpp>
@@ -15,20 +14,20 @@
 namespace motionrack::parts {
 
 struct LineEncoderSettings {
-    std::int64_t counts_per_turn = 4000;  ///< > 0, a multiple of 4; of a scale: counts from index to index
+    std::int64_t counts_per_turn = 4000;  ///< > 0, a multiple of 4; for a scale: counts from index to index
     std::int64_t place_per_turn =
-        4000;  ///< > 0: how far `place` goes meanwhile; finer than the counts, so that edges keep their distance
-    bool index = true;                    ///< a Z pulse each turn, at count 0
+        4000;           ///< > 0: change of `place` per revolution; finer than the counts, so edges keep their distance
+    bool index = true;  ///< a Z pulse per revolution, at count 0
     double eccentricity = 0;              ///< counts, 0 .. counts_per_turn / 7
     std::int64_t dirt_at = 100;           ///< count at which the dirt begins
-    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: between two edges
+    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
     TooQuick too_quick = TooQuick::loses_lines;
-    std::uint64_t seed = 1;  ///< of jitter and noise
+    std::uint64_t seed = 1;  ///< seed of jitter and noise
 };
 
 class LineEncoder final : public EncoderPart {
   public:
-    /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z to the kernel, before it starts.
+    /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z to the kernel before it starts.
     LineEncoder(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                 const LineEncoderSettings& settings = {});
 

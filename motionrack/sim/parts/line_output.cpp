@@ -1,4 +1,4 @@
-// Edges in their order and time, and the faults of lines.
+// Order and timing of edges, and the faults of lines.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/parts/line_output.hpp>
@@ -7,9 +7,9 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::int64_t max_behind = 8;  // counts: what is further behind is lost
+constexpr std::int64_t max_behind = 8;  // counts: a larger lag is lost
 
-/// Ticks between two edges at `rate` edges a second.
+/// Ticks between two edges at `rate` edges/s.
 std::int64_t spacing_of(double rate) {
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(1e10 / rate + 0.5));
 }
@@ -52,7 +52,7 @@ void LineOutput::rename(std::int64_t counts) {
     state_.target += counts;
 }
 
-/// When the next edge comes, if there is one to come and none is planned.
+/// Plans the next edge if one is due and none is planned.
 void LineOutput::plan(Instant now) {
     if (state_.shown == state_.target) {
         state_.step_at = never;
@@ -90,9 +90,9 @@ void LineOutput::act(Instant now) {
     if (state_.step_at <= now) step(now);
 }
 
-// ---- what a count looks like
+// ---- appearance of a count
 
-/// In the dirt nothing moves: it shows how it begins, which is how it ends.
+/// Within the dirt the lines are constant: they show the start of the dirt, which equals its end.
 std::int64_t LineOutput::visible(std::int64_t count) const {
     if (state_.dirt_lines == 0) return count;
     const std::int64_t within = floor_mod(count - settings_.dirt_at, settings_.index_every);
@@ -105,7 +105,7 @@ bool LineOutput::index(std::int64_t count) const {
     return within == 0 || (state_.second_index > 0 && within == state_.second_index);
 }
 
-/// An index pulse begins or ends.
+/// Handles the start or end of an index pulse.
 void LineOutput::note_index() {
     const bool now = index(state_.shown);
     if (now && !state_.in_index && state_.missing_left > 0) {
@@ -129,7 +129,7 @@ void LineOutput::put_out() {
 
 // ---- faults
 
-/// A pulse on A or B, then a pause, of 50 ns to 1 us each.
+/// Toggles between a pulse on A or B and a pause, of 50 ns to 1 us each.
 void LineOutput::noise(Instant now) {
     if (state_.flipped != 0) {
         state_.flipped = 0;
@@ -142,7 +142,7 @@ void LineOutput::noise(Instant now) {
 }
 
 bool LineOutput::fault(std::string_view name, double value, Instant now) {
-    const auto within = [value](double most) { return value >= 0 && value <= most; };  // not NaN either
+    const auto within = [value](double most) { return value >= 0 && value <= most; };  // rejects NaN as well
     const auto whole = static_cast<std::int64_t>(within(1e9) ? value : 0);
     constexpr std::string_view letters = "abz";
     const std::size_t letter = name.empty() ? letters.npos : letters.find(name.back());

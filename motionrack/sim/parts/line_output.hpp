@@ -1,6 +1,6 @@
-// The lines A, B and Z at the end of an encoder's or converter's cable, edge by edge, with what can be wrong with them.
+// The lines A, B and Z at the end of the cable of an encoder or converter, edge by edge, with their faults.
 //
-//   place (counts) ──► one edge after the other, not quicker than the electronics ──► dirt
+//   position (counts) ──► single edges, limited by the speed of the electronics ──► dirt
 //       ──► polarity, noise, swap, break ──► wires
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B
@@ -8,7 +8,7 @@
 //   B      ...  _____/~~~~~~~\_____
 //   Z      ...  ~~~\________ ... __/~~~    one count wide, at every index
 //
-// Everything that looks random comes from a generator in the state: equal seeds, equal histories.
+// Pseudo-random values come from a generator in the state: equal seeds, equal histories.
 #pragma once
 
 #include <array>
@@ -21,66 +21,66 @@
 
 namespace motionrack::parts {
 
-/// What becomes of edges that are quicker than the electronics.
+/// Treatment of edges that are too fast for the electronics.
 enum class TooQuick : std::uint8_t {
     loses_lines,     ///< whole lines are lost
-    loses_by_fault,  ///< they come later; while the fault over-speed is there, whole lines are lost
-    comes_later,     ///< they come later, whatever the fault
+    loses_by_fault,  ///< they are delayed; with the fault over-speed, whole lines are lost
+    comes_later,     ///< they are delayed, also with the fault
 };
 
 struct LineOutputSettings {
-    std::int64_t index_every = 0;         ///< counts from index to index, >= 0; 0: there is none
-    std::int64_t index_at = 0;            ///< count of one of them
+    std::int64_t index_every = 0;         ///< counts from index to index, >= 0; 0: no index
+    std::int64_t index_at = 0;            ///< count of one index
     std::int64_t dirt_at = 0;             ///< count at which the dirt of the fault "dirt" begins, within index_every
-    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: between two edges
+    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
     TooQuick too_quick = TooQuick::loses_lines;
     std::uint64_t seed = 1;
 };
 
 struct LineOutputState {
-    std::int64_t shown = 0;   ///< the count whose lines are out
+    std::int64_t shown = 0;   ///< the count shown by the lines
     std::int64_t target = 0;  ///< the count to show
-    std::int64_t lost = 0;    ///< counts that were never shown, in all
+    std::int64_t lost = 0;    ///< total of counts never shown
     Instant step_at = never;  ///< the next edge
-    Instant free_at{};        ///< not before
+    Instant free_at{};        ///< earliest instant of the next edge
     Instant noise_at = never;
     std::uint64_t random = 1;
     std::int64_t noise_left = 0;    ///< pulses
-    std::int64_t missing_left = 0;  ///< index pulses to leave out
+    std::int64_t missing_left = 0;  ///< index pulses to be omitted
     std::int64_t second_index = 0;  ///< distance of the double index, counts; 0: none
     std::int64_t dirt_lines = 0;
-    std::int64_t jitter = 0;               ///< greatest delay of an edge, ticks
+    std::int64_t jitter = 0;               ///< maximum delay of an edge, ticks
     std::int64_t fastest = 0;              ///< ticks
-    std::array<std::uint8_t, 3> broken{};  ///< 0: whole, 1: reads low, 2: reads high
+    std::array<std::uint8_t, 3> broken{};  ///< 0: intact, 1: reads low, 2: reads high
     std::uint8_t inverted = 0;             ///< bit 0 A, 1 B, 2 Z
     std::uint8_t swapped = 0;
     std::uint8_t flipped = 0;   ///< by noise, bits as above
-    std::uint8_t in_index = 0;  ///< Z is active (or left out)
-    std::uint8_t left_out = 0;  ///< this index pulse is left out
+    std::uint8_t in_index = 0;  ///< Z is active (or omitted)
+    std::uint8_t left_out = 0;  ///< this index pulse is omitted
 };
 static_assert(std::has_unique_object_representations_v<LineOutputState>, "padding would get into the state's hash");
 
 class LineOutput {
   public:
-    /// Adds the wires NAME.a, NAME.b, NAME.z, before the kernel starts.
+    /// Adds the wires NAME.a, NAME.b, NAME.z before the kernel starts.
     LineOutput(sim::Kernel& kernel, const std::string& name, const LineOutputSettings& settings,
                LineOutputState& state);
 
-    /// Begins at `count`, without edges.
+    /// Starts at `count`, without edges.
     void begin(std::int64_t count);
-    /// From now on `count` is to be shown.
+    /// Sets the target of the lines to `count`.
     void show(std::int64_t count, Instant now);
-    /// The count is called otherwise by `counts` (a multiple of 4 and of index_every); no edge.
+    /// Renumbers the count by `counts` (a multiple of 4 and of index_every), without an edge.
     void rename(std::int64_t counts);
-    /// What is due; call at next().
+    /// Executes due events; call at next().
     void act(Instant now);
     Instant next() const { return std::min(state_.step_at, state_.noise_at); }
 
     /// broken_a, broken_b, broken_z (1: reads low, 2: reads high), inverted_a, inverted_b, inverted_z, swapped (not 0),
-    /// noise (pulses of a burst on A and B that begins now, up to 1e6), missing_index (how many to leave out, up to
-    /// 1e9), double_index (a second one so many counts after each, less than index_every), jitter (s, greatest delay of
-    /// an edge, up to 1), dirt (lines that cannot be seen, less than index_every / 4), overspeed (greatest edges a
-    /// second, 1 to 1e8; 0: as the settings say). False: no such fault, or out of range.
+    /// noise (pulses of a burst on A and B that begins now, up to 1e6), missing_index (number to omit, up to 1e9),
+    /// double_index (distance of a second one after each, counts, less than index_every), jitter (s, maximum delay of
+    /// an edge, up to 1), dirt (invisible lines, less than index_every / 4), overspeed (maximum edges/s, 1 to 1e8; 0:
+    /// as in the settings). Returns false for an unknown fault or a value out of range.
     bool fault(std::string_view name, double value, Instant now);
 
     std::int64_t shown() const { return state_.shown; }

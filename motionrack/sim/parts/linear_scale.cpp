@@ -1,4 +1,4 @@
-// The grating's closed form and its inverse; lines at listening.
+// Closed form of the grating and its inverse; lines for listeners.
 #include <cmath>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> scale_faults = {"scale.lose", "scale.dirt", "scale.swapped",
                                                           "scale.expansion"};
-constexpr Wide max_ratio = Wide{1} << 50;                              // so that all products fit
+constexpr Wide max_ratio = Wide{1} << 50;                              // limit that keeps all products in range
 constexpr std::int64_t farthest_scale_counts = std::int64_t{1} << 46;  // counts; watches beyond are never left
 constexpr Wide billion = 1'000'000'000;
 
@@ -74,7 +74,7 @@ std::span<const std::string_view> LinearScale::fault_names() {
 
 // ---- the closed form
 
-/// Counts for a count of the place, of a grating that is longer by `ppm`.
+/// Counts per count of the position, for a grating that is longer by `ppm`.
 void LinearScale::set_ratio(double ppm) {
     Wide num = Wide{settings_.places_nm} * 1'000 * settings_.interpolation,
          den = Wide{settings_.pitch_pm} * settings_.places;
@@ -90,7 +90,7 @@ std::int64_t LinearScale::grating(std::int64_t place) const {
     return static_cast<std::int64_t>(floor_of((Wide{place} - state_.zero) * state_.num, state_.den));
 }
 
-/// In the dirt nothing is counted.
+/// Within the dirt the count is constant.
 std::int64_t LinearScale::visible(std::int64_t grating) const {
     if (grating <= dirt_at_) return grating;
     return std::max(dirt_at_, grating - state_.dirt);
@@ -111,7 +111,7 @@ double LinearScale::rate(Instant t) const {
     return state_.direction * place_.rate(t) * counts_per_place();
 }
 
-/// The places at which `counts` is not left.
+/// Positions within which `counts` is not left.
 Range LinearScale::place_range(const Range& counts) const {
     if (state_.too_fast) return {};
     Range seen = counts.moved(-state_.shift);
@@ -142,7 +142,7 @@ void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
     if (!looking_) aim(kernel_.now());
 }
 
-/// Tells what is left and shows what is wanted.
+/// Notifies listeners of left ranges and updates subscribed wires.
 void LinearScale::look(Instant now) {
     looking_ = true;
     if (live()) show(now);
@@ -151,7 +151,7 @@ void LinearScale::look(Instant now) {
     aim(now);
 }
 
-/// Watches the nearest place at which anything happens, and wakes when something is due without one.
+/// Watches the nearest position of an event, and schedules events that are due without one.
 void LinearScale::aim(Instant now) {
     const std::int64_t here = count(now);
     Range places;
@@ -216,7 +216,7 @@ void LinearScale::set_edge_listener(sim::EdgeListener* listener) {
     aim(kernel_.now());
 }
 
-/// One edge towards the count, if the electronics are ready for it.
+/// Makes one edge towards the count if the electronics are ready for it.
 void LinearScale::show(Instant now) {
     const std::int64_t here = count(now);
     if (state_.shown != here && now >= state_.free_at) {

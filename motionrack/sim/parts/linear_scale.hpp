@@ -1,22 +1,20 @@
-// A grating scale with its reading head and interpolator on any motion: counts, and lines A and B where somebody
-// listens.
+// A grating scale with reading head and interpolator on a position function: counts, and lines A and B for listeners.
 //
-//   place (Motion) ──► (place - zero) * interpolation / pitch ──► dirt ──► direction
-//       ──► not quicker than the electronics ─┬─► counts (Motion)
-//                                             └─► a, b, z: wires, made while wanted
+//   position ──► (position - zero) * interpolation / pitch ──► dirt ──► direction
+//       ──► speed limit of the electronics ───┬─► counts (PositionFunction)
+//                                             └─► a, b, z: wires, generated while subscribed
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B        pitch    |<------- pitch ------->|
 //   A      ...  _/~~~~~~~\_______/~~       A high in phases 1 and 2      grating  ▐███████░░░░░░░▐███████░░
 //   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3      counts   | | | | | | | | | | | |
 //   Z      ...  ~~~\________ ...           one count wide, at index      interpolation = 12
 //
-// The count is a closed form of the place, exact in 128 bits; nothing is done for an edge. Above the greatest rate
-// nothing is counted: what goes by meanwhile is lost, counted and reported, and the scale is not to be trusted until it
-// is referenced.
+// The count is a closed form of the position, exact in 128 bits; edges cost no time. Above the maximum rate counting
+// stops: the missed counts are lost, counted and reported, and the scale is invalid until it is referenced.
 //
-// The faults: scale.lose n (n counts are lost at once), scale.dirt x (x nm from dirt_at on are not counted),
-// scale.swapped (the lines are swapped while not 0: it counts backwards), scale.expansion x (the grating is x ppm
-// longer; it grows about where the head stands).
+// Faults: scale.lose n (n counts are lost at once), scale.dirt x (x nm from dirt_at on are not counted), scale.swapped
+// (the lines are swapped while not 0: it counts backwards), scale.expansion x (the grating is x ppm longer; it expands
+// about the present position of the head).
 #pragma once
 
 #include <array>
@@ -37,19 +35,19 @@ namespace motionrack::parts {
 
 struct LinearScaleSettings {
     std::int64_t pitch_pm = 20'000'000;   ///< 1000 .. 1e9 (1 nm to 1 mm): the grating's period, picometres
-    std::int64_t interpolation = 4'096;   ///< 4 .. 65536, a multiple of 4: counts of a pitch
-    bool reversed = false;                ///< counts down where the place goes up
-    double zero_nm = 0;                   ///< where the count is 0, within 10 m
-    double fastest = 20e6;                ///< counts/s, 1 .. 1e9: what is quicker is not counted
-    std::optional<double> index_nm;       ///< where the reference mark is: Z is high for the count there
-    double dirt_at_nm = 0;                ///< where the dirt of the fault begins
-    std::int64_t places = places_per_nm;  ///< 1 .. 1e9: so many counts of the place ...
-    std::int64_t places_nm = 1;           ///< ... are so many nm, 1 .. 1e9
+    std::int64_t interpolation = 4'096;   ///< 4 .. 65536, a multiple of 4: counts per pitch
+    bool reversed = false;                ///< counts down while the position increases
+    double zero_nm = 0;                   ///< position of count 0, within 10 m
+    double fastest = 20e6;                ///< counts/s, 1 .. 1e9: maximum rate that is counted
+    std::optional<double> index_nm;       ///< position of the reference mark: Z is high for its count
+    double dirt_at_nm = 0;                ///< start of the dirt of the fault
+    std::int64_t places = places_per_nm;  ///< 1 .. 1e9: this number of position counts ...
+    std::int64_t places_nm = 1;           ///< ... corresponds to this number of nm, 1 .. 1e9
 };
 
 class LinearScale final : public sim::DeferringDevice, public sim::PositionFunction, private sim::PositionListener {
   public:
-    /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel, before it starts.
+    /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel before it starts.
     LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                 const LinearScaleSettings& settings = {});
 
@@ -65,15 +63,15 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
     double nm_per_count() const {
         return static_cast<double>(settings_.pitch_pm) / (1e3 * static_cast<double>(settings_.interpolation));
     }
-    /// What the counts say, nm from zero.
+    /// Position by the counts, nm from zero.
     double position_nm(Instant t) const {
         return static_cast<double>(count(t) * (settings_.reversed ? -1 : 1)) * nm_per_count();
     }
-    /// False: counts were lost since the start or the last reference().
+    /// False if counts were lost since the start or the last reference().
     bool trusted() const { return state_.untrusted == 0; }
-    /// It was referenced: what was lost no longer matters.
+    /// Marks the scale as referenced: earlier losses no longer matter.
     void reference() { state_.untrusted = 0; }
-    /// Counts lost in all.
+    /// Total of lost counts.
     std::int64_t lost() const { return state_.lost; }
     bool too_fast() const { return state_.too_fast != 0; }
 
@@ -93,15 +91,15 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
 
   private:
     struct State {
-        Wide num = 1;  ///< counts of the grating for a count of the place, in lowest terms
+        Wide num = 1;  ///< counts of the grating per count of the position, in lowest terms
         Wide den = 1;
-        std::int64_t zero = 0;    ///< place at which the grating's count is 0
-        std::int64_t shift = 0;   ///< count - the grating's
-        std::int64_t frozen = 0;  ///< the count while it is too fast
+        std::int64_t zero = 0;    ///< position at which the grating's count is 0
+        std::int64_t shift = 0;   ///< count - count of the grating
+        std::int64_t frozen = 0;  ///< the count while the rate is too high
         std::int64_t lost = 0;
-        std::int64_t dirt = 0;   ///< counts that cannot be seen
-        std::int64_t shown = 0;  ///< the count whose lines are out
-        Instant free_at{};       ///< no edge of the lines before
+        std::int64_t dirt = 0;   ///< invisible counts
+        std::int64_t shown = 0;  ///< count shown by the lines
+        Instant free_at{};       ///< earliest instant of the next edge of the lines
         sim::Listeners::Watches watches{};
         std::int32_t direction = 1;
         std::int32_t swapped = 0;

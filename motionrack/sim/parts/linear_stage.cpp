@@ -1,4 +1,4 @@
-// Parabolas in whole numbers, and when they end.
+// Parabolas in whole numbers, and their ends.
 #include <cmath>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
@@ -11,12 +11,13 @@ namespace {
 
 constexpr std::array<std::string_view, 4> stage_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
 constexpr int fine_bits = 68;
-constexpr double fine_per_count = 0x1p68;  // of a count
+constexpr double fine_per_count = 0x1p68;  // fractions of a count
 constexpr double counts_per_m = 1e9 * places_per_nm;
 constexpr double ticks_per_s = 1e10;
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t longest = std::int64_t{1} << 40;  // ticks of one parabola: place and speed stay within 128 bits
-constexpr std::int64_t viscous_piece = 1'000'000;        // 100 us
+constexpr std::int64_t longest = std::int64_t{1}
+                                 << 40;            // ticks of one parabola: position and speed stay within 128 bits
+constexpr std::int64_t viscous_piece = 1'000'000;  // 100 us
 constexpr double viscous_piece_s = 1e-4;
 constexpr std::int64_t farthest_stage_counts = std::int64_t{1} << 50;  // counts, beyond every end of travel
 
@@ -29,7 +30,7 @@ Wide fine_place(std::int64_t count) {
     return Wide{count} << fine_bits;
 }
 
-/// m/s as 2^-68 counts a tick.
+/// Converts m/s to 2^-68 counts per tick.
 Wide fine_speed(double m_s) {
     return static_cast<Wide>(m_s * (counts_per_m / ticks_per_s) * fine_per_count);
 }
@@ -76,7 +77,7 @@ std::span<const std::string_view> LinearStage::fault_names() {
     return stage_faults;
 }
 
-// ---- where it is
+// ---- position
 
 std::int64_t LinearStage::count(Instant t) const {
     return static_cast<std::int64_t>(place_at(t) >> fine_bits);
@@ -98,14 +99,14 @@ double LinearStage::accel() const {
     return static_cast<double>(state_.half_accel) * 2 / fine_per_count * (ticks_per_s * ticks_per_s / counts_per_m);
 }
 
-/// Where the first tick of the parabola leads, and so all of it.
+/// Direction of the first tick of the parabola, and so of all of it.
 int LinearStage::direction() const {
     return sign(state_.speed + state_.half_accel);
 }
 
 // ---- one parabola
 
-/// Half the acceleration while it moves in `direction` and is pushed with `push` m/s2.
+/// Half the acceleration in `direction` with a driving acceleration `push`, m/s2.
 std::int64_t LinearStage::accel_law(double push, int direction) const {
     const double mass = 1 + state_.load, viscous = settings_.viscous / mass;
     const double rubbing = (settings_.coulomb + state_.rubbing) / mass;
@@ -115,7 +116,7 @@ std::int64_t LinearStage::accel_law(double push, int direction) const {
         std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine_per_count / 2) + 0.5));
 }
 
-/// How it goes on from the present place and speed.
+/// Begins the law of motion from the present position and speed.
 void LinearStage::begin_law() {
     State& s = state_;
     const double mass = 1 + s.load;
@@ -129,7 +130,7 @@ void LinearStage::begin_law() {
     if (s.speed != 0) {
         s.half_accel = accel_law(push, sign(s.speed));
         const Wide change = 2 * Wide{s.half_accel} * sign(s.speed);
-        if (change < 0 && s.speed * sign(s.speed) < -change) {  // it turns within a tick
+        if (change < 0 && s.speed * sign(s.speed) < -change) {  // it reverses within a tick
             s.length = 1;
             if (settings_.coulomb + s.rubbing == 0) return;
             s.speed = 0;
@@ -147,13 +148,13 @@ void LinearStage::begin_law() {
     s.length = law_length();
 }
 
-/// Ticks until the parabola turns, meets the top speed or a marked one, or is long enough.
+/// Ticks until the parabola reverses, reaches the top speed or a marked speed, or reaches its maximum length.
 std::int64_t LinearStage::law_length() const {
     std::int64_t length = settings_.viscous > 0 ? viscous_piece : longest;
     if (state_.half_accel == 0) return length;
     const Wide speed = state_.speed * direction(), change = 2 * Wide{state_.half_accel} * direction();
     const auto ends = [&](std::int64_t at) { length = std::min(length, std::max<std::int64_t>(at, 1)); };
-    if (change < 0) ends(steps_up(speed + change + 1, -change));  // the last tick at which it does not go back yet
+    if (change < 0) ends(steps_up(speed + change + 1, -change));  // the last tick before it moves back
     if (change > 0) ends(steps_up(top_speed_ - speed, change));
     for (int i = 0; i < mark_count_; ++i) {
         const Wide mark = marks_[static_cast<std::size_t>(i)];
@@ -170,7 +171,7 @@ void LinearStage::move_to(Instant now) {
     state_.since = now;
 }
 
-/// Voltage, load or a hand have changed something.
+/// Handles a change of voltage, load or position by hand.
 void LinearStage::change(Instant now) {
     const double before = rate(now);
     move_to(now);
@@ -186,13 +187,13 @@ void LinearStage::tell(double before, Instant now) {
     listeners_.notify_rate(before, after, now);
 }
 
-// ---- when something happens
+// ---- instants of events
 
 Instant LinearStage::law_end() const {
     return state_.length == endless ? never : state_.since + Duration{state_.length};
 }
 
-/// About how many ticks it takes for `way` (>= 0, in the direction of motion).
+/// Approximate ticks for a distance `way` (>= 0, in the direction of motion).
 std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
     const double d = static_cast<double>(way), v = std::fabs(static_cast<double>(state_.speed));
     const double a = static_cast<double>(state_.half_accel) * direction(), under = v * v + 4 * a * d;
@@ -201,7 +202,7 @@ std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
     return ticks < static_cast<double>(last) ? static_cast<std::int64_t>(ticks) : last;
 }
 
-/// The first instant of the present law at which the count is there; never if it does not come there.
+/// The first instant of the present law at which the count is reached; never if it is not.
 Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
     if (way == 0 || there > farthest_stage_counts || there < -farthest_stage_counts) return never;
@@ -237,7 +238,7 @@ Instant LinearStage::next(Instant now) const {
     return std::max(next, now);
 }
 
-/// At an end of travel it stands at once.
+/// Stops at once at an end of travel.
 bool LinearStage::meet_ends(Instant now) {
     const std::int64_t here = count(now);
     const int way = direction();
@@ -315,7 +316,7 @@ void LinearStage::set_edge_listener(sim::EdgeListener* listener) {
     edges_ = listener;
 }
 
-/// The edges since they were handed over last, each found by itself.
+/// Delivers the edges since the last delivery, each computed separately.
 void LinearStage::hand_over(Instant now) {
     const Instant from = std::max(state_.handed, state_.since);
     state_.handed = now;

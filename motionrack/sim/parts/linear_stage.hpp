@@ -1,17 +1,17 @@
-// A stage on a linear motor behind a current amplifier: the voltage is a force, the force accelerates the mass.
+// A stage on a linear motor with a current amplifier: the voltage sets a force, which accelerates the mass.
 //
 //   volts x accel_per_volt --top_accel--> / (1 + load) --(- friction)--> acceleration
-//       --(top_speed, ends of travel)--> place
+//       --(top_speed, ends of travel)--> position
 //
-//   place ^            .--'      Between two changes of the voltage the place is one parabola; with viscous friction
-//         |         .-'          it is a row of them, each a tenth of a millisecond long, with the friction of the
-//         |  _ . -'              mean speed (implicit midpoint).
+//   pos.  ^            .--'      Between two changes of the voltage the position is one parabola; with viscous friction
+//         |         .-'          it is a sequence of parabolas of a tenth of a millisecond each, with the friction of
+//         |  _ . -'              the mean speed (implicit midpoint).
 //         +------------> time
 //
-//   A parabola is whole numbers: place, speed and acceleration in 2^-68 of a count, time in ticks of 0.1 ns. So a
-//   place is exact at every tick, however often it is asked for, and never goes back within a parabola.
+//   A parabola is in whole numbers: position, speed and acceleration in 2^-68 of a count, time in ticks of 0.1 ns. So
+//   a position is exact at every tick, independent of the queries, and never moves back within a parabola.
 //
-// The place's count is 1/1024 nm: fine enough for any scale on it.
+// The position's count is 1/1024 nm: fine enough for any scale on it.
 #pragma once
 
 #include <array>
@@ -27,28 +27,28 @@
 
 namespace motionrack::parts {
 
-/// Counts of a stage's place in a nanometre.
+/// Counts of a stage's position per nanometre.
 inline constexpr std::int64_t places_per_nm = 1024;
 
 struct LinearStageSettings {
-    double accel_per_volt = 5;   ///< m/s2 for a volt, more than 0, at most 1000; of the stage without load
-    double top_accel = 50;       ///< m/s2, more than 0, at most 1000: the current limit; of the stage without load
-    double top_speed = 2;        ///< m/s, more than 0, at most 10: there the amplifier's voltage is used up
-    double viscous = 0;          ///< 1/s, 0 .. 100: the brake grows with the speed, m/s2 for a m/s
-    double coulomb = 0;          ///< m/s2, 0 .. 1000: the brake of rubbing parts; what pushes less does not move it
-    double load = 0;             ///< 0 .. 1000: mass on the stage in units of its own
-    double start_nm = 0;         ///< where it stands at first, within the ends
+    double accel_per_volt = 5;  ///< m/s2 per volt, > 0, at most 1000; without load
+    double top_accel = 50;      ///< m/s2, > 0, at most 1000: at the current limit; without load
+    double top_speed = 2;       ///< m/s, > 0, at most 10: limit by the amplifier's voltage
+    double viscous = 0;         ///< 1/s, 0 .. 100: deceleration proportional to the speed, m/s2 per m/s
+    double coulomb = 0;   ///< m/s2, 0 .. 1000: deceleration by dry friction; a smaller force does not move the stage
+    double load = 0;      ///< 0 .. 1000: mass on the stage relative to its own
+    double start_nm = 0;  ///< initial position, within the ends
     double end_minus_nm = -1e9;  ///< ends of travel, -1e10 .. 1e10
     double end_plus_nm = 1e9;
 };
 
 class LinearStage final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
-    /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
+    /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel before it starts.
     LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& settings,
                 const std::string& wire = {});
 
-    // ---- the place, 1/1024 nm
+    // ---- the position, 1/1024 nm
     std::int64_t count(Instant t) const override;
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
@@ -57,19 +57,19 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
 
-    /// The place in nm with its fraction; m/s; m/s2.
+    /// Position in nm with its fraction; m/s; m/s2.
     double position_nm(Instant t) const;
     double speed(Instant t) const;
     double accel() const;
     double volts() const { return static_cast<double>(state_.microvolts) * 1e-6; }
-    /// +1, -1: stands at that end of travel.
+    /// +1, -1: stationary at that end of travel.
     int blocked() const { return state_.blocked; }
     sim::WireId drive_wire() const { return drive_; }
     sim::DeviceId id() const { return id_; }
     const LinearStageSettings& settings() const { return settings_; }
 
-    /// motor.stall: held fast while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more of
-    /// rubbing; motor.load x: mass on the stage in units of its own.
+    /// motor.stall: blocked while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more dry
+    /// friction; motor.load x: mass on the stage relative to its own.
     static std::span<const std::string_view> fault_names();
 
     void on_scheduled(Instant now) override;
@@ -82,14 +82,14 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     static constexpr int slots = sim::PositionFunction::max_listeners;
     struct State {
         Wide place = 0;               ///< at `since`
-        Wide speed = 0;               ///< a tick, at `since`
-        std::int64_t half_accel = 0;  ///< half of it, a tick a tick
+        Wide speed = 0;               ///< per tick, at `since`
+        std::int64_t half_accel = 0;  ///< half of the acceleration, per tick squared
         Instant since{};
-        std::int64_t length = 0;  ///< ticks for which the parabola holds; `endless`
+        std::int64_t length = 0;  ///< ticks for which the parabola is valid; `endless`
         Instant handed{};
-        double told = 0;  ///< the rate that listeners know
+        double told = 0;  ///< the rate last sent to listeners
         double load = 0;
-        double rubbing = 0;  ///< m/s2, of the fault
+        double rubbing = 0;  ///< m/s2, by the fault
         sim::Listeners::Watches watches{};
         std::int32_t microvolts = 0;
         std::int32_t blocked = 0;

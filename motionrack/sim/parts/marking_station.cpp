@@ -1,4 +1,4 @@
-// From a card's output to marks on a part.
+// Marks on a part from the output of a card.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void MarkingStation::block(std::int64_t first_tick, std::span<const std::int32_t
         const std::size_t n = std::min(chunk, x.size() - at);
         galvo_.run(x.subspan(at, n), y.subspan(at, n), {x_.data(), n}, {y_.data(), n});
         sim::Spot from_mm;
-        std::int64_t known = -1;  // the tick whose end from_mm is
+        std::int64_t known = -1;  // the tick whose end is from_mm
         for (std::size_t i = 0; i < n; ++i) {
             const std::int64_t tick = first_tick + static_cast<std::int64_t>(at + i);
             const sim::Spot bits{x_[i], y_[i]};
@@ -58,7 +58,7 @@ void MarkingStation::block(std::int64_t first_tick, std::span<const std::int32_t
     }
 }
 
-/// A tick in which the laser shines, for some of it; straight in the field, and the part goes on under it.
+/// Marks a tick with laser light, for all or part of it; straight in the field, while the part moves.
 void MarkingStation::mark(std::int64_t tick, sim::Spot from, sim::Spot to) {
     const double begin_s = static_cast<double>(tick) * station_tick_s;
     gate_.shine(tick, [&](LaserGate::Light light) {
@@ -66,8 +66,8 @@ void MarkingStation::mark(std::int64_t tick, sim::Spot from, sim::Spot to) {
             const sim::Spot field{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
             return track().on_part(field, begin_s + part * station_tick_s);
         };
-        // The end of a tick is the begin of the next one, to the bit, or a stroke would break: both are computed from
-        // the next tick's begin.
+        // The end of a tick must equal the start of the next one to the bit, or a stroke would break: both are computed
+        // from the next tick's start.
         const sim::Spot first = at(light.from);
         const sim::Spot last =
             light.to == 1 ? track().on_part(to, static_cast<double>(tick + 1) * station_tick_s) : at(light.to);

@@ -1,7 +1,7 @@
-// The machine around a laser card: mirrors, lens, laser, and a part that moves; blocks of the card's output become
+// The machine around a laser card: mirrors, lens, laser, and a moving part. It converts blocks of the card's output to
 // marks on the part.
 //
-//   x, y ──► galvo ──► lens ──► field mm ──► track ──► part mm ──┐
+//   x, y ──► galvo ──► lens ──► field mm ──► conveyor ► part mm ─┐
 //   gate ──► laser ──────────────────────────────────► J ────────┴──► workpiece
 #pragma once
 
@@ -18,7 +18,7 @@ namespace motionrack::parts {
 
 struct StationSettings {
     GalvoSettings galvo;
-    std::optional<sim::ScanLens> lens;  ///< none: bits_per_mm, without distortion
+    std::optional<sim::ScanLens> lens;  ///< absent: bits_per_mm, without distortion
     double bits_per_mm = 8656;          ///< without a lens, 1 .. 1e6
     LaserSettings laser;
     ConveyorSettings track;
@@ -27,19 +27,19 @@ struct StationSettings {
 
 class MarkingStation {
   public:
-    /// Refused as its parts refuse. `track`: in place of that of the settings; must live as long.
+    /// Errors: refused, as by its parts. `track`: replaces the conveyor of the settings; must outlive the station.
     static Result<MarkingStation> make(const StationSettings& settings, const Conveyor* track = nullptr);
 
-    /// The card's gate changes; before the block that has its tick.
+    /// Records a change of the card's gate; call before the block that contains its tick.
     void laser(std::int64_t half_us, bool on) { gate_.change(half_us, on); }
-    /// The card's output of consecutive ticks, in order.
+    /// Processes the card's output of consecutive ticks, in order.
     void block(std::int64_t first_tick, std::span<const std::int32_t> x, std::span<const std::int32_t> y);
 
-    /// Where the spot is in the field, mm, for mirrors at these bits.
+    /// Position of the spot in the field, mm, for mirrors at these bits.
     sim::Spot spot(sim::Spot bits) const;
-    /// The same for the mirrors as they are.
+    /// The same for the present mirror positions.
     sim::Spot spot() const { return spot(last_); }
-    /// The laser has no light now and none to come.
+    /// True if the laser is dark and no light is pending.
     bool dark(std::int64_t tick) const { return gate_.dark(tick); }
     const Conveyor& track() const { return outer_ != nullptr ? *outer_ : track_; }
     const GalvoPair& galvo() const { return galvo_; }
@@ -47,7 +47,7 @@ class MarkingStation {
     Workpiece& workpiece() { return workpiece_; }
     const Workpiece& workpiece() const { return workpiece_; }
 
-    /// Its state, for a device that a snapshot asks; valid until it is moved.
+    /// State for the snapshot of a device; valid until the station is moved.
     struct NamedState {
         const char* name;
         std::span<std::byte> bytes;
@@ -73,7 +73,7 @@ class MarkingStation {
     LaserGate gate_;
     Workpiece workpiece_;
     std::array<double, chunk> x_{}, y_{};
-    sim::Spot last_;  // of the mirrors, bits
+    sim::Spot last_;  // mirrors, bits
 };
 
 }  // namespace motionrack::parts

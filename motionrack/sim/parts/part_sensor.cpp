@@ -1,4 +1,4 @@
-// Which part is at the sensor.
+// Number of the part at the sensor.
 #include <algorithm>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/part_sensor.hpp>
@@ -18,7 +18,7 @@ PartSensor::PartSensor(sim::Kernel& kernel, const std::string& name, const std::
     kernel.schedule(id_, Instant{0});
 }
 
-/// Of the part whose edge has come last; negative: before the first one.
+/// Number of the part whose edge came last; negative: before the first one.
 std::int64_t PartSensor::number(std::int64_t place) const {
     return floor_div(Wide{place} - settings_.first, settings_.every);
 }
@@ -32,7 +32,7 @@ void PartSensor::look(Instant now) {
     const std::int64_t edge = settings_.first + n * settings_.every, end = edge + settings_.length;
     const bool there = n >= 0 && place < end;
     kernel_.set_wire(wire_, there ? 0 : 1);
-    // Left at the count before, and at the count itself: see Motion::watch.
+    // Left at the previous count, and at the count itself: see PositionFunction::watch.
     place_.watch(slot_, (place < end ? edge : end) - 1, place < end ? end : edge + settings_.every);
 }
 

@@ -1,8 +1,8 @@
-// A light barrier beside a track, past which parts come at equal distances.
+// A light barrier beside a conveyor that carries parts at equal distances.
 //
-//   place of the track  0 .. first ...... first + every ......      sensor  ~~~~~\____/~~~~~~~\____/~~~~
+//   conveyor position   0 .. first ...... first + every ......      sensor  ~~~~~\____/~~~~~~~\____/~~~~
 //                            |<-length->|                                        part         part
-//                                                                           low: a part is there
+//                                                                           low: a part is present
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 namespace motionrack::parts {
 
 struct PartSensorSettings {
-    std::int64_t first = 0;   ///< place of the track at which the first part's edge is at the sensor, counts
-    std::int64_t every = 1;   ///< from part to part, > 0
-    std::int64_t length = 1;  ///< of a part, 0 < length < every
+    std::int64_t first = 0;   ///< position of the conveyor with the first part's edge at the sensor, counts
+    std::int64_t every = 1;   ///< distance of the parts, > 0
+    std::int64_t length = 1;  ///< length of a part, 0 < length < every
 };
 
 class PartSensor final : public sim::Device, private sim::PositionListener {
   public:
-    /// Adds the device `name` and the wire `wire` (at rest high) to the kernel, before it starts.
+    /// Adds the device `name` and the wire `wire` (high at rest) to the kernel before it starts.
     PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::PositionFunction& place,
                const PartSensorSettings& settings);
 
-    /// Parts whose leading edge has come to the sensor, up to now.
+    /// Number of parts whose leading edge has reached the sensor.
     std::int64_t parts(Instant now) const;
     void on_scheduled(Instant now) override { look(now); }
 

@@ -1,4 +1,4 @@
-// Whole-number helpers of the parts: division towards minus infinity, and the range that a position has not left.
+// Integer helpers of the parts: division towards minus infinity, and the range that a position has not left.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@ namespace motionrack::parts {
 using sim::Range;
 __extension__ using Wide = __int128;
 
-/// The greatest whole number not above a / b (b > 0).
+/// The largest whole number not above a / b (b > 0).
 constexpr std::int64_t floor_div(Wide a, std::int64_t b) {
     const Wide q = a / b;
     return static_cast<std::int64_t>(a % b < 0 ? q - 1 : q);
 }
 
-/// The least whole number not below a / b (b > 0).
+/// The smallest whole number not below a / b (b > 0).
 constexpr std::int64_t ceil_div(Wide a, std::int64_t b) {
     return -floor_div(-a, b);
 }

@@ -1,4 +1,4 @@
-// The cam's switch changes where the watched place is crossed.
+// Switching of the cam at crossings of the watched position.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>
 

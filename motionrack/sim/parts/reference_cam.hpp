@@ -1,4 +1,4 @@
-// A cam on a moving part with a switch: active between two places, both included.
+// A cam on a moving part with a switch: active between two positions, both included.
 //
 //   count  ----[from]~~~~~~~~~~[to]----->      wire: the active level between, the other one outside
 #pragma once
@@ -13,7 +13,7 @@ namespace motionrack::parts {
 
 class ReferenceCam final : public sim::Device, private sim::PositionListener {
   public:
-    /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of
+    /// Adds the device `name` and its wire of the same name to the kernel before it starts. `from` <= `to`, counts of
     /// `place`.
     ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t from,
                  std::int64_t to, int active_level = 1);

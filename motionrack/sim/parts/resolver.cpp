@@ -1,4 +1,4 @@
-// What the converter makes of windings that are not quite alike.
+// Output of the converter for windings with mismatch.
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/sim/parts/resolver.hpp>
@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr double billionths = 1e9;  // gain and offsets are kept in billionths
+constexpr double billionths = 1e9;  // gain and offsets are stored in billionths
 constexpr double most = 0.3;
 
 LineOutputSettings lines_of_converter(const ResolverSettings& s) {
@@ -26,7 +26,7 @@ Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFu
     : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_converter(settings)),
       los_(kernel.add_wire(name + ".los", 0)) {}
 
-/// The converter shows the angle f where the rotor is at t:  (1 + g) sin t + a  :  cos t + b  =  sin f : cos f. That is
+/// The converter shows the angle f for the rotor at t:  (1 + g) sin t + a  :  cos t + b  =  sin f : cos f. That is
 /// A sin t - B cos t = C  with  A = (1 + g) cos f,  B = sin f,  C = b sin f - a cos f.
 double Resolver::displacement(std::int64_t n) const {
     if (state_.own[gain] == 0 && state_.own[offset_sin] == 0 && state_.own[offset_cos] == 0) return 0;

@@ -1,14 +1,13 @@
 // A resolver with its tracking converter, as a source of A, B and Z.
 //
 //   rotor ──► windings: sin * (1 + gain) + offset, cos + offset ──► converter: angle of (sin, cos) ──► A B Z
-//                 └── broken? ──► los (loss of signal): the converter's lines stay
+//                 └── broken? ──► los (loss of signal): the converter's lines stay constant
 //
-// The angle of windings that are not alike or not without offset errs, twice or once a turn. A tracking converter
-// counts one step after the other and never leaves one out: what is quicker than it tracks comes later. It knows the
-// angle, not the turns: after a loss of signal it goes the shorter way. Not reproduced: the lag of its loop while the
-// speed changes.
+// Windings with mismatch or offset cause an angle error, twice or once per revolution. A tracking converter counts
+// single steps and never skips one: faster motion is delayed. It knows the angle, not the revolutions: after a loss of
+// signal it takes the shorter way. Not reproduced: the lag of its loop while the speed changes.
 //
-// The faults: those of LineOutput, and "gain" (-0.3 .. 0.3), "offset_sin", "offset_cos" (-0.3 .. 0.3 of the amplitude),
+// Faults: those of LineOutput, and "gain" (-0.3 .. 0.3), "offset_sin", "offset_cos" (-0.3 .. 0.3 of the amplitude),
 // "broken_sin", "broken_cos" (not 0: no signal).
 #pragma once
 
@@ -17,16 +16,16 @@
 namespace motionrack::parts {
 
 struct ResolverSettings {
-    std::int64_t counts_per_turn = 4096;  ///< of an electrical turn: 2^10 to 2^16, mostly
+    std::int64_t counts_per_turn = 4096;  ///< of an electrical revolution: typically 2^10 to 2^16
     std::int64_t place_per_turn =
-        4096;  ///< how far `place` goes meanwhile; with p pole pairs the p-th of a rotor's turn
+        4096;  ///< change of `place` per electrical revolution; with p pole pairs 1/p of a rotor revolution
     Duration fastest = nanoseconds(1'000);  ///< 10 ns .. 1 s: one count of the converter
     std::uint64_t seed = 1;
 };
 
 class Resolver final : public EncoderPart {
   public:
-    /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z, NAME.los to the kernel, before it starts. The index
+    /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z, NAME.los to the kernel before it starts. The index
     /// is at angle 0.
     Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
              const ResolverSettings& settings = {});

@@ -1,4 +1,4 @@
-// Lines become blocks of ticks.
+// Conversion of lines to blocks of ticks.
 #include <algorithm>
 #include <motionrack/sim/parts/scan_head.hpp>
 
@@ -7,7 +7,7 @@ namespace motionrack::parts {
 namespace {
 
 constexpr Duration tick_time = microseconds(10), half_us = nanoseconds(500);
-/// So long after the last change of a line mirrors have come to rest and the laser has no edge to come: 0.3 s.
+/// Time after the last change of a line until the mirrors are stationary and no laser edge is pending: 0.3 s.
 constexpr std::int64_t settled = 30'000;
 enum Pin : int { x, y, laser };
 
@@ -41,7 +41,7 @@ void ScanHead::on_wire(int pin, int level, Instant now) {
     }
 }
 
-/// The ticks that are over.
+/// Processes the elapsed ticks.
 void ScanHead::work_off(Instant now) {
     State& s = state_;
     const std::int64_t end = now / tick_time;

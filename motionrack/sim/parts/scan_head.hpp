@@ -1,10 +1,10 @@
-// A scan head on the wires of a laser card, and what it marks.
+// A scan head on the wires of a laser card, with its marks.
 //
 //   CARD.xout, yout ──► mirrors ──► lens ──┐
-//   CARD.laser_on ────► laser ─────────────┴──► the part on its track: MarkingStation, tick by tick of 10 us
+//   CARD.laser_on ────► laser ─────────────┴──► the part on its conveyor: MarkingStation, tick by tick of 10 us
 //
-// Ticks are worked off when a line changes and at the end of a run. While the lines rest and the laser is dark the head
-// rests too: then the mirrors stand where they are told.
+// Ticks are processed when a line changes and at the end of a run. While the lines are constant and the laser is dark,
+// the head is idle: the mirrors are then at their commanded positions.
 #pragma once
 
 #include <array>
@@ -23,14 +23,14 @@ struct ScanHeadWires {
 
 class ScanHead final : public sim::DeferringDevice {
   public:
-    /// Adds the device `name` to the kernel, before it starts and after the wires' owner.
+    /// Adds the device `name` to the kernel before it starts and after the wires' owner.
     ScanHead(sim::Kernel& kernel, const std::string& name, const ScanHeadWires& wires, MarkingStation station);
 
-    /// After the start.
+    /// Call after the start.
     void begin();
-    /// The mirrors, the laser and the part, as they were when the run ended.
+    /// Mirrors, laser and part at the end of the last run.
     const MarkingStation& station() const { return station_; }
-    /// What no snapshot holds: the points marked, which it only counts.
+    /// Data that a snapshot does not contain: the marked points, which it only counts.
     void copy_points(const ScanHead& other) { station_.workpiece().copy_points(other.station_.workpiece()); }
     bool gate() const { return state_.gate != 0; }
     sim::DeviceId id() const { return id_; }
@@ -43,8 +43,8 @@ class ScanHead final : public sim::DeferringDevice {
   private:
     struct State {
         std::array<std::int64_t, 2> bits{};  ///< x, y
-        std::int64_t next = 0;               ///< tick to be worked off
-        std::int64_t changed = 0;            ///< tick in which a line changed last
+        std::int64_t next = 0;               ///< next tick to be processed
+        std::int64_t changed = 0;            ///< tick of the last change of a line
         std::int64_t gate = 0;
     };
     void work_off(Instant now);

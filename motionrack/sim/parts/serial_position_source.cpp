@@ -1,4 +1,4 @@
-// Position words, read and sent.
+// Sampling and sending of position words.
 #include <fmt/format.h>
 
 #include <cmath>

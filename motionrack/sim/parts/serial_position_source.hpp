@@ -1,6 +1,7 @@
-// A source of position words for a card's serial input: it reads a track now and then and sends what it read, late.
+// A source of position words for a card's serial input: samples a conveyor periodically and sends the words with a
+// delay.
 //
-//   read at n * period ──► delay ──► word complete        one axis: 32 bits; two axes: X low, Y high 16 bits
+//   sample at n * period ──► delay ──► word complete      one axis: 32 bits; two axes: X low, Y high 16 bits
 #pragma once
 
 #include <cstdint>
@@ -11,19 +12,19 @@
 namespace motionrack::parts {
 
 struct SerialPositionSettings {
-    double bits_per_mm = 1000;  ///< resolution, +-1e-6 .. 1e9; of a rotary table: bits a degree
-    double period_us = 10;      ///< between readings, 1 .. 1e6
-    double delay_us = 0;        ///< from a reading to its word, 0 .. 1e6
-    bool two_axes = false;      ///< X and Y of a belt's movement in one word
+    double bits_per_mm = 1000;  ///< resolution, +-1e-6 .. 1e9; for a rotary table: bits per degree
+    double period_us = 10;      ///< between samples, 1 .. 1e6
+    double delay_us = 0;        ///< from a sample to its word, 0 .. 1e6
+    bool two_axes = false;      ///< X and Y of a belt's motion in one word
 };
 
 class SerialPositionSource {
   public:
-    /// `track` must live as long. Refused: numbers that are none or out of range.
+    /// `track` must outlive the source. Errors: refused for numbers not finite or out of range.
     static Result<SerialPositionSource> make(const Conveyor& track, const SerialPositionSettings& settings);
-    /// The latest complete word at ticks of 10 us: first, first + 1, ..; it has been reading since long before 0 s.
+    /// The latest complete word at ticks of 10 us: first, first + 1, ..; sampling began long before 0 s.
     void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
-    /// The word of a reading at t_s.
+    /// The word of a sample at t_s.
     std::uint32_t word_at(double t_s) const;
     const SerialPositionSettings& settings() const { return settings_; }
 

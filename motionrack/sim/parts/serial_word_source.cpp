@@ -1,4 +1,4 @@
-// Readings, and words that become complete.
+// Samples, and completion of words.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/result.hpp>

@@ -1,9 +1,9 @@
-// A position sender in virtual time: its words on wires, each complete some time after the reading.
+// A serial position source in virtual time: its words on wires, each complete some time after the sample.
 //
-//   reading n at n * period ──► under way for the delay ──► NAME.mcbsp (32 bits)
-//   NAME.mcbsp_frame changes where the word is the same again
+//   sample n at n * period ──► in transit for the delay ──► NAME.mcbsp (32 bits)
+//   NAME.mcbsp_frame changes if the word repeats
 //
-// The fault: sender.silent (no word comes while not 0; what is under way is lost).
+// Fault: sender.silent (no words while not 0; words in transit are lost).
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ namespace motionrack::parts {
 
 class SerialWordSource final : public sim::Device {
   public:
-    /// Words that can be under way: the delay is less than so many periods.
+    /// Maximum words in transit: the delay is less than this number of periods.
     static constexpr std::int64_t max_under_way = 256;
 
-    /// Adds the device `name` and its wires `wires`.mcbsp and `wires`.mcbsp_frame to the kernel, before it starts.
+    /// Adds the device `name` and its wires `wires`.mcbsp and `wires`.mcbsp_frame to the kernel before it starts.
     SerialWordSource(sim::Kernel& kernel, const std::string& name, const std::string& wires,
                      const SerialPositionSource& sender);
 
@@ -36,9 +36,9 @@ class SerialWordSource final : public sim::Device {
 
   private:
     struct State {
-        std::int64_t read = 0, sent = 0;  ///< readings made, and those whose words are complete
+        std::int64_t read = 0, sent = 0;  ///< samples taken, and samples with complete words
         std::int64_t word = 0, frame = 0, silent = 0;
-        std::array<std::int64_t, max_under_way> words{};  ///< of reading n at n % max_under_way
+        std::array<std::int64_t, max_under_way> words{};  ///< word of sample n at n % max_under_way
     };
     Instant reading(std::int64_t n) const;
     void schedule();

@@ -1,4 +1,4 @@
-// When the rotor falls out of step and where it locks again.
+// Step loss of the rotor, and the position at which it locks again.
 #include <algorithm>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/range.hpp>

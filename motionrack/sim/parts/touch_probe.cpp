@@ -1,4 +1,4 @@
-// The probe's wire changes where an axis crosses a face of the block while the others are within it.
+// The probe's wire changes when an axis crosses a face of the block while the others are within it.
 #include <algorithm>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/touch_probe.hpp>

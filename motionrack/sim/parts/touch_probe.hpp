@@ -1,9 +1,9 @@
-// A touch probe that axes carry, and the block that it touches.
+// A touch probe carried by axes, and the block that it touches.
 //
-//   z   |                          wire ____|~~~~~~~|____   1 while the probe is within the block, its faces included
+//   z   |                          wire ____|~~~~~~~|____   1 while the probe is within the block or on its faces
 //       |      .--------.
-//       |  <-- | block  | <--      each axis has a range of counts or none; the block goes on for ever along an axis
-//       |______|________|____ x    without one
+//       |  <-- | block  | <--      each axis has a range of counts or none; without a range the block is
+//       |______|________|____ x    unlimited along the axis
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace motionrack::parts {
 
 class TouchProbe final : public sim::Device {
   public:
-    /// Adds the device "touch_" + `name` and the wire `name` to the kernel, before it starts. Without a range it
+    /// Adds the device "touch_" + `name` and the wire `name` to the kernel before it starts. Without any range it
     /// touches nothing.
     TouchProbe(sim::Kernel& kernel, const std::string& name);
 
-    /// Before the kernel starts: the block is from `from` to `to`, counts of `place`, both included.
+    /// Before the kernel starts: limits the block to `from` .. `to`, counts of `place`, both included.
     void add_range(sim::PositionFunction& place, std::int64_t from, std::int64_t to);
 
     sim::WireId wire() const { return wire_; }

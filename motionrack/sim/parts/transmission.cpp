@@ -1,4 +1,4 @@
-// Ratios and thresholds of an axle.
+// Ratios and thresholds of a transmission.
 #include <cmath>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/transmission.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double nano = 1e9;
 constexpr double exact_limit = 9007199254740992.0;          // 2^53: up to here a double holds every whole number
-constexpr double farthest_microsteps = 4503599627370496.0;  // microsteps; no axle turns as far
+constexpr double farthest_microsteps = 4503599627370496.0;  // microsteps; beyond the reach of every axle
 
 Ratio reduced(std::int64_t num, std::int64_t den) {
     const std::int64_t common = std::gcd(num, den);
@@ -52,7 +52,7 @@ Transmission::Transmission(const TransmissionSettings& settings, std::int64_t pu
 std::int64_t Transmission::first_at_or_above(double position) const {
     const double guess = std::floor((position - settings_.start_position) / num_ * den_);
     auto table = static_cast<std::int64_t>(std::fmin(std::fmax(guess, -farthest_microsteps), farthest_microsteps));
-    // The division may be off by a rounding; position_of is what counts.
+    // The division may be off by a rounding; position_of decides.
     while (position_of(table) < position && table < static_cast<std::int64_t>(farthest_microsteps)) ++table;
     while (position_of(table - 1) >= position && table > -static_cast<std::int64_t>(farthest_microsteps)) --table;
     return table;

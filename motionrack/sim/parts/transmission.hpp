@@ -1,9 +1,9 @@
-// What the motor turns: a leadscrew or a rotary table, from microsteps of the rotor to millimetres or degrees.
+// The transmission behind the motor: a leadscrew or a rotary table, from microsteps of the rotor to mm or degrees.
 //
 //   rotor r --play--> table y --x travel / pulses--> position        y = r while moving to minus, r - play to plus
 //
-// The play (backlash) is an operator with one memory, the table's place at the last turn: y = clamp(memory, r - play,
-// r).
+// The play (backlash) is an operator with one memory, the table's position at the last reversal: y = clamp(memory, r -
+// play, r).
 #pragma once
 
 #include <cstdint>
@@ -18,52 +18,52 @@ struct Ratio {
     std::int64_t den = 1;
 };
 
-/// The travel of one motor turn of a screw, to the nearest 1e-9 mm (`lead_mm`: > 0, at most 1e6).
+/// Travel per motor revolution of a screw, to the nearest 1e-9 mm (`lead_mm`: > 0, at most 1e6).
 Ratio linear_travel(double lead_mm);
-/// The degrees of one motor turn of a rotary axis with `gear_ratio` motor turns a turn (> 0, at most 1e6, to 1e-9).
+/// Degrees per motor revolution of a rotary axis; `gear_ratio`: motor revolutions per revolution (> 0, at most 1e6, to
+/// 1e-9).
 Ratio rotary_travel(double gear_ratio);
 
 struct TransmissionSettings {
-    Ratio travel_per_rev{5, 1};       ///< mm or degrees for one turn of the motor
-    double start_position = 0;        ///< mm or degrees where it stands at the start
-    double backlash = 0;              ///< mm or degrees of play, >= 0; taken to the nearest microstep
-    std::optional<double> end_minus;  ///< mm or degrees: hard ends of travel; absent: it goes on for ever
+    Ratio travel_per_rev{5, 1};       ///< mm or degrees per motor revolution
+    double start_position = 0;        ///< mm or degrees at the start
+    double backlash = 0;              ///< mm or degrees of play, >= 0; rounded to microsteps
+    std::optional<double> end_minus;  ///< mm or degrees: hard ends of travel; absent: unlimited
     std::optional<double> end_plus;
 };
 
 struct TransmissionState {
-    std::int64_t table = 0;  ///< the table at the last turn of the rotor, microsteps
+    std::int64_t table = 0;  ///< the table at the last reversal of the rotor, microsteps
 };
 
 class Transmission {
   public:
-    /// `pulses_per_rev`: microsteps of one turn of the rotor.
+    /// `pulses_per_rev`: microsteps per revolution of the rotor.
     Transmission(const TransmissionSettings& settings, std::int64_t pulses_per_rev, TransmissionState& state);
 
-    /// The table in microsteps when the rotor is at `rotor` and has not turned back since turn().
+    /// The table in microsteps for the rotor at `rotor`, if it has not reversed since turn().
     std::int64_t table(std::int64_t rotor) const {
         return play_ == 0 ? rotor : std::max(rotor - play_, std::min(rotor, state_.table));
     }
-    /// The rotor, now at `rotor`, turns back, stops or starts.
+    /// The rotor, now at `rotor`, reverses, stops or starts.
     void turn(std::int64_t rotor) { state_.table = table(rotor); }
     std::int64_t play() const { return play_; }
 
-    /// mm or degrees when the table is at `table` microsteps: two roundings, the same everywhere.
+    /// mm or degrees for the table at `table` microsteps: two roundings, the same on every machine.
     double position_of(std::int64_t table) const {
         return settings_.start_position + static_cast<double>(table) * num_ / den_;
     }
     double position(std::int64_t rotor) const { return position_of(table(rotor)); }
     double units_per_pulse() const { return num_ / den_; }
 
-    /// The first place of the table, in microsteps, whose position is at least `position`; and the last that is at
-    /// most.
+    /// The first position of the table, in microsteps, at or above `position`; and the last at or below it.
     std::int64_t first_at_or_above(double position) const;
     std::int64_t last_at_or_below(double position) const;
     /// The rotor range for a range of the table.
     Range rotor_range(const Range& table) const {
         return {table.below, table.above == sim::unwatched_above ? table.above : table.above + play_};
     }
-    /// How far the rotor can turn: left when it would go beyond an end of travel.
+    /// Travel of the rotor: left when it would exceed an end of travel.
     const Range& travel() const { return travel_; }
 
     const TransmissionSettings& settings() const { return settings_; }

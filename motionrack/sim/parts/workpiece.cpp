@@ -1,4 +1,4 @@
-// Collecting marks into strokes, and comparing them with a drawing.
+// Collection of marks into strokes, and their comparison with a drawing.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +32,7 @@ void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s)
         const sim::Spot all = minus(to, state_.start);
         const double along = all.x * state_.way.x + all.y * state_.way.y,
                      off = all.x * state_.way.y - all.y * state_.way.x;
-        // Even: as long as the energy says, but for the steps of the card's output.
+        // Uniform: the length follows the energy, except for the steps of the card's output.
         const double expected = state_.collected_j > 0 ? joules * (state_.collected_mm / state_.collected_j) : mm;
         const bool even = std::abs(mm - expected) <= std::max(0.01 * expected, 2 * settings_.tolerance_mm);
         const bool onwards = piece.x * state_.way.x + piece.y * state_.way.y >= 0;
@@ -159,12 +159,12 @@ double Nearest::distance(sim::Spot p) const {
     double best2 = std::numeric_limits<double>::infinity();
     if (segments_.empty()) return best2;
     const std::int64_t c0 = column(p.x), r0 = row(p.y);
-    const double slack = 1e-6 * side_ + 1e-9;  // a place at the edge may be in either square
+    const double slack = 1e-6 * side_ + 1e-9;  // a position at the edge may be in either square
     const auto beside = [&](double at, double low, std::int64_t square) {
         const double begin = low + static_cast<double>(square) * side_;
         return std::max({begin - slack - at, at - begin - side_ - slack, 0.0});
     };
-    // A square of ring n is at least n - 1 sides away from the point's own; a point outside is further still.
+    // A square of ring n is at least n - 1 sides away from the point's own; a point outside is further away.
     for (std::int64_t ring = 0; ring <= std::max(columns_, rows_); ++ring) {
         if (static_cast<double>(ring - 1) * side_ > std::sqrt(best2)) break;
         for (std::int64_t r = std::max<std::int64_t>(0, r0 - ring); r <= std::min(rows_ - 1, r0 + ring); ++r) {

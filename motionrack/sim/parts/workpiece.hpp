@@ -1,7 +1,6 @@
-// The part as it looks afterwards: where the spot went over it, in its own coordinates, and with how much energy a
-// millimetre.
+// The marked part: the path of the spot over it, in part coordinates, with the energy per millimetre.
 //
-//   add(from, to, J) ──► strokes: chains of points; straight stretches of even energy are one segment
+//   add(from, to, J) ──► strokes: chains of points; straight sections of uniform energy are one segment
 #pragma once
 
 #include <cstddef>
@@ -15,33 +14,33 @@
 namespace motionrack::parts {
 
 struct WorkpieceSettings {
-    double tolerance_mm = 0.0002;        ///< how far a segment may be off what was marked, 0 .. 10
-    std::size_t max_points = 4'000'000;  ///< more are counted, not kept
+    double tolerance_mm = 0.0002;        ///< maximum deviation of a segment from the marks, 0 .. 10
+    std::size_t max_points = 4'000'000;  ///< further points are counted, not stored
 };
 
-/// A point of a stroke and what was marked on the way to it.
+/// A point of a stroke, with the mark up to it.
 struct MarkedPoint {
     sim::Spot at;         ///< mm
-    double j_per_mm = 0;  ///< of the segment that ends here; 0 in a stroke's first point
-    double dwell_j = 0;   ///< put into this very place, while the spot stood
-    double begun_s = 0;   ///< when the segment began; in a first point: the stroke
+    double j_per_mm = 0;  ///< of the segment that ends here; 0 at a stroke's first point
+    double dwell_j = 0;   ///< energy at this very position while the spot was stationary
+    double begun_s = 0;   ///< start of the segment; at a first point: of the stroke
     bool first = false;
 };
 
-/// A straight piece of a drawing, mm.
+/// A straight segment of a drawing, mm.
 struct Segment {
     sim::Spot from, to;
 };
 
-/// How far what was marked is off a drawing.
+/// Deviation of the marks from a drawing.
 struct Deviation {
     double worst_mm = 0, rms_mm = 0;  ///< over points along the marks, weighted by length
     sim::Spot worst_at;               ///< on the part
-    double worst_s = 0;               ///< when that segment began
+    double worst_s = 0;               ///< start of that segment
     double missing_mm = 0;            ///< length of the drawing with no mark within `near_mm`
 };
 
-/// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
+/// Compares marked points with the drawing and the reverse, at steps of `step_mm`.
 Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm = 0.05,
                   double near_mm = 0.1);
 
@@ -49,29 +48,29 @@ class Workpiece {
   public:
     explicit Workpiece(const WorkpieceSettings& settings = {}) : settings_(settings) {}
 
-    /// The spot went straight from -> to in `seconds` from `begun_s` on, with `joules` in all.
+    /// Adds a straight motion of the spot from -> to in `seconds` from `begun_s` on, with `joules` in total.
     void add(sim::Spot from, sim::Spot to, double joules, double begun_s);
-    /// What is being collected becomes points. Before reading.
+    /// Converts the segment being collected to points; call before reading.
     void finish();
 
     std::span<const MarkedPoint> points() const {
         return std::span(points_).first(static_cast<std::size_t>(state_.points));
     }
-    /// What is being collected and no point yet, if anything.
+    /// The segment being collected, if any.
     std::optional<Segment> collecting() const;
     std::uint64_t lost_points() const { return static_cast<std::uint64_t>(state_.lost); }
     double length_mm() const { return state_.length; }
     double energy_j() const { return state_.energy; }
-    /// What is on it against a drawing.
+    /// Compares the marks with a drawing.
     Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const {
         return parts::compare(points(), drawing, step_mm, near_mm);
     }
 
-    /// All but the points themselves: points come only behind others, so that their number says which there were.
+    /// State except the points: points are only appended, so their number identifies them.
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
-    /// Makes room for max_points: from here on nothing is allocated.
+    /// Reserves memory for max_points: no later allocation.
     void reserve() { points_.reserve(settings_.max_points); }
-    /// The points of a work piece whose state was copied.
+    /// Takes the points of the work piece whose state was copied.
     void copy_points(const Workpiece& other) { points_.assign(other.points().begin(), other.points().end()); }
 
   private:
@@ -87,11 +86,11 @@ class Workpiece {
         std::int64_t collecting = 0, chained = 0;
     };
     WorkpieceSettings settings_;
-    std::vector<MarkedPoint> points_;  // may be more than there are: what came after a snapshot that was restored
+    std::vector<MarkedPoint> points_;  // may contain later points if a snapshot was restored
     State state_;
 };
 
-/// Finds the nearest of many segments; their places are sorted into squares.
+/// Finds the nearest of many segments, which are sorted into squares.
 class Nearest {
   public:
     explicit Nearest(std::span<const Segment> segments);
@@ -101,7 +100,7 @@ class Nearest {
   private:
     std::int64_t column(double x) const;
     std::int64_t row(double y) const;
-    /// Lowers `best2`, the square of a distance, to that of the nearest segment of the square.
+    /// Lowers `best2`, a squared distance, to that of the nearest segment of the square.
     void look_in(std::size_t square, sim::Spot p, double& best2) const;
 
     std::vector<Segment> segments_;
