@@ -1,4 +1,4 @@
-// Everything that is declared of a card, for documents, inspectors, traces and tests.
+// All declarations of a card, for documents, inspectors, traces and tests.
 #pragma once
 
 #include <motionrack/base/commands.hpp>
@@ -16,7 +16,7 @@ struct PinInfo {
     PinDirection direction = PinDirection::input;
     bool active_low = false;
     std::string_view meaning;
-    std::string_view same_as = {};  ///< another pin of the card: this is a second name of its wire
+    std::string_view same_as = {};  ///< another pin of the card, whose wire has this second name
 };
 
 constexpr DeclarationError pins_flaw(std::span<const PinInfo> pins) {

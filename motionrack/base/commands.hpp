@@ -1,4 +1,4 @@
-// How a card's commands are declared.
+// Declaration of a card's commands.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ namespace motionrack {
 struct CommandInfo {
     std::string_view name;
     std::uint32_t code = 0;
-    int data_bytes = 0;    ///< that go with it: 0 none, 1 .. 4 a number, up to 1024 a table (which has no range)
+    int data_bytes = 0;    ///< bytes of data: 0 none, 1 .. 4 a number, up to 1024 a table (without a range)
     std::int64_t min = 0;  ///< range of the data, as documented
     std::int64_t max = 0;
     std::string_view unit;
-    std::string_view variant;  ///< "": every variant of the card has it
+    std::string_view variant;  ///< "": all variants of the card have it
     std::string_view meaning;
-    bool reproduced = true;  ///< false: the virtual card ignores it and reports that as a condition
-    int answer_bytes = 0;    ///< that the host reads after it (where it may choose: instead of writing data)
+    bool reproduced = true;  ///< false: the virtual card ignores it and reports a condition
+    int answer_bytes = 0;    ///< bytes that the host reads afterwards (if it has a choice: instead of writing data)
 };
 
-/// No code and no name twice; ranges the right way round, and no wider than the data.
+/// Checks that codes and names are unique, and that ranges are ordered and fit into the data.
 constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) {
     if (const DeclarationError flaw = names_flaw("the commands", "command", commands); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -44,7 +44,7 @@ constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) 
     return {};
 }
 
-/// The command of that name; asking for one that is not declared does not compile.
+/// The command of that name; an undeclared name does not compile.
 consteval const CommandInfo& command_named(std::span<const CommandInfo> commands, std::string_view name) {
     for (const CommandInfo& command : commands)
         if (command.name == name) return command;

@@ -1,5 +1,5 @@
-// What is wrong with a declaration, as a sentence that the compiler prints: tables of registers, commands, states and
-// pins are looked through while they are compiled.
+// Compile-time checks of declarations: tables of registers, commands, states and pins are checked during compilation,
+// and the compiler prints the flaw as a sentence.
 //
 //   static_assert(declared<registers_flaw(registers)>());
 //   error: ... [with DeclarationError flaw = DeclarationError{"WR1: the fields IN0L and IN0E share a bit", 41}]
@@ -13,7 +13,7 @@
 
 namespace motionrack {
 
-/// The first thing wrong with a declaration; empty if nothing is. Longer than 159 characters is cut.
+/// The first flaw of a declaration; empty if there is none. Limited to 159 characters.
 struct DeclarationError {
     char sentence[160] = {};
     std::size_t size = 0;
@@ -28,14 +28,14 @@ struct DeclarationError {
     constexpr std::string_view text() const { return {sentence, size}; }
 };
 
-/// Does not compile if there is a flaw.
+/// Fails to compile if there is a flaw.
 template <DeclarationError flaw>
 consteval bool declared() {
     static_assert(flaw.empty(), "a declaration is wrong; the sentence that says how is the template argument 'flaw'");
     return true;
 }
 
-/// No entry without a name, none without a meaning, no name twice. `kind` is what the entries are: "register".
+/// Checks that every entry has a meaning and a unique name. `kind`: kind of the entries, such as "register".
 template <class Table>
 constexpr DeclarationError names_flaw(std::string_view owner, std::string_view kind, const Table& table) {
     for (std::size_t i = 0; i < table.size(); ++i) {

@@ -1,4 +1,4 @@
-// Writing a card's map.
+// Output of a card's map.
 #include <fmt/format.h>
 
 #include <motionrack/base/describe.hpp>
@@ -26,7 +26,7 @@ std::string bits_text(std::uint32_t mask) {
     return low == high ? fmt::format("D{}", low) : fmt::format("D{}-D{}", high, low);
 }
 
-/// With commas between thousands.
+/// Inserts commas between thousands.
 std::string grouped(std::int64_t number) {
     std::string out = fmt::format("{}", number);
     for (std::size_t i = out.size(); i > (number < 0 ? 4u : 3u);) out.insert(i -= 3, 1, ',');
@@ -38,14 +38,14 @@ std::string range_text(const CommandInfo& command) {
     return fmt::format("{} .. {}", grouped(command.min), grouped(command.max));
 }
 
-/// What is written with it and read after it.
+/// The data written with a command and read after it.
 std::string data_text(const CommandInfo& command) {
     if (command.answer_bytes == 0) return command.data_bytes ? fmt::format("{} bytes", command.data_bytes) : "-";
     if (command.data_bytes == 0) return fmt::format("{} bytes back", command.answer_bytes);
     return fmt::format("{} bytes, or {} back", command.data_bytes, command.answer_bytes);
 }
 
-/// The meaning with what limits it.
+/// The meaning with its restrictions.
 std::string remarked(const CommandInfo& command) {
     std::string out(command.meaning);
     if (!command.variant.empty()) out += fmt::format(" ({} only)", command.variant);
@@ -80,7 +80,7 @@ std::string quoted(std::string_view text) {
 }
 
 template <class T>
-std::string list(std::span<const T> items);  // of what json() makes of each
+std::string list(std::span<const T> items);  // a list of the json() texts of the items
 
 void add_markdown(std::string& out, const RegisterInfo& reg) {
     out += fmt::format("\n### {} (offset {:02X}h, {}{}{})\n\n{}\n", reg.name, reg.offset, access_text(reg.access),

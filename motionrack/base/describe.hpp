@@ -1,4 +1,4 @@
-// A card's map as text: for a terminal, as Markdown for the reference, as JSON for programs.
+// A card's map as text for a terminal, as Markdown for the reference, and as JSON for programs.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -6,12 +6,12 @@
 
 namespace motionrack {
 
-/// For a terminal: lines with indents.
+/// Indented lines for a terminal.
 std::string describe_text(const CardMap& map);
 /// The page docs/reference/<card>.md.
 std::string describe_markdown(const CardMap& map);
 /// An object with name, title and the lists registers (with fields), commands, machines (with states and transitions)
-/// and pins; masks, offsets and codes are numbers, strings are escaped as JSON asks for.
+/// and pins. Masks, offsets and codes are numbers; strings are escaped for JSON.
 std::string describe_json(const CardMap& map);
 
 }  // namespace motionrack

@@ -21,7 +21,7 @@ double exponential(double x) {
     const double r = high - low;  // |r| <= 0.35
     double sum = 0;
     for (int n = 13; n >= 2; --n) sum = (sum + 1) * r / n;
-    // e^r = 1 + r (1 + sum); what the subtraction above lost comes back first, being smallest.
+    // e^r = 1 + r (1 + sum); the rounding error of the subtraction is added first, as it is the smallest term.
     const double rest = (high - r) - low;
     return std::ldexp(1 + (r + (r * sum + rest)), static_cast<int>(k));
 }

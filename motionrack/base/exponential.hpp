@@ -1,7 +1,7 @@
 // Exponential and natural logarithm whose bits do not depend on the CPU, the compiler or the C library.
 //
-// They use only + - * / and exact scaling by powers of two. The errors named are those that
-// base/test/exponential_test.cpp measures against long double.
+// Both use only + - * / and exact scaling by powers of two. The stated errors are measured by
+// base/test/exponential_test.cpp against long double.
 #pragma once
 
 namespace motionrack {

@@ -1,4 +1,4 @@
-// FNV-1a, the hash of Fowler, Noll and Vo: short, and the same on every machine. It guards against nothing.
+// FNV-1a, the hash of Fowler, Noll and Vo: short, and the same on every machine. It is not cryptographic.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace motionrack {
 
 inline constexpr std::uint64_t fnv_start = 0xCBF29CE484222325ull;
 
-/// The hash with one more value, which is a byte in the original.
+/// Adds one more value to the hash; the original adds bytes.
 constexpr std::uint64_t fnv_step(std::uint64_t hash, std::uint64_t value) {
     return (hash ^ value) * 0x100000001B3ull;
 }

@@ -1,4 +1,4 @@
-// Checking calls against their declaration.
+// Validation of calls against their declaration.
 #include <fmt/format.h>
 
 #include <algorithm>

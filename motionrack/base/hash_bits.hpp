@@ -1,4 +1,4 @@
-// Bits that look random and are the same on every machine: no generator with a state, a number in, a number out.
+// Pseudo-random bits that are the same on every machine, as a stateless function from number to number.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ constexpr std::uint64_t mixed_bits(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// The odd number that SplitMix64 counts on by: 2^64 divided by the golden ratio.
+/// The odd increment of SplitMix64: 2^64 divided by the golden ratio.
 inline constexpr std::uint64_t golden_step = 0x9E3779B97F4A7C15ull;
 static_assert(mixed_bits(golden_step) == 0xE220A8397B1DCDAFull, "SplitMix64's first number after 0");
 

@@ -1,4 +1,4 @@
-// The system's loader.
+// Loads libraries through the system's loader.
 #include <dlfcn.h>
 
 #include <motionrack/base/late_library.hpp>

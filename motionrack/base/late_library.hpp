@@ -1,22 +1,22 @@
-// A shared library that is loaded by its name once something of it is needed, not at the program's start.
+// A shared library that is loaded by its name on first use, not at the program's start.
 #pragma once
 
 #include <string>
 
 namespace motionrack {
 
-/// Loads it; once loaded it stays to the end of the process.
+/// Loads the library; a loaded library stays until the end of the process.
 class LateLibrary {
   public:
-    /// `soname`: as the loader finds it, such as "libnats.so.3.4".
+    /// `soname`: name for the loader, such as "libnats.so.3.4".
     explicit LateLibrary(const char* soname);
 
-    /// Points `out` to what the library calls `name`.
+    /// Points `out` to the symbol `name` of the library.
     template <class T>
     void find(const char* name, T& out) {
         out = reinterpret_cast<T>(symbol(name));
     }
-    /// Empty when the library is loaded and has everything that was sought in it.
+    /// Empty if the library is loaded and has all requested symbols.
     const std::string& trouble() const { return trouble_; }
 
   private:
@@ -26,17 +26,17 @@ class LateLibrary {
     std::string trouble_;
 };
 
-/// A library with the functions that are used of it: a `Table` has `find_in(LateLibrary&)`.
+/// A library with its used functions: a `Table` has `find_in(LateLibrary&)`.
 template <class Table>
 class LateTable {
   public:
-    /// Loads it with the first call; `soname` is always the same.
+    /// Loads the library at the first call; `soname` is always the same.
     static const LateTable& loaded(const char* soname) {
         static const LateTable once(soname);
         return once;
     }
     const std::string& trouble() const { return library_.trouble(); }
-    /// Only without trouble.
+    /// Requires that trouble() is empty.
     const Table& table() const { return table_; }
 
   private:

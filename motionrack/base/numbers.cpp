@@ -1,4 +1,4 @@
-// Text to number, whatever the locale.
+// Conversion of text to number, independent of the locale.
 #include <charconv>
 #include <limits>
 #include <motionrack/base/numbers.hpp>

@@ -1,11 +1,11 @@
-// Decimal text as users and files write it.
+// Decimal numbers in text by users and files.
 #pragma once
 
 #include <string_view>
 
 namespace motionrack {
 
-/// The number that the whole of the text is; NaN if it is none (an empty one, too).
+/// The number of the complete text; NaN if it is not a number or empty.
 double number_of(std::string_view text);
 
 }  // namespace motionrack

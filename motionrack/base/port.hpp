@@ -1,5 +1,5 @@
-// What a driver talks to: registers, byte ports and an interrupt line. A driver cannot tell a virtual card from a real
-// one, because this is all it ever sees.
+// Interfaces of a driver to a card: registers, byte ports and an interrupt line. A driver uses only these, so it works
+// with a virtual card as with a real one.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace motionrack {
 
-/// A 16-bit register bus. Offsets are byte offsets as in the card's map; one access a statement, because a read may
-/// have effects and the order of arguments is not the same on every compiler.
+/// A 16-bit register bus. Offsets are byte offsets as in the card's map. Write one access per statement: a read may
+/// have side effects, and compilers differ in the order of arguments.
 class RegisterPort {
   public:
     virtual ~RegisterPort() = default;
@@ -16,7 +16,7 @@ class RegisterPort {
     virtual std::uint16_t read(std::uint32_t offset) = 0;
 };
 
-/// An 8-bit port space, as the IN and OUT instructions of an 8-bit host see it.
+/// An 8-bit port space, as the IN and OUT instructions of an 8-bit host access it.
 class BytePort {
   public:
     virtual ~BytePort() = default;
@@ -24,19 +24,19 @@ class BytePort {
     virtual std::uint8_t in(std::uint8_t port) = 0;
 };
 
-/// The interrupt line of a card and the passing of time, as a host sees them. On a virtual card waiting lets the world
-/// run; on a real one it sleeps.
+/// Interrupt line of a card and passage of time, as a host sees them. On a virtual card a wait runs the simulation; on
+/// a real one it sleeps.
 class Interrupt {
   public:
     virtual ~Interrupt() = default;
-    /// Waits until the line is active or `timeout` has passed (`never`: however long it takes); true if the line is
+    /// Waits until the line is active or `timeout` has passed (`never`: without limit); returns true if the line is
     /// active.
     virtual bool wait(Duration timeout) = 0;
-    /// Lets `duration` pass, whatever the line does.
+    /// Lets `duration` pass, independent of the line.
     virtual void pass(Duration duration) = 0;
     /// The host's clock.
     virtual Instant now() const = 0;
-    /// True once the user asked to stop; a driver in a waiting loop then stops the motion and returns.
+    /// True once the user has requested a stop; a waiting driver then stops the motion and returns.
     virtual bool stop_requested() const { return false; }
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double max_squared = 1e6;
 constexpr double root_half_of_power = 0x1.6a09e667f3bcdp-1;
 
-/// high + low, where low is below half an ulp of high.
+/// high + low, with low below half an ulp of high.
 struct Pair {
     double high;
     double low;
@@ -49,7 +49,7 @@ Pair operator/(Pair a, Pair b) {
     return sum(first, rest / b.high);
 }
 
-/// 2^scale times a pair near 1, so that neither overflows on the way.
+/// 2^scale times a pair near 1, without overflow of an intermediate result.
 double whole_power(double x, double y) {
     int exponent = 0;
     Pair base = {std::frexp(x, &exponent), 0};

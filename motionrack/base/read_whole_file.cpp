@@ -38,7 +38,7 @@ Result<std::string> read_descriptor(int file, const std::string& name, const Rea
         if (got == 0) return text;
         if (got > 0 || why == EINTR) continue;
         if (why != EAGAIN) return not_readable(name, std::strerror(why));
-        wait_to_read(file);  // a pipe whose writer has not written so far
+        wait_to_read(file);  // a pipe whose writer has not written yet
     }
 }
 

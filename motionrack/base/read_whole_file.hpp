@@ -1,5 +1,5 @@
-// Reading a whole file that a user names: with a limit, so that /dev/zero ends in a sentence, and without waiting for
-// a FIFO that has no writer.
+// Reads a whole file named by a user: with a limit, so that /dev/zero ends in an error, and without waiting for a FIFO
+// without a writer.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace motionrack {
 
-/// How long a file of a kind may be, and what the kind is called: "a program".
+/// Maximum length and name of a kind of file: "a program".
 struct ReadLimit {
     std::size_t max_bytes;
     std::string_view kind;
@@ -23,9 +23,9 @@ constexpr ReadLimit toml{std::size_t{16} << 20, "a file of settings"};
 constexpr ReadLimit users{std::size_t{4} << 20, "a users file"};
 }  // namespace read_limits
 
-/// Errors: io (it cannot be read, is a folder, or a FIFO to which nothing was written), invalid_input (it is too long).
+/// Reads a file. Errors: io (not readable, a folder, or a FIFO without data), invalid_input (too long).
 Result<std::string> read_whole_file(const std::string& path, const ReadLimit& limit);
-/// The same of an open file, which stays open; `name` is for the sentences. Errors: as read_whole_file.
+/// Reads an open file, which stays open; `name`: its name in messages. Errors: as read_whole_file.
 Result<std::string> read_descriptor(int file, const std::string& name, const ReadLimit& limit);
 
 }  // namespace motionrack

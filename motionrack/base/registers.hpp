@@ -1,4 +1,4 @@
-// How a card's registers are declared: once, as constexpr tables that the compiler checks and everyone else reads.
+// Declaration of a card's registers: once, as constexpr tables that the compiler checks.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ enum class Access : std::uint8_t {
 
 struct FieldInfo {
     std::string_view name;
-    std::uint32_t mask = 0;    ///< neighbouring bits
+    std::uint32_t mask = 0;    ///< adjacent bits
     std::string_view meaning;  ///< one line
 };
 
@@ -25,13 +25,13 @@ struct RegisterInfo {
     std::uint32_t offset = 0;  ///< byte offset on the bus
     int width = 16;            ///< bits, 1 .. 32
     Access access = Access::read;
-    bool per_axis = false;  ///< exists once an axis; the axis is chosen by the last command
-    std::string_view bank;  ///< registers of different banks may share an offset ("" : always there)
+    bool per_axis = false;  ///< exists per axis; the last command selects the axis
+    std::string_view bank;  ///< registers of different banks may share an offset ("": always accessible)
     std::string_view meaning;
     std::span<const FieldInfo> fields;
 };
 
-/// No two fields of a register share a bit, none lies outside it, none is empty or has a gap, no name twice.
+/// Checks the fields of a register: disjoint, within its width, contiguous, not empty, with unique names.
 constexpr DeclarationError fields_flaw(const RegisterInfo& reg) {
     if (reg.width < 1 || reg.width > 32) return {reg.name, ": the width is not 1 to 32 bits"};
     if (const DeclarationError flaw = names_flaw(reg.name, "field", reg.fields); !flaw.empty()) return flaw;
@@ -49,7 +49,7 @@ constexpr DeclarationError fields_flaw(const RegisterInfo& reg) {
     return {};
 }
 
-/// Every register's fields are sound; no name twice; no two registers at one offset in one direction and bank.
+/// Checks the fields of all registers, unique names, and unique offsets per direction and bank.
 constexpr DeclarationError registers_flaw(std::span<const RegisterInfo> registers) {
     if (const DeclarationError flaw = names_flaw("the registers", "register", registers); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < registers.size(); ++i) {
@@ -64,14 +64,14 @@ constexpr DeclarationError registers_flaw(std::span<const RegisterInfo> register
     return {};
 }
 
-/// The register of that name; asking for one that is not declared does not compile.
+/// The register of that name; an undeclared name does not compile.
 consteval const RegisterInfo& register_named(std::span<const RegisterInfo> registers, std::string_view name) {
     for (const RegisterInfo& reg : registers)
         if (reg.name == name) return reg;
     throw "there is no register of that name";
 }
 
-/// The mask of a field; asking for one that is not declared, or of a register wider than 16 bits, does not compile.
+/// The mask of a field; an undeclared name, or a register wider than 16 bits, does not compile.
 consteval std::uint16_t mask_of(const RegisterInfo& reg, std::string_view field) {
     if (reg.width > 16) throw "the register is wider than a Field";
     for (const FieldInfo& info : reg.fields)
@@ -79,7 +79,7 @@ consteval std::uint16_t mask_of(const RegisterInfo& reg, std::string_view field)
     throw "the register has no field of that name";
 }
 
-/// A field of a word: constants of this type cost nothing at run time.
+/// A field of a word; constants of this type have no run-time cost.
 struct Field {
     std::uint16_t mask = 0;
     constexpr bool test(unsigned word) const { return (word & mask) != 0; }

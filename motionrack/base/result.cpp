@@ -1,4 +1,4 @@
-// What a failed assertion does: say what and where, then abort.
+// Failed assertions: print message and location, then abort.
 #include <cstdio>
 #include <motionrack/base/result.hpp>
 

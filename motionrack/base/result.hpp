@@ -1,4 +1,4 @@
-// Operations that can fail return Result<T>; an Error is a sentence for a person, with the place where it happened.
+// Operations that can fail return Result<T>; an Error is a readable sentence with the place of the error.
 #pragma once
 
 #include <cstdlib>
@@ -8,30 +8,30 @@
 
 namespace motionrack {
 
-/// What kind of thing went wrong; the command line turns it into an exit code.
+/// Kind of an error; the command line converts it to an exit code.
 enum class ErrorKind {
     invalid_input,  ///< a file or argument is wrong; nothing was done
     refused,        ///< the request is well formed but outside a limit; nothing was done
-    machine,        ///< the machine stopped: limit switch, alarm, lost steps
+    machine,        ///< the machine stopped: limit switch, alarm, step loss
     io,             ///< a file or device could not be read or written
-    stopped         ///< the user asked to stop; what was recorded is kept
+    stopped         ///< the user requested a stop; recorded data are kept
 };
 
-/// A place in a text file; line and column count from 1, 0 means "no place".
+/// A place in a text file; line and column count from 1, 0: unknown.
 struct Place {
     int line = 0;
     int column = 0;
     friend constexpr bool operator==(const Place&, const Place&) = default;
 };
 
-/// What could not be done, in a sentence that has the number seen, the limit, what was done and what to do next.
+/// A failure as a sentence: the value found, the limit, the consequence and the remedy.
 struct Error {
     ErrorKind kind = ErrorKind::invalid_input;
     std::string message;
     std::string file = {};
     Place place = {};
 
-    /// "file:line:column: message", leaving out what is not known.
+    /// "file:line:column: message" without unknown parts.
     std::string text() const {
         std::string out = file;
         if (place.line > 0) {
@@ -51,12 +51,12 @@ inline tl::unexpected<Error> fail(ErrorKind trouble, std::string message, Place 
     return tl::unexpected<Error>(Error{trouble, std::move(message), std::move(file), place});
 }
 
-/// Prints what is wrong in the program and aborts; used by MOTIONRACK_ASSERT.
+/// Prints an internal error of the program and aborts; used by MOTIONRACK_ASSERT.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line) noexcept;
 
 }  // namespace motionrack
 
-/// A programmer's mistake; stays on in Release.
+/// Checks for an error in the program; also active in Release builds.
 #define MOTIONRACK_ASSERT(condition) \
     ((condition) ? static_cast<void>(0) : ::motionrack::assertion_failed(#condition, __FILE__, __LINE__))
 
@@ -70,7 +70,7 @@ inline tl::unexpected<Error> fail(ErrorKind trouble, std::string message, Place 
         return ::tl::unexpected<::motionrack::Error>(std::move(MOTIONRACK_JOIN(result_, __LINE__)).error()); \
     declaration = std::move(*MOTIONRACK_JOIN(result_, __LINE__))  // NOLINT(bugprone-macro-parentheses): it declares
 
-/// `MOTIONRACK_CHECK(f());` returns the error of a Result<void> if there is one.
+/// `MOTIONRACK_CHECK(f());` returns if the Result<void> is an error.
 #define MOTIONRACK_CHECK(expression)                                                         \
     do {                                                                                     \
         if (auto checked_result = (expression); !checked_result)                             \

@@ -1,4 +1,4 @@
-// How a card's state machines are declared.
+// Declaration of a card's state machines.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace motionrack {
 struct StateInfo {
     std::string_view name;
     std::string_view meaning;
-    bool final = false;  ///< may be without exit
+    bool final = false;  ///< may have no exit
 };
 
 struct TransitionInfo {
@@ -28,14 +28,14 @@ struct MachineInfo {
     std::span<const TransitionInfo> transitions;
 };
 
-/// Its place in the table, -1 if there is none of that name.
+/// Index in the table, or -1 for an unknown name.
 constexpr int state_index(const MachineInfo& machine, std::string_view name) {
     for (std::size_t i = 0; i < machine.states.size(); ++i)
         if (machine.states[i].name == name) return static_cast<int>(i);
     return -1;
 }
 
-/// The states that can be reached from the first one, a bit each.
+/// States reachable from the first one, one bit each.
 constexpr std::uint64_t reachable_states(const MachineInfo& machine) {
     std::uint64_t reached = 1;
     for (std::size_t round = 0; round < machine.states.size(); ++round)
@@ -44,8 +44,8 @@ constexpr std::uint64_t reachable_states(const MachineInfo& machine) {
     return reached;
 }
 
-/// Every transition joins known states, every state can be reached from the first one and left unless it is final, no
-/// name twice.
+/// Checks that every transition connects known states, that every state is reachable from the first one and has an exit
+/// unless it is final, and that names are unique.
 constexpr DeclarationError machine_flaw(const MachineInfo& machine) {
     if (machine.states.empty() || machine.states.size() > 64) return {machine.name, ": there are not 1 to 64 states"};
     if (const DeclarationError flaw = names_flaw(machine.name, "state", machine.states); !flaw.empty()) return flaw;

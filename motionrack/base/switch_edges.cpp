@@ -1,4 +1,4 @@
-// Comparing the edges of a search.
+// Comparison of the edges of a search.
 #include <fmt/format.h>
 
 #include <algorithm>

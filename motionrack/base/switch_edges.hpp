@@ -1,5 +1,5 @@
-// Are the edges that a search for home has found those of one sound switch? A contact that breaks or sticks for a while
-// makes edges where there are none. Ways are counted towards the switch, in the unit of whoever searches.
+// Checks that the edges found by a homing search are those of one sound switch. A contact that breaks or sticks
+// temporarily causes false edges. Distances count towards the switch, in the unit of the caller.
 //
 //   away ────┼────────── hysteresis ──────────┼──── towards ──► way
 //         released                          acted
@@ -11,17 +11,17 @@
 
 namespace motionrack {
 
-/// mm or degrees: the contacts of a sound switch act at the same place to that.
+/// mm or degrees: repeatability of the contacts of a sound switch.
 inline constexpr double contacts_repeat = 0.02;
 
-/// An edge that a sound switch would not have.
+/// An edge that a sound switch would not cause.
 struct EdgeConflict {
-    bool with_release = false;  ///< with the place where it was released; else where it had acted before
-    bool beyond = false;        ///< farther towards the switch than that, else before it
-    double apart = 0;           ///< at least
-    double limit = 0;           ///< what a sound switch explains
+    bool with_release = false;  ///< relative to the release position; otherwise to the previous activation
+    bool beyond = false;        ///< further towards the switch; otherwise before it
+    double apart = 0;           ///< minimum distance
+    double limit = 0;           ///< maximum distance for a sound switch
 
-    /// "it acted .. beyond the place where it was released, ..", ways as `text_of` writes them.
+    /// "it acted .. beyond the place where it was released, ..", with distances formatted by `text_of`.
     template <typename TextOf>
     std::string text(TextOf text_of) const {
         return said(text_of(apart), text_of(limit));
@@ -33,11 +33,11 @@ struct EdgeConflict {
 
 class SwitchEdges {
   public:
-    /// A search begins. Without the hysteresis nothing is compared.
+    /// Begins a search. Without the hysteresis edges are not compared.
     void begin(std::optional<double> hysteresis, double repeats);
-    /// On the way away: at `way`, or up to `within` before on that way.
+    /// Records a release on the way away: at `way`, or up to `within` before.
     void released(double way, double within);
-    /// On the way towards it, likewise; compared with what was seen before in this search.
+    /// Records an activation on the way towards the switch, likewise; compares it with earlier edges of this search.
     std::optional<EdgeConflict> acted(double way, double within);
 
   private:
@@ -49,7 +49,7 @@ class SwitchEdges {
     std::optional<double> hysteresis_;
     double repeats_ = 0;
     std::optional<Span> acted_;
-    std::optional<Span> released_;  ///< contacts that bounce for long are released several times, ever farther away
+    std::optional<Span> released_;  ///< contacts that bounce long are released several times, each time further away
 };
 
 }  // namespace motionrack

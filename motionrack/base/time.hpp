@@ -1,4 +1,4 @@
-// Virtual time: whole ticks of 100 ps in 64 bits, so that every clock of every card is exact and 29 years fit.
+// Virtual time: whole ticks of 100 ps in 64 bits, so every clock of every card is exact and 29 years fit.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ using Duration = std::chrono::duration<std::int64_t, std::ratio<1, 10'000'000'00
 /// An instant of virtual time, counted from the start of the rack (0).
 using Instant = Duration;
 
-/// Later than everything; "never" as an answer to "when does the next thing happen?".
+/// Later than every instant; "never" as the next instant of an event.
 inline constexpr Instant never{std::numeric_limits<std::int64_t>::max()};
 
 constexpr Duration nanoseconds(std::int64_t n) {
@@ -29,12 +29,12 @@ constexpr Duration whole_seconds(std::int64_t n) {
     return Duration{n * 10'000'000'000};
 }
 
-/// `by` (>= 0) after `from` (>= 0), at most `never`: the end of a wait that may be endless.
+/// The instant `by` (>= 0) after `from` (>= 0), at most `never`: the end of a wait that may be unlimited.
 constexpr Instant later(Instant from, Duration by) {
     return by > never - from ? never : from + by;
 }
 
-/// Seconds as a double, for people and pictures; never used to order events.
+/// Seconds as a double, for output and charts; never used to order events.
 constexpr double to_seconds(Duration d) {
     return static_cast<double>(d.count()) * 1e-10;
 }

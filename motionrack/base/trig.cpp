@@ -1,4 +1,4 @@
-// Trigonometry by Taylor polynomials after an exact reduction of the argument; constants are split in two or three
+// Trigonometry by Taylor polynomials after an exact reduction of the argument; constants are divided into two or three
 // doubles.
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace motionrack {
 namespace {
 
-// pi/2 in three parts; the first two have 33 bits, so that their products with a quadrant below 2^20 are exact.
+// pi/2 in three parts; the first two have 33 bits, so their products with a quadrant below 2^20 are exact.
 constexpr double half_pi_1 = 0x1.921fb544p+0;
 constexpr double half_pi_2 = 0x1.0b4611a6p-34;
 constexpr double half_pi_3 = 0x1.3198a2e037073p-69;
@@ -18,7 +18,7 @@ constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest_angle = 1e9;
 
-/// A number as a sum of a double and a small rest.
+/// A number as a sum of a double and a small remainder.
 struct Split {
     double high;
     double low;
@@ -64,7 +64,7 @@ double cos_core(Split x) {
     return head + (((1 - head) - half) + (w * (even + z * odd) - x.high * x.low));
 }
 
-/// An eighth k/8 as a sum of two powers of two (or zero), so that y - k/8 x has no rounding, and its arc tangent.
+/// An eighth k/8 as a sum of two powers of two (or zero), so y - k/8 x is exact, and its arc tangent.
 struct Eighth {
     double first;
     double second;
@@ -86,7 +86,7 @@ constexpr Eighth eighths[9] = {
 constexpr Split pi_split = {0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
 constexpr Split half_pi_split = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
-/// a - b where a.high >= b.high, or b.high is 0.
+/// a - b for a.high >= b.high, or b.high = 0.
 Split subtract(Split a, Split b) {
     const double high = a.high - b.high;
     return {high, ((a.high - high) - b.high) + (a.low - b.low)};

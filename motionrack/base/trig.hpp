@@ -1,20 +1,20 @@
-// Sine, cosine, tangent and their inverses whose bits do not depend on the CPU, the compiler or the C library.
+// Sine, cosine, tangent and their inverses with the same bits on every CPU, compiler and C library.
 //
 // They use only + - * / sqrt on doubles and no fused operations, so the same input gives the same bits everywhere. The
-// errors named are those that base/test/trig_test.cpp measures against long double (64-bit mantissa).
+// stated errors are measured by base/test/trig_test.cpp against long double (64-bit mantissa).
 #pragma once
 
 namespace motionrack {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Both at once: they share the reduction of the angle.
+/// Both together: they share the reduction of the angle.
 struct SinCos {
     double sin;
     double cos;
 };
 
-/// Sine and cosine of `radians`, each within 1 ulp (measured: 0.8) for |radians| <= 1e6. Up to 1e9 the angle is off by
+/// Sine and cosine of `radians`, each within 1 ulp (measured: 0.8) for |radians| <= 1e6. Up to 1e9 the angle error is
 /// at most 1e-6 rad; beyond 1e9 and for infinities and NaN both are NaN.
 SinCos sin_cos(double radians);
 

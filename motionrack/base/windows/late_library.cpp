@@ -1,4 +1,4 @@
-// Windows' loader. A bare name is looked for beside the program and in the system's folder, not in the current one.
+// Windows' loader. A bare name is searched in the program's and the system's folder, not in the current one.
 #define WIN32_LEAN_AND_MEAN
 #include <fmt/format.h>
 #include <windows.h>

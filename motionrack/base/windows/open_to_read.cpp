@@ -1,4 +1,4 @@
-// Windows translates the ends of lines and the byte 1Ah unless it is told not to; it opens no folder.
+// By default Windows translates line ends and the byte 1Ah; it does not open folders.
 #include <fcntl.h>
 #include <io.h>
 #include <sys/stat.h>
@@ -17,7 +17,7 @@ int open_to_read(const char* path) {
     return ::_open(path, _O_RDONLY | _O_BINARY | _O_NOINHERIT);
 }
 
-/// A read waits by itself.
+/// A read blocks by itself.
 void wait_to_read(int) {}
 
 }  // namespace motionrack
