@@ -1,4 +1,4 @@
-// Cyclone DDS, loaded with the first bus on a network. Its names in the sources of this room are those of the loaded
+// Cyclone DDS, loaded with the first bus on a network. Its names in the sources of this module are those of the loaded
 // library.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace motionrack::dds {
 
-/// The functions of it that this room uses.
+/// The library functions that this module uses.
 struct Library {
 #define MOTIONRACK_DDS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_DDS_FUNCTIONS(MOTIONRACK_DDS_MEMBER)
@@ -29,9 +29,9 @@ struct Library {
     }
 };
 
-/// Errors: io, it is not installed. Once it is loaded it stays.
+/// Loads the library. Errors: io, it is not installed. A loaded library stays loaded.
 Result<void> load_library();
-/// After load_library().
+/// Requires load_library().
 const Library& library();
 
 }  // namespace motionrack::dds

@@ -1,4 +1,4 @@
-// Sentences of events, and their queue.
+// Messages of events, and their queue.
 #include <fmt/format.h>
 
 #include <motionrack/dds/events.hpp>
@@ -11,7 +11,7 @@ constexpr const char* names[event_kinds] = {
     "joined",    "stale",   "fresh",     "lost",        "late",     "duplicate",     "jump",    "anew",
     "wrong_crc", "foreign", "malformed", "wrong_words", "conflict", "conflict_over", "restart", "takeover"};
 
-/// A source's text, whatever bytes are in it: it may come from anyone.
+/// Makes a source's text printable: it may contain arbitrary bytes from the network.
 std::string printable(const Source& source) {
     std::string out = source.text();
     for (char& c : out)

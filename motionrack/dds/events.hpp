@@ -1,4 +1,4 @@
-// What a judge reports, and the sentences that people read.
+// Events reported by a validator, and their messages.
 #pragma once
 
 #include <array>
@@ -32,21 +32,21 @@ const char* name_of(EventKind kind);
 struct Event {
     EventKind kind = EventKind::joined;
     Instant when{};
-    Source source, other;      ///< who has the bus, and the other one of a conflict, restart or takeover
-    std::uint64_t number = 0;  ///< what the sentence tells: frames lost, N seen, sequence
-    std::uint64_t limit = 0;   ///< N expected, sequence before
-    std::uint64_t total = 0;   ///< of this kind so far
+    Source source, other;      ///< the owner of the bus, and the other source of a conflict, restart or takeover
+    std::uint64_t number = 0;  ///< value in the message: frames lost, N seen, sequence
+    std::uint64_t limit = 0;   ///< N expected, previous sequence
+    std::uint64_t total = 0;   ///< of this kind in total
 };
 
-/// What happened, what was done with it, what to do.
+/// The event, its consequence and the remedy.
 std::string sentence(const Event& event);
 
-/// Holds events until someone reads them; one a second of each kind, for a thousand bad frames are one report.
+/// Stores events until they are read; at most one per second of each kind, so a thousand bad frames give one report.
 class EventQueue {
   public:
     static constexpr Duration min_distance = whole_seconds(1);
 
-    /// Whether an event of this kind may be put.
+    /// True if an event of this kind may be put.
     bool open(EventKind kind, Instant now) const;
     void put(const Event& event);
     bool take(Event& event);

@@ -1,4 +1,4 @@
-// FramePublisher frames, each at its time: those that are given, or those of a source in a loop.
+// Publishes frames, each at its due time: single frames, or those of a source in a loop.
 #pragma once
 
 #include <atomic>
@@ -8,36 +8,36 @@
 
 namespace motionrack::dds {
 
-/// Where frames come from: a card of a rack that runs.
+/// Source of frames: a card of a running rack.
 class FrameSource {
   public:
     virtual ~FrameSource() = default;
-    /// Runs until the next frame is complete and gives it; false: there are no more. A frame of 0 words: none came, it
-    /// is for its time that the loop waits. Errors: what stopped it.
+    /// Runs until the next frame is complete and returns it; false: no more frames. A frame of 0 words means that none
+    /// was read, but the loop still waits for its time. Errors: the cause of a stop.
     virtual Result<bool> next(Frame& frame) = 0;
 };
 
 struct PublishingSettings {
-    double speed = 1;                                                   ///< bus time that passes in a unit of real time
+    double speed = 1;                                                   ///< bus time per unit of real time
     Duration pace = microseconds(200);                                  ///< real time between two frames
     std::uint64_t most = 0;                                             ///< frames to publish; 0: all
     const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame
-    std::function<void(const Event&)> report;                           ///< is given what the publisher notices
-    std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once a frame
+    std::function<void(const Event&)> report;                           ///< receives the events of the publisher
+    std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once per frame
 };
 
 struct Published {
-    std::uint64_t late = 0;   ///< frames that left more than a pace after their time
-    std::uint64_t slips = 0;  ///< how often the schedule began anew, more than a second behind
-    Duration worst{};         ///< the greatest lateness
+    std::uint64_t late = 0;   ///< frames sent more than a pace after their due time
+    std::uint64_t slips = 0;  ///< number of times the schedule restarted, more than a second late
+    Duration worst{};         ///< maximum lateness
     bool stopped = false;
 };
 
-/// Frames in real time, one by one.
+/// Publishes frames in real time, one by one.
 class FramePublisher {
   public:
     FramePublisher(Publisher& publisher, const PublishingSettings& settings);
-    /// Waits until the frame's time and publishes it. False: that was all, or it was told to stop.
+    /// Waits until the frame's due time and publishes it. Returns false after the last frame or a stop.
     bool put(const Frame& frame);
     const Published& outcome() const { return outcome_; }
 

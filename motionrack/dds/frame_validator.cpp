@@ -1,4 +1,4 @@
-// Judging samples.
+// Validation of samples.
 #include <algorithm>
 #include <motionrack/dds/frame_validator.hpp>
 
@@ -6,10 +6,10 @@ namespace motionrack::dds {
 
 namespace {
 
-/// Sequence numbers less than this apart are ahead, the others behind.
+/// Sequence numbers less than this apart are ahead, all others behind.
 constexpr std::uint32_t half = 0x8000'0000U;
 
-/// The verdict's event, for those that are reported by themselves.
+/// The event of a validation result, if it has one of its own.
 EventKind kind_of(Validation verdict) {
     switch (verdict) {
         case Validation::duplicate:
@@ -83,7 +83,7 @@ bool FrameValidator::in_conflict() const {
                        [](const OtherSource& other) { return other.in_conflict; });
 }
 
-/// What can be said of a sample by itself.
+/// Checks a sample by itself.
 Validation FrameValidator::check(const Sample& sample) const {
     if (sample.format != wire_format) return Validation::foreign;
     if (sample.frame.words < 1 || sample.frame.words > grating_bus::max_scales) return Validation::malformed;
@@ -93,7 +93,7 @@ Validation FrameValidator::check(const Sample& sample) const {
     return Validation::used;
 }
 
-/// Whether `after` goes on from `before`: later, and by as many periods as its sequence says, give or take one.
+/// True if `after` continues `before`: later, by as many periods as its sequence shows, plus or minus one.
 bool FrameValidator::fits(const Frame& before, const Frame& after) const {
     __extension__ using Wide = __int128;
     const std::uint32_t ahead = after.sequence - before.sequence;
@@ -128,7 +128,7 @@ Validation FrameValidator::take(const Sample& sample, Instant now) {
     return follow(sample, now);
 }
 
-/// A frame of the source that has the bus.
+/// Validates a frame of the source that owns the bus.
 Validation FrameValidator::follow(const Sample& sample, Instant now) {
     const Frame& frame = sample.frame;
     if (frame.words != frame_.words) return bad(Validation::wrong_words, sample, now);
@@ -222,7 +222,7 @@ void FrameValidator::note_other(const Source& source, Instant now) {
     at->heard = now;
 }
 
-/// The source that has the bus was heard after another one: both publish. A source that follows one that is gone is no
+/// A frame of the owner after one of another source: both publish. A source that follows a silent one does not cause a
 /// conflict.
 void FrameValidator::find_conflicts(Instant now) {
     for (std::size_t i = 0; i < other_count_; ++i) {

@@ -11,7 +11,7 @@ Instant FramePacer::due(Instant frame, Instant now) {
         first_frame_ = frame;
         first_due_ = now;
     }
-    // Speed 1 stays whole ticks; otherwise 53 bits hold a tick of a day's run.
+    // Speed 1 uses whole ticks; otherwise 53 bits resolve a tick within a day's run.
     const Duration elapsed = frame - first_frame_;
     const Duration real =
         speed_ == 1 ? elapsed : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / speed_)};

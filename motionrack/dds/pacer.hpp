@@ -1,5 +1,5 @@
-// When a frame is due in real time. Every due time comes from the first frame's, so that nothing adds up; the pacer
-// knows no clock.
+// Due times of frames in real time. Every due time is relative to the first frame, so errors do not accumulate; the
+// pacer uses no clock.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@ class FramePacer {
   public:
     static constexpr Duration max_behind = whole_seconds(1);
 
-    /// `speed`: bus time that passes in a unit of real time, above 0; `pace`: real time between two frames.
+    /// `speed`: bus time per unit of real time, > 0; `pace`: real time between two frames.
     FramePacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
 
-    /// When the frame of bus time `frame` is due, asked at `now`. The first frame is due at once. What is due in the
-    /// past is published at once and counted as late if it is by more than a pace; who is behind by more than
-    /// `max_behind` does not catch up: the schedule begins anew, which is a slip.
+    /// Due time of the frame of bus time `frame`, queried at `now`. The first frame is due at once. A past due time
+    /// means publication at once, counted as late beyond one pace. Beyond `max_behind` the schedule restarts instead of
+    /// catching up, which is a slip.
     Instant due(Instant frame, Instant now);
 
     std::uint64_t late() const { return late_; }
     std::uint64_t slips() const { return slips_; }
-    Duration worst() const { return worst_; }  ///< how late the latest frame was
+    Duration worst() const { return worst_; }  ///< lateness of the latest frame
 
   private:
     double speed_;

@@ -1,4 +1,4 @@
-// A writer, and beside it a listener that hears every participant but this one.
+// A writer, with a reader for all other participants.
 #include <fmt/format.h>
 
 #include <motionrack/dds/clock.hpp>

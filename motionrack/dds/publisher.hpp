@@ -1,4 +1,4 @@
-// The host's side: publishes the frames of one card on a bus, and listens whether anyone else does.
+// The host's side: publishes the frames of one card on a bus, and detects other publishers.
 #pragma once
 
 #include <memory>
@@ -10,28 +10,28 @@ namespace motionrack::dds {
 struct PublisherSettings {
     std::string bus = "stage";
     int domain = 0;
-    Duration period = microseconds(200);  ///< time of the bus between two frames
+    Duration period = microseconds(200);  ///< bus time between two frames
     Duration pace = microseconds(200);    ///< real time between two frames
 };
 
 class Publisher {
   public:
-    /// Errors: invalid_input (name, domain, period or pace outside 1 us to 60 s), io.
+    /// Opens a publisher. Errors: invalid_input (name, domain, period or pace outside 1 us to 60 s), io.
     static Result<std::unique_ptr<Publisher>> open(const PublisherSettings& settings);
     virtual ~Publisher() = default;
 
-    /// Sends the frame; never waits for a subscriber. False if it was not sent, because its CRC is not that of its
-    /// content or the network refused it: both are counted.
+    /// Sends the frame; never waits for a subscriber. Returns false if it was not sent, because its CRC does not match
+    /// its content or the network refused it: both are counted.
     virtual bool publish(const Frame& frame) = 0;
-    /// Looks who else publishes; a conflict's event has this publisher as `source`.
+    /// Checks for other publishers; the `source` of a conflict event is this publisher.
     virtual void look() = 0;
     virtual bool next_event(Event& event) = 0;
 
     const Source& source() const { return source_; }
     std::uint64_t sent() const { return sent_; }
-    std::uint64_t unsound() const { return unsound_; }  ///< frames that were not sent, because they were damaged before
-    std::uint64_t refused() const { return refused_; }  ///< frames that the network did not take
-    std::uint64_t foreign_frames() const { return foreign_frames_; }  ///< heard from other publishers
+    std::uint64_t unsound() const { return unsound_; }  ///< frames not sent because they were already damaged
+    std::uint64_t refused() const { return refused_; }  ///< frames refused by the network
+    std::uint64_t foreign_frames() const { return foreign_frames_; }  ///< received from other publishers
 
   protected:
     Source source_;

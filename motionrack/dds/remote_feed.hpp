@@ -1,5 +1,5 @@
-// Frames of a bus on another computer for a virtual card here: every judged frame once, in order, between two instants
-// of the rack.
+// Frames of a bus on another computer for a virtual card: every valid frame once, in order, between two runs of the
+// rack.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@ namespace motionrack::dds {
 
 class RemoteFeed {
   public:
-    /// `subscriber` may not be null.
+    /// `subscriber` must not be null.
     explicit RemoteFeed(std::unique_ptr<Subscriber> subscriber) : subscriber_(std::move(subscriber)) {}
 
-    /// Is given a frame and the rack's time at which it enters.
+    /// Receives a frame and the rack's time at which it enters.
     using Take = std::function<void(const Frame&, Instant now)>;
 
-    /// Hands over what came since the last call and may be used as position; the number of frames. Call it between two
-    /// runs of the rack's kernel, with the rack's time. A card that marks its data stale two periods after its last
-    /// frame is right where the rack runs in real time; stale() tells it by this computer's clock.
+    /// Delivers the valid frames since the last call; returns their number. Call it between two runs of the rack's
+    /// kernel, with the rack's time. A card marks its data stale two periods after its last frame, which is correct if
+    /// the rack runs in real time; stale() uses this computer's clock.
     int give(Instant now, const Take& take) {
         struct Call {
             const Take& take;

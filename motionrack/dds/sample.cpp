@@ -1,4 +1,4 @@
-// Sources, the sample's check and the names of buses.
+// Sources, the sample's check, and names of buses.
 #include <fmt/format.h>
 #include <unistd.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-// The engine's thread puts samples with their time into a ring; whoever polls judges them.
+// The engine's thread writes samples with their time to a ring buffer; the polling thread validates them.
 #include <algorithm>
 #include <condition_variable>
 #include <motionrack/dds/clock.hpp>
@@ -38,7 +38,7 @@ class NetworkSubscriber final : public Subscriber {
     Instant poll(const Use& use) override {
         const Instant now = monotonic_now();
         for (Slot slot; next(slot);) {
-            // The engine has more than one thread: a stamp may be a little before the one before it.
+            // The engine has several threads: a time stamp may be slightly before the previous one.
             last_ = std::max(last_, slot.received);
             const Validation verdict = judge_.take(slot.sample, last_);
             if (use) use(slot.sample, verdict, last_);
@@ -102,7 +102,7 @@ class NetworkSubscriber final : public Subscriber {
     std::size_t first_ = 0, count_ = 0;
     std::uint64_t overruns_ = 0;
     Instant last_{};
-    // Last, so that the engine's threads are gone before what they use.
+    // Last member: the engine's threads end before the data that they use are destroyed.
     Entity own_, topic_, reader_;
 };
 

@@ -1,5 +1,5 @@
-// A listener on a bus: takes frames from the network as they come and has them judged when it is polled. It has no
-// writer and asks for no repetition, so that it cannot disturb the publisher or anyone else.
+// Subscriber of a bus: receives frames from the network and validates them when it is polled. It has no writer and
+// requests no repetition, so it cannot disturb the publisher or other participants.
 #pragma once
 
 #include <functional>
@@ -13,25 +13,24 @@ struct SubscriberSettings {
     std::string bus = "stage";
     int domain = 0;
     ValidatorSettings judge;
-    std::size_t queue =
-        1024;  ///< samples that may wait between two polls; more are dropped, the oldest first, and counted
-    bool other_participants_only = false;  ///< for a publisher that listens whether it is alone
-    int participant = 0;                   ///< the engine's participant to use; 0: one of its own
+    std::size_t queue = 1024;  ///< capacity between two polls; further samples drop the oldest, and are counted
+    bool other_participants_only = false;  ///< for the conflict detection of a publisher
+    int participant = 0;                   ///< the engine's participant to use; 0: a new one
 };
 
 class Subscriber {
   public:
-    /// Errors: invalid_input (name, domain), io (no network interface, a wrong configuration).
+    /// Opens a subscriber. Errors: invalid_input (name, domain), io (no network interface, a wrong configuration).
     static Result<std::unique_ptr<Subscriber>> open(const SubscriberSettings& settings);
     virtual ~Subscriber() = default;
 
-    /// Is called for every sample that waited, with its verdict, in the order in which they were received.
+    /// Receives every waiting sample with its validation result, in order of reception.
     using Use = std::function<void(const Sample&, Validation, Instant received)>;
-    /// Judges what waits, and then what is stale. Gives the time at which it looked.
+    /// Validates the waiting samples, then checks for stale data. Returns the time of the poll.
     virtual Instant poll(const Use& use) = 0;
-    /// Returns when something waits, at most after `timeout`; true if something does.
+    /// Waits for a sample, at most `timeout`; returns true if one is waiting.
     virtual bool wait(Duration timeout) = 0;
-    /// Samples dropped because nobody polled.
+    /// Samples dropped because polling was too slow.
     virtual std::uint64_t overruns() const = 0;
 
     FrameValidator& judge() { return judge_; }

@@ -1,4 +1,4 @@
-// Which of the last 64 sequence numbers were there: tells a frame that comes late from one that comes twice.
+// Received numbers among the last 64 sequence numbers: distinguishes a late frame from a duplicate.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ class SequenceWindow {
         seen_ = 1;
         span_ = 1;
     }
-    /// `sequence` is `ahead` (1 .. 2^31 - 1) after the newest one.
+    /// Adds `sequence`, which is `ahead` (1 .. 2^31 - 1) of the newest one.
     void advance(std::uint32_t ahead) {
         newest_ += ahead;
         seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
         span_ = ahead < 64 && span_ + ahead < 64 ? span_ + ahead : 64;
     }
-    /// Marks a number that is `behind` (0 .. 2^31) the newest; true if it was missing, and known to be.
+    /// Marks a number that is `behind` (0 .. 2^31) the newest; returns true if it was known to be missing.
     bool fill(std::uint32_t behind) {
         if (behind >= span_) return false;
         const std::uint64_t bit = std::uint64_t{1} << behind;
@@ -26,14 +26,14 @@ class SequenceWindow {
         seen_ |= bit;
         return missing;
     }
-    /// Whether a number so far behind is still in the window.
+    /// True if a number this far behind is within the window.
     bool knows(std::uint32_t behind) const { return behind < span_; }
     std::uint32_t newest() const { return newest_; }
 
   private:
     std::uint32_t newest_ = 0;
     std::uint64_t seen_ = 0;
-    std::uint32_t span_ = 0;  ///< numbers since the beginning, at most 64
+    std::uint32_t span_ = 0;  ///< numbers since the start, at most 64
 };
 
 }  // namespace motionrack::dds

@@ -1,4 +1,4 @@
-// Between a sample and the struct that the network engine takes; only the sources of this room include it.
+// Conversion between a sample and the engine's struct; only the sources of this module include it.
 #pragma once
 
 #include <sample.h>
@@ -11,7 +11,7 @@ namespace motionrack::dds {
 
 inline constexpr const char* topic_name = "motionrack_grating_frames";
 
-/// A WireSample with room for the longest frame, so that nothing is allocated when one is taken or written.
+/// A WireSample with capacity for the longest frame, so reading and writing need no allocation.
 class WireBuffer {
   public:
     WireBuffer() {
@@ -36,7 +36,7 @@ class WireBuffer {
     std::array<std::uint8_t, grating_bus::max_scales> addresses_{};
 };
 
-/// An engine's handle, given back when it goes.
+/// A handle of the engine, released by the destructor.
 class Entity {
   public:
     explicit Entity(dds_entity_t handle = 0) : handle_(handle) {}
@@ -56,13 +56,13 @@ class Entity {
     dds_entity_t handle_;
 };
 
-/// A participant in a domain; what else is made belongs to it and goes with it. Errors: invalid_input, io.
+/// A participant in a domain; entities created from it end with it. Errors: invalid_input, io.
 Result<Entity> join(const std::string& bus, int domain);
-/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader does not hear this participant's
+/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader ignores this participant's
 /// writers.
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos qos_of(const std::string& bus, bool ignore_own);
-/// `code` as an error. What: "The frames' topic cannot be made".
+/// `code` as an error. `what`: "The frames' topic cannot be made".
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code);
 
 }  // namespace motionrack::dds
