@@ -1,4 +1,4 @@
-// Blocks are cut where a window of the peak speed ends, and each channel begins where all of its lines have a level.
+// Blocks are divided at the ends of peak-speed windows; each channel begins when all of its lines have a level.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace motionrack::decode {
 
 namespace {
 
-/// Lines of a channel by their place in the capture's chosen ones; -1: none.
+/// Lines of a channel by index among the capture's chosen lines; -1: none.
 struct ChannelLines {
     std::array<int, 3> at{-1, -1, -1};
 };
@@ -61,7 +61,7 @@ class ChannelRun {
         }
         decoder_.planes(planes[0], planes[1], planes[2], to - begin);
     }
-    /// A window of `seconds` that began at `begin_s` is over.
+    /// Ends a window of `seconds` that began at `begin_s`.
     void end_window(double begin_s, double seconds) {
         const std::int64_t counted = decoder_.count() - window_count_;
         window_count_ = decoder_.count();
@@ -105,7 +105,7 @@ class Run {
     const AnalysisSettings& settings_;
     std::vector<ChannelRun> runs_;
     std::vector<ChannelLines> lines_;
-    std::uint64_t number_ = 0;  ///< of the block's first sample
+    std::uint64_t number_ = 0;  ///< number of the block's first sample
     std::int64_t window_ = 1;   ///< in ticks
     std::int64_t window_begin_ = 0;
     std::int64_t first_ = 0, last_ = 0;
@@ -147,13 +147,13 @@ void Run::feed(const Block& block) {
         from = to;
         if (from == block.samples) break;
         for (ChannelRun& run : runs_) run.end_window(seconds_of(window_begin_), seconds_of(window_));
-        // Windows in which nothing happens are passed at once.
+        // Windows without changes are skipped together.
         window_begin_ += (ticks_of(block, number_ + from) - window_begin_) / window_ * window_;
     }
     last_ = ticks_of(block, number_ + block.samples - 1);
 }
 
-/// Samples of what was found in the block become times, while the block is there.
+/// Converts sample numbers of findings in the block to times while the block is valid.
 void Run::tell_times(const Block& block) {
     for (ChannelRun& run : runs_) {
         const auto& illegal = run.decoder().illegal_samples();

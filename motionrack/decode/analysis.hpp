@@ -1,4 +1,4 @@
-// A capture from its first to its last sample: what each encoder counted, how fast, and what was wrong.
+// Analysis of a capture from first to last sample: counts, speeds and errors of each encoder.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 namespace motionrack::decode {
 
 struct AnalysisSettings {
-    double window_s = 1e-3;  ///< the peak speed is that of a window of this length; > 0
+    double window_s = 1e-3;  ///< length of the window for the peak speed; > 0
     ChannelSettings channel;
-    std::function<void(double part)> progress;  ///< after each block, 0 .. 1; -1 if the size is not known
+    std::function<void(double part)> progress;  ///< after each block, 0 .. 1; -1 if the size is unknown
     std::function<bool()> stop;                 ///< true ends the analysis early
 };
 
@@ -28,27 +28,27 @@ struct IndexAt {
 };
 
 struct Peak {
-    double counts_per_s = 0;  ///< with its sign
-    double time_s = 0;        ///< where its window begins
+    double counts_per_s = 0;  ///< signed
+    double time_s = 0;        ///< start of its window
 };
 
 struct LineNote {
     std::string signal;
-    std::uint64_t unknown = 0;     ///< how often the line was X or Z
-    std::string first_unknown;     ///< where first
-    std::optional<double> from_s;  ///< where its first level is, if that is not the first sample; NaN: nowhere
+    std::uint64_t unknown = 0;     ///< number of changes to X or Z
+    std::string first_unknown;     ///< place of the first one
+    std::optional<double> from_s;  ///< time of its first level, if later than the first sample; NaN: none
 };
 
 struct ChannelResult {
-    std::string name, a, b, z;  ///< z: "" if there is none
+    std::string name, a, b, z;  ///< z: "" if absent
     std::int64_t count = 0;
     std::uint64_t up = 0, down = 0, illegal = 0, indexes = 0;
     double seconds = 0;        ///< from the channel's first sample to the last
-    double mean_per_s = 0;     ///< count / seconds; 0 if there is no time
-    std::optional<Peak> peak;  ///< none if the capture is shorter than a window
+    double mean_per_s = 0;     ///< count / seconds; 0 for no duration
+    std::optional<Peak> peak;  ///< absent if the capture is shorter than a window
     std::vector<IllegalAt> first_illegal;
     std::vector<IndexAt> first_indexes;
-    std::vector<LineNote> notes;  ///< of lines that had no level somewhere
+    std::vector<LineNote> notes;  ///< of lines without a level at some time
 };
 
 struct Analysis {
@@ -56,10 +56,10 @@ struct Analysis {
     std::uint64_t samples = 0;
     double first_s = 0, last_s = 0;  ///< times of the first and the last sample
     double tick_s = 0;
-    bool timed = false;  ///< the times are the file's, not the sample rate's
+    bool timed = false;  ///< the times come from the file, not from the sample rate
     double window_s = 0;
     std::vector<ChannelResult> channels;
-    std::optional<Error> cut;  ///< where the file is cut off
+    std::optional<Error> cut;  ///< place at which the file is truncated
     bool stopped = false;
 };
 

@@ -1,4 +1,4 @@
-// Which reader a capture needs.
+// Selection of the reader for a capture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool ends_in(const std::string& name, std::string_view ending) {
     return true;
 }
 
-/// A source whose first bytes have been looked at already.
+/// A source with look-ahead to its first bytes.
 class Looked final : public Source {
   public:
     explicit Looked(std::unique_ptr<Source> source) : source_(std::move(source)) {}
@@ -35,7 +35,7 @@ class Looked final : public Source {
         }
         return std::string_view(head_.data(), size_);
     }
-    /// Leaves out the first bytes (of those looked at).
+    /// Skips the first bytes (of the look-ahead).
     void skip(std::size_t size) { at_ = size; }
     Result<std::size_t> read(char* to, std::size_t size) override {
         if (at_ == size_) return source_->read(to, size);
@@ -54,7 +54,7 @@ class Looked final : public Source {
 
 constexpr std::string_view sigrok_begin = "META samplerate: ";
 
-/// The line that sigrok-cli puts before binary samples, with its end; "" if it is not there.
+/// The line that sigrok-cli writes before binary samples, with its end; "" if absent.
 std::string_view sigrok_line(std::string_view head) {
     const std::size_t end = head.substr(0, 64).find('\n');
     return head.starts_with(sigrok_begin) && end != std::string_view::npos ? head.substr(0, end + 1)

@@ -1,14 +1,13 @@
-// Captures of logic analysers: which lines there are, and their levels block by block, so that any size fits into
-// memory.
+// Captures of logic analysers: their lines, and the levels block by block, so files of any size fit into memory.
 //
-//   VCD   every instant at which a chosen line changes is a sample, with its time (sigrok, PulseView, GTKWave,
+//   VCD   a sample at every instant at which a chosen line changes, with its time (sigrok, PulseView, GTKWave,
 //         Motionrack)
-//   CSV   every row is a sample; with a time column, or at the sample rate (sigrok-cli, Saleae)
-//   raw   1 to 8 bytes a sample, the lowest first, a line a bit, at the sample rate
+//   CSV   one sample per row; with a time column, or at the sample rate (sigrok-cli, Saleae)
+//   raw   1 to 8 bytes per sample, the lowest first, one line per bit, at the sample rate
 //
-// A line that is X or Z keeps its last level, and that is counted. Time that goes backwards and rows that do not fit
-// are refused with their line; a file that is cut off is decoded to its last whole sample, and `cut` says where it
-// ends.
+// A line that becomes X or Z keeps its last level, and the change is counted. Decreasing times and malformed rows are
+// refused with their line. A truncated file is decoded to its last complete sample, and `cut` gives the place of the
+// truncation.
 #pragma once
 
 #include <cstdint>
@@ -25,40 +24,40 @@ enum class Format { automatic, vcd, csv, raw };
 const char* name_of(Format format);
 
 struct CaptureSettings {
-    Format format = Format::automatic;  ///< automatic: by the name's ending, then by what the file begins with
-    double sample_rate_hz = 0;          ///< for raw and for CSV without times; 0: not known
+    Format format = Format::automatic;  ///< automatic: by the name's extension, then by the first bytes
+    double sample_rate_hz = 0;          ///< for raw and for CSV without times; 0: unknown
     int sample_bytes = 1;               ///< raw: 1 .. 8
 };
 
-/// Samples of the chosen lines. Planes (one for each chosen line, bit i of word w is sample 64 w + i) or, from a raw
-/// file of one byte a sample, `bytes`.
+/// Samples of the chosen lines. Planes (one per chosen line, bit i of word w is sample 64 w + i) or, from a raw file of
+/// one byte per sample, `bytes`.
 struct Block {
     std::size_t samples = 0;
     std::vector<const std::uint64_t*> planes;
     const std::uint8_t* bytes = nullptr;
-    const std::int64_t* times = nullptr;  ///< in ticks; null: a tick a sample
+    const std::int64_t* times = nullptr;  ///< in ticks; null: one tick per sample
 };
 
-/// What is known of a chosen line.
+/// Properties of a chosen line.
 struct LineFacts {
     static constexpr std::uint64_t never = ~std::uint64_t{0};
-    std::uint64_t known_from = never;  ///< the first sample that has a level
-    std::uint64_t unknown = 0;         ///< how often the line went to X or Z
-    std::string first_unknown;         ///< where it first did: "line 12"
+    std::uint64_t known_from = never;  ///< the first sample with a level
+    std::uint64_t unknown = 0;         ///< number of changes to X or Z
+    std::string first_unknown;         ///< place of the first one: "line 12"
 };
 
 class Capture {
   public:
     virtual ~Capture() = default;
 
-    /// All lines of the file; names as "scope.name", of vectors "scope.name[3]"; of raw files bit numbers.
+    /// All lines of the file; names as "scope.name", for vectors "scope.name[3]"; for raw files bit numbers.
     const std::vector<std::string>& signals() const { return signals_; }
     Format format() const { return format_; }
-    /// Seconds of a tick: the unit of the file's times, or a sample's.
+    /// Seconds per tick: the unit of the file's times, or the sample period.
     double tick_s() const { return tick_s_; }
     bool timed() const { return timed_; }
 
-    /// Which signals are decoded; before the first block.
+    /// Selects the signals to be decoded; before the first block.
     virtual void choose(const std::vector<std::size_t>& signals) {
         chosen_ = signals;
         facts_.assign(signals.size(), {});
@@ -66,9 +65,9 @@ class Capture {
     const std::vector<std::size_t>& chosen() const { return chosen_; }
     const LineFacts& facts(std::size_t line) const { return facts_[line]; }
 
-    /// False at the end; the block is valid until the next call. Errors: invalid_input with its place, io.
+    /// Returns false at the end; the block is valid until the next call. Errors: invalid_input with its place, io.
     virtual Result<bool> next(Block& block) = 0;
-    /// After the end: where the file is cut off, if it is.
+    /// After the end: place at which the file is truncated, if any.
     const std::optional<Error>& cut() const { return cut_; }
 
     virtual std::uint64_t bytes_read() const = 0;
@@ -79,7 +78,7 @@ class Capture {
     tl::unexpected<Error> refuse(std::string message, Place place) const {
         return fail(ErrorKind::invalid_input, std::move(message), place, name_);
     }
-    /// What a reader of bytes says, who does not know the file's name.
+    /// Error of a byte reader, which does not know the file's name.
     Error in_file(Error error) const {
         error.file = name_;
         return error;
@@ -96,14 +95,15 @@ class Capture {
     bool timed_ = false;
 };
 
-/// Reads the head of a capture. `name`: for messages and to guess the format. Errors: invalid_input with its place, io.
+/// Reads the header of a capture. `name`: for messages and to guess the format. Errors: invalid_input with its place,
+/// io.
 Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name,
                                               const CaptureSettings& settings);
 
-/// A sample rate as people write it: "24000000", "24M", "24 MHz", "500k", "1e6". Errors: invalid_input.
+/// Parses a sample rate: "24000000", "24M", "24 MHz", "500k", "1e6". Errors: invalid_input.
 Result<double> read_rate(std::string_view text);
 
-// ---- one reader each
+// ---- one reader per format
 
 Result<std::unique_ptr<Capture>> open_vcd(std::unique_ptr<Source> source, const std::string& name);
 Result<std::unique_ptr<Capture>> open_csv(std::unique_ptr<Source> source, const std::string& name,

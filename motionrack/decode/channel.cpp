@@ -1,5 +1,5 @@
-// Sampled lines are cut into chunks that stay in the first cache; only a chunk in which something rare happened is
-// looked at again.
+// Sampled lines are divided into chunks that stay in the first-level cache; only a chunk with a rare event is examined
+// again.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -14,7 +14,7 @@ constexpr std::size_t chunk_words = 64;
 
 using Plane = std::array<std::uint64_t, chunk_words>;
 
-/// The word with `size` (1 .. 63) samples, the last of which goes on.
+/// The word with `size` (1 .. 63) samples, padded with the last one.
 std::uint64_t filled(std::uint64_t word, std::size_t size) {
     const std::uint64_t there = (std::uint64_t{1} << size) - 1;
     return (word >> (size - 1) & 1U) != 0 ? word | ~there : word & there;
@@ -74,7 +74,7 @@ void ChannelDecoder::planes(const std::uint64_t* a, const std::uint64_t* b, cons
     words(&last_a, &last_b, z ? &last_z : nullptr, 1, rest);
 }
 
-/// Whole words, of which `size` samples are new.
+/// Decodes whole words, of which `size` samples are new.
 void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words,
                            std::size_t size) {
     const Sums sums = kernels_->tally(a, b, words, last_);
@@ -86,7 +86,7 @@ void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const
     if (z) last_z_ = z[words - 1] >> 63;
 }
 
-/// Whether the index line changes at all.
+/// True if the index line changes.
 bool ChannelDecoder::index_in(const std::uint64_t* z, std::size_t words) const {
     const std::uint64_t steady = 0 - last_z_;
     std::uint64_t changed = 0;
@@ -103,7 +103,7 @@ void ChannelDecoder::find_illegal(const std::uint64_t* a, const std::uint64_t* b
     }
 }
 
-/// Between two index events the words are tallied as anywhere else.
+/// Words between two index events are counted as usual.
 void ChannelDecoder::find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z,
                                   std::size_t words) {
     const auto before = [&](std::size_t w) { return w == 0 ? last_ : Levels{a[w - 1] >> 63, b[w - 1] >> 63}; };

@@ -2,10 +2,11 @@
 //
 //     ChannelDecoder x;
 //     x.bytes(samples.data(), samples.size(), {0, 1, 2});   // A, B, Z in bits 0, 1, 2 of each byte
-//     x.count();                                            // x4; blocks of any length, one after the other
+//     x.count();                                            // x4; consecutive blocks of any length
 //
-// A leads B counts up; both lines changed in one sample is illegal: not counted, the new levels are kept. The first
-// sample only sets the levels. An index event is a rising edge of Z; its count is the one after its own sample.
+// A leads B counts up. A simultaneous change of both lines is illegal: it is not counted, and the new levels are kept.
+// The first sample only sets the levels. An index event is a rising edge of Z; its count is the one after its own
+// sample.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 
 namespace motionrack::decode {
 
-/// Bits of a byte, 0 .. 7; z: -1 if there is no index line.
+/// Bits of a byte, 0 .. 7; z: -1 without an index line.
 struct Lines {
     int a = 0;
     int b = 1;
@@ -23,7 +24,7 @@ struct Lines {
 };
 
 struct ChannelSettings {
-    std::size_t illegal_kept = 1000;     ///< whose samples are kept; all are counted
+    std::size_t illegal_kept = 1000;     ///< number of illegal transitions with stored samples; all are counted
     std::size_t indexes_kept = 100'000;  ///< likewise
     bool index_low = false;              ///< Z is active low: its falling edges are the index events
 };
@@ -39,22 +40,22 @@ class ChannelDecoder {
     explicit ChannelDecoder(const ChannelSettings& settings = {}, const Kernels& kernels = best_kernels())
         : settings_(settings), kernels_(&kernels) {}
 
-    /// `size` samples, one a byte.
+    /// Decodes `size` samples, one per byte.
     void bytes(const std::uint8_t* samples, std::size_t size, const Lines& lines);
-    /// `size` samples as bit planes: bit i of word w is sample 64 w + i; what is behind the last one does not matter. z
+    /// Decodes `size` samples as bit planes: bit i of word w is sample 64 w + i; bits after the last one are ignored. z
     /// may be null.
     void planes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t size);
-    /// `size` samples without a channel: they only move the numbers of later samples.
+    /// Skips `size` samples without a channel: they only advance the sample numbers.
     void skip(std::uint64_t size) { samples_ += size; }
 
-    /// Counts up less counts down.
+    /// Upward minus downward counts.
     std::int64_t count() const { return static_cast<std::int64_t>(sums_.up - sums_.down); }
     std::uint64_t up() const { return sums_.up; }
     std::uint64_t down() const { return sums_.down; }
     std::uint64_t illegal() const { return sums_.illegal; }
     std::uint64_t indexes() const { return indexes_; }
     std::uint64_t samples() const { return samples_; }
-    /// The numbers of the samples with the first illegal transitions, and the first index events.
+    /// Sample numbers of the first illegal transitions, and the first index events.
     const std::vector<std::uint64_t>& illegal_samples() const { return illegal_samples_; }
     const std::vector<IndexEvent>& index_events() const { return index_events_; }
 
@@ -80,7 +81,7 @@ class ChannelDecoder {
     std::vector<IndexEvent> index_events_;
 };
 
-/// Four encoders in a byte, two bits each: counts and illegal transitions, without their places.
+/// Four encoders in a byte, two bits each: counts and illegal transitions, without sample numbers.
 class FourChannelDecoder {
   public:
     explicit FourChannelDecoder(const std::array<Bits, 4>& bits = {{{0, 1}, {2, 3}, {4, 5}, {6, 7}}},

@@ -1,4 +1,4 @@
-// Finds lines by name: what a person writes need only be the end of it.
+// Lookup of lines by the end of their names.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string listed(const std::vector<std::string>& signals) {
     return out;
 }
 
-/// By its full name, the end of it, or its number.
+/// Finds a line by its full name, the end of it, or its number.
 Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::string_view text) {
     const auto exact = std::find(signals.begin(), signals.end(), text);
     if (exact != signals.end()) return static_cast<std::size_t>(exact - signals.begin());
@@ -87,7 +87,7 @@ struct Found {
     std::string name;
 };
 
-/// The channels whose lines end in a, b, z after `before` ("enc_" or nothing).
+/// The channels whose lines end in a, b, z after `before` ("enc_" or "").
 std::vector<ChannelSelection> named_like(const std::vector<std::string>& signals, const std::string& before) {
     std::map<std::string, Found> found;
     std::vector<std::string> order;
@@ -99,7 +99,7 @@ std::vector<ChannelSelection> named_like(const std::vector<std::string>& signals
             const std::size_t rest = name.size() - end.size();
             Found& channel = found[name.substr(0, rest)];
             if (channel.name.empty()) {
-                // The last part of what stands before: "X" of "top.X.X_enc_a".
+                // The last part of the prefix: "X" of "top.X.X_enc_a".
                 const std::string full = signals[i].substr(0, rest > 0 ? rest - 1 : 0);
                 const std::size_t cut = full.find_last_of("._ /-");
                 channel.name = full.empty() ? "encoder" : full.substr(cut == std::string::npos ? 0 : cut + 1);

@@ -1,8 +1,8 @@
-// Reads CSV captures: a row a sample, a column a line; as sigrok-cli and Saleae write them, and others like them.
+// Reader of CSV captures: one sample per row, one line per column; as written by sigrok-cli, Saleae and similar tools.
 //
 //     ; Channels (2/2): A, B          comments begin with ';' or '#'; sigrok's name the channels
 //     META samplerate: 1000000        sigrok
-//     Time [s],A,B                    a head is a row that is no values; its first column may be the time
+//     Time [s],A,B                    a header is a row without values; its first column may be the time
 //     0.000001,0,1
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace motionrack::decode {
 
 namespace {
 
-constexpr double tick = 1e-12;  ///< of times: a picosecond
+constexpr double tick = 1e-12;  ///< unit of times: a picosecond
 constexpr double max_duration_s = 4e6;
 constexpr std::size_t rows_looked_at = 8;
 constexpr std::size_t max_columns = 4096;
@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// '0', '1', 'x' for X, Z and what is not known; 0 for anything else.
+/// '0', '1', 'x' for X, Z and unknown; 0 for any other text.
 char level_of(std::string_view cell) {
     if (cell.empty()) return 'x';
     if (cell.size() > 1) return 0;
@@ -42,7 +42,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// Seconds of the unit of a column that is a time, by its name; 0 if it is none.
+/// Seconds per unit of a time column, by its name; 0 if it is not a time.
 double time_unit(std::string_view cell) {
     const std::string name = lower(cell);
     static constexpr std::array<std::pair<std::string_view, double>, 5> sigrok = {{{"seconds", 1},
@@ -92,19 +92,19 @@ class CsvCapture final : public Capture {
 
     TextReader text_;
     Sampler sampler_;
-    std::vector<Row> waiting_;  ///< rows read to learn what the columns are, the last first
+    std::vector<Row> waiting_;  ///< rows read to identify the columns, the last first
     std::vector<std::string_view> cells_;
     std::vector<std::string> named_;    ///< by sigrok's comment
-    std::vector<std::size_t> columns_;  ///< of each chosen line
+    std::vector<std::size_t> columns_;  ///< column of each chosen line
     char separator_ = ',';
-    std::size_t width_ = 0;  ///< columns
+    std::size_t width_ = 0;  ///< number of columns
     std::size_t first_ = 0;  ///< column of the first line
     double unit_s_ = 1, rate_hz_ = 0;
     std::int64_t now_ = 0;
     bool begun_ = false;
 };
 
-/// False if it is none; what a comment says of rate and channels is kept.
+/// Returns false if the row is not a comment; stores the rate and channels of a comment.
 bool CsvCapture::take_comment(std::string_view text) {
     if (text.rfind("META samplerate:", 0) == 0) {
         if (const auto rate = read_rate(trimmed(text.substr(16)))) rate_hz_ = *rate;
@@ -125,7 +125,7 @@ bool CsvCapture::take_comment(std::string_view text) {
     return true;
 }
 
-/// The next row that is no comment.
+/// The next row that is not a comment.
 bool CsvCapture::next_row(Row& row) {
     std::string_view line;
     while (text_.line(line)) {
@@ -186,7 +186,7 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     return {};
 }
 
-/// The cells are the names of columns.
+/// Takes the cells as names of columns.
 Result<void> CsvCapture::take_head() {
     if (cells_.size() == 3 && time_unit(cells_[0]) > 0 && cells_[1] == "signal" && cells_[2] == "value")
         return refuse("This is a list of changes, a signal a row. Nothing was decoded; record a VCD file instead.",
@@ -201,7 +201,7 @@ Result<void> CsvCapture::take_head() {
     return {};
 }
 
-/// Whether the first column of a file without a head is the time: it holds what is no level.
+/// True if the first column of a file without a header is the time: it contains a value that is not a level.
 bool CsvCapture::looks_timed(const std::vector<Row>& rows) {
     bool timed = false;
     for (const Row& row : rows) {

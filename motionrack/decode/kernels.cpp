@@ -1,4 +1,4 @@
-// Which inner loops this CPU can run.
+// Selection of the inner loops for this CPU.
 #include <motionrack/decode/kernels.hpp>
 #include <motionrack/decode/kernels_x86.hpp>
 

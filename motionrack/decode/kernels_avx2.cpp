@@ -1,4 +1,4 @@
-// The decoder's inner loops for CPUs with AVX2: 256 samples at once.
+// Inner loops of the decoder for CPUs with AVX2: 256 samples at once.
 #include <motionrack/decode/kernels_x86.hpp>
 
 #if defined(__x86_64__)
@@ -49,7 +49,7 @@ namespace {
     add_words(a, b, 1, before, sums);
     std::size_t w = 1;
     while (w + 4 <= words) {
-        // Bytes of the sums hold 31 vectors of up to 8 ones each.
+        // The byte sums can hold 31 vectors of up to 8 ones each.
         const std::size_t end = words - w < 31 * 4 ? w + (words - w) / 4 * 4 : w + 31 * 4;
         __m256i up = _mm256_setzero_si256(), one = up, illegal = up;
         for (; w < end; w += 4) {

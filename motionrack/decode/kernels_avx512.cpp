@@ -1,4 +1,4 @@
-// The decoder's inner loops for CPUs with AVX-512 as of Ice Lake and Zen 4 (VPOPCNTDQ, VBMI, VBMI2, GFNI): 512 samples
+// Inner loops of the decoder for CPUs with AVX-512 as of Ice Lake and Zen 4 (VPOPCNTDQ, VBMI, VBMI2, GFNI): 512 samples
 // at once.
 #include <motionrack/decode/kernels_x86.hpp>
 
@@ -22,7 +22,7 @@ struct Counters {
     __m512i up, one, illegal;
 };
 
-/// Adds what eight words counted; xb, yb are the words before x, y.
+/// Adds the counts of eight words; xb, yb are the words before x, y.
 [[gnu::target("avx512f,avx512bw,avx512vl,avx512vpopcntdq,avx512vbmi,avx512vbmi2,gfni,popcnt")]] inline void add(
     __m512i x, __m512i xb, __m512i y, __m512i yb, Counters& sums) {
     const __m512i px = _mm512_shldi_epi64(x, xb, 1), py = _mm512_shldi_epi64(y, yb, 1);
@@ -43,7 +43,7 @@ sum_of(__m512i words) {
     const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before) {
     if (words == 0) return {};
     Counters sums{_mm512_setzero_si512(), _mm512_setzero_si512(), _mm512_setzero_si512()};
-    // The first words, whose word before is not there: one to eight of them.
+    // The first words, without a previous word in memory: one to eight of them.
     const std::size_t head = (words - 1) % 8 + 1;
     const auto here = static_cast<__mmask8>(0xFFU >> (8 - head));
     const __m512i x = _mm512_maskz_loadu_epi64(here, a), y = _mm512_maskz_loadu_epi64(here, b);
@@ -53,7 +53,7 @@ sum_of(__m512i words) {
                                              _mm512_set1_epi64(static_cast<long long>(top_a)));
     const __m512i yb = _mm512_mask_mov_epi64(_mm512_permutexvar_epi64(up_a_lane, y), 1,
                                              _mm512_set1_epi64(static_cast<long long>(top_b)));
-    // Lanes that are not there repeat the word before, and so hold no change: all bits as its last one.
+    // Missing lanes repeat the last sample of the previous word, so they contain no change.
     const __m512i last_a = _mm512_srai_epi64(_mm512_set1_epi64(static_cast<long long>(a[head - 1])), 63);
     const __m512i last_b = _mm512_srai_epi64(_mm512_set1_epi64(static_cast<long long>(b[head - 1])), 63);
     const auto gone = static_cast<__mmask8>(~here);
@@ -91,8 +91,8 @@ sum_of(__m512i words) {
     return _mm512_test_epi8_mask(other, _mm512_set1_epi8(static_cast<char>(mask))) == 0;
 }
 
-/// 64 bytes become eight words: lane i is bit order[i] of all bytes. The middle step turns each 8 x 8 bits over; it
-/// numbers the rows from the other end, hence the first step.
+/// Transposes 64 bytes to eight words: lane i is bit order[i] of all bytes. The middle step transposes each 8 x 8 bits
+/// with reversed row numbers, hence the first step.
 struct Turn {
     __m512i reverse, unit, collect;
 };
@@ -119,8 +119,8 @@ struct Turn {
     return _mm512_shuffle_epi32(pairs, _MM_PERM_BADC);
 }
 
-/// Lanes A and B of a channel stand side by side. With them swapped, one & (line ^ other line before) is up in lane A
-/// and down in lane B.
+/// Lanes A and B of a channel are adjacent. With them swapped, one & (line ^ other line before) is up in lane A and
+/// down in lane B.
 [[gnu::target("avx512f,avx512bw,avx512vl,avx512vpopcntdq,avx512vbmi,avx512vbmi2,gfni,popcnt")]] void four(
     const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
     std::array<Sums, 4>& sums) {

@@ -1,4 +1,4 @@
-// The decoder's inner loops over 64-bit words, for every CPU.
+// Inner loops of the decoder over 64-bit words, for every CPU.
 #include <bit>
 #include <cstring>
 #include <motionrack/decode/kernels.hpp>
@@ -19,7 +19,7 @@ Sums tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Le
     return sums;
 }
 
-/// Eight bytes as a number whose lowest byte is the first of them.
+/// Eight bytes as a number, the first byte lowest.
 std::uint64_t load_eight(const std::uint8_t* bytes) {
     std::uint64_t eight = 0;
     std::memcpy(&eight, bytes, 8);
@@ -50,7 +50,7 @@ bool steady(const std::uint8_t* bytes, std::size_t words, std::uint8_t mask, std
     return (other & mask * 0x0101010101010101U) == 0;
 }
 
-/// Four sums in the pairs of bits of each byte, added up in wider and wider fields before they can run over.
+/// Four sums in the pairs of bits of each byte, added up in wider fields before they can overflow.
 class PairSums {
   public:
     /// `ones`: bits 0, 2, 4, 6 of each byte.
@@ -96,7 +96,7 @@ class PairSums {
 
 constexpr std::uint64_t lines_a = 0x5555555555555555U;
 
-/// Channels in bits 0 1, 2 3, 4 5, 6 7 need no planes: a byte's neighbour is the sample before.
+/// Channels in bits 0 1, 2 3, 4 5, 6 7 need no planes: the neighbouring byte is the previous sample.
 void four_in_order(const std::uint8_t* bytes, std::size_t words, std::uint8_t before, std::array<Sums, 4>& sums) {
     PairSums ups, ones, illegals;
     std::uint64_t last = before;

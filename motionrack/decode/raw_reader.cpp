@@ -1,4 +1,4 @@
-// Reads raw captures: samples of 1 to 8 bytes, a line a bit.
+// Reader of raw captures: samples of 1 to 8 bytes, one line per bit.
 #include <fmt/format.h>
 
 #include <array>
@@ -42,7 +42,7 @@ class RawCapture final : public Capture {
     std::uint64_t read_ = 0;
 };
 
-/// Bytes of wider samples become planes.
+/// Converts the bytes of wider samples to planes.
 void RawCapture::split(std::size_t samples) {
     const std::size_t words = (samples + 63) / 64;
     planes_.resize(chosen_.size());
@@ -61,7 +61,7 @@ void RawCapture::split(std::size_t samples) {
 
 Result<bool> RawCapture::next(Block& block) {
     block = {};
-    // A multiple of all sizes of a sample, so that only the last piece can end inside one.
+    // A multiple of all sample sizes, so only the last piece can end within one.
     const std::size_t wanted = block_bytes / (64 * size_) * (64 * size_);
     std::size_t have = 0;
     while (have < wanted) {

@@ -30,12 +30,12 @@ std::string duration(double seconds) {
     return fmt::format("{:.6g} ps", seconds * 1e12);
 }
 
-/// The times of CSV are decimals, whose last place nobody knows.
+/// CSV times are decimals with an unknown number of significant places.
 bool has_tick(const Analysis& analysis) {
     return !(analysis.format == Format::csv && analysis.timed);
 }
 
-/// Places that the capture's time can tell.
+/// Decimal places that the capture's time resolves.
 int places_of(const Analysis& analysis) {
     if (!has_tick(analysis)) return 9;
     return std::clamp(static_cast<int>(std::ceil(-std::log10(std::max(analysis.tick_s, 1e-12)) - 1e-6)), 3, 12);

@@ -1,4 +1,4 @@
-// What an analysis found, for people and as JSON.
+// Results of an analysis as text and as JSON.
 #pragma once
 
 #include <motionrack/decode/analysis.hpp>
@@ -6,13 +6,13 @@
 
 namespace motionrack::decode {
 
-/// Tables; of each list the first `shown` entries.
+/// Tables with the first `shown` entries of each list.
 std::string analysis_text(const Analysis& analysis, const std::string& name, std::size_t shown);
 
-/// Everything that was kept; numbers in counts, seconds and counts a second.
+/// All stored results; numbers in counts, seconds and counts/s.
 std::string analysis_json(const Analysis& analysis, const std::string& name);
 
-/// What a reader should be warned of: lines without a level, X and Z, a file that is cut off is not among them.
+/// Warnings for the reader: lines without a level, X and Z. A truncated file is not included.
 std::vector<std::string> analysis_warnings(const Analysis& analysis);
 
 }  // namespace motionrack::decode

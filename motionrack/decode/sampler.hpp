@@ -1,4 +1,4 @@
-// Levels of lines, sample after sample, gathered into bit planes: what the readers of text have in common.
+// Collects the levels of lines, sample by sample, into bit planes: shared by the text readers.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Sampler {
     bool full() const { return size_ == capacity; }
     std::uint64_t samples() const { return before_ + size_; }
 
-    /// A line has a level. True if that changes it, or is its first.
+    /// Sets the level of a line. Returns true if it changes or is the first one.
     bool set(std::size_t line, bool high, LineFacts& facts) {
         const auto level = static_cast<std::uint8_t>(high);
         const bool first = facts.known_from == LineFacts::never, changed = levels_[line] != level;
@@ -29,14 +29,14 @@ class Sampler {
         levels_[line] = level;
         return first || changed;
     }
-    /// A line is X or Z. True if it had a level before.
+    /// Marks a line as X or Z. Returns true if it had a level before.
     bool lose(std::size_t line, LineFacts& facts) {
         const bool fresh = unknown_[line] == 0 && facts.known_from != LineFacts::never;
         unknown_[line] = 1;
         facts.unknown += fresh;
         return fresh;
     }
-    /// All lines as they are become a sample.
+    /// Adds the present levels of all lines as a sample.
     void take(std::int64_t time) {
         const std::size_t word = size_ / 64, bit = size_ % 64;
         for (std::size_t line = 0; line < levels_.size(); ++line) {
@@ -45,7 +45,7 @@ class Sampler {
         }
         times_[size_++] = time;
     }
-    /// Hands over what has come together and begins anew; `timed`: with the times.
+    /// Returns the collected samples and starts again; `timed`: with the times.
     void hand_over(Block& block, bool timed) {
         block = {};
         block.samples = size_;

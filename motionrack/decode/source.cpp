@@ -1,4 +1,4 @@
-// Files are read in pieces, so that a capture may be larger than the memory.
+// Files are read in pieces, so a capture may be larger than the memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -80,7 +80,7 @@ std::unique_ptr<Source> from_memory(std::string_view text) {
     return std::make_unique<MemorySource>(text);
 }
 
-/// Reads on behind what is not yet taken. False at the end of the file and after an error.
+/// Reads more data after the unread part. Returns false at the end of the file and after an error.
 bool TextReader::more() {
     if (over_ || error_) return false;
     if (at_ > 0) {

@@ -1,4 +1,4 @@
-// Bytes of a capture in pieces, from a file or from memory; and text in lines or words, each with its line number.
+// Bytes of a capture in pieces, from a file or from memory; and text as lines or words, each with its line number.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace motionrack::decode {
 class Source {
   public:
     virtual ~Source() = default;
-    /// Up to `size` bytes; 0 at the end. Errors: io.
+    /// Reads up to `size` bytes; returns 0 at the end. Errors: io.
     virtual Result<std::size_t> read(char* to, std::size_t size) = 0;
-    /// All bytes there are; 0 if that is not known (a pipe).
+    /// Total number of bytes; 0 if unknown (a pipe).
     virtual std::uint64_t total() const = 0;
 };
 
-/// "-" is standard input. Errors: io.
+/// Opens a file; "-" is standard input. Errors: io.
 Result<std::unique_ptr<Source>> open_file(const std::string& path);
 /// `text` must outlive the source.
 std::unique_ptr<Source> from_memory(std::string_view text);
@@ -29,24 +29,24 @@ class TextReader {
   public:
     explicit TextReader(Source& source) : source_(source), buffer_(first_size) {}
 
-    /// The next line without its end, or the next word between white space; valid until the next call. False at the end
-    /// or after an error.
+    /// The next line without its end, or the next word between white space; valid until the next call. Returns false at
+    /// the end or after an error.
     bool line(std::string_view& out);
     bool word(std::string_view& out);
-    /// The next byte that is no white space, without taking it; 0 at the end.
+    /// The next byte that is not white space, without taking it; 0 at the end.
     char peek();
 
-    /// Where the line or word was, counted from 1.
+    /// Place of the line or word, counted from 1.
     Place place() const { return {static_cast<int>(line_), column_}; }
-    /// Whether the file ends right behind it, without a line end: it may be cut off.
+    /// True if the file ends directly after it, without a line end: it may be truncated.
     bool cut() const { return cut_; }
-    /// What ended the reading, if it was not the end.
+    /// Error that ended the reading, if any.
     const std::optional<Error>& error() const { return error_; }
     std::uint64_t bytes() const { return bytes_; }
 
   private:
     static constexpr std::size_t first_size = 256 * 1024;
-    static constexpr std::size_t longest = 1024 * 1024;  ///< of a line or word
+    static constexpr std::size_t longest = 1024 * 1024;  ///< maximum length of a line or word
     bool more();
     bool skip_white();
 
@@ -55,7 +55,7 @@ class TextReader {
     std::size_t at_ = 0, end_ = 0;
     std::uint64_t bytes_ = 0;
     std::int64_t line_ = 0, next_line_ = 1;
-    std::size_t line_start_ = 0;  ///< place of the line's first byte in the buffer; wraps when it has left it
+    std::size_t line_start_ = 0;  ///< index of the line's first byte in the buffer; wraps once that is discarded
     int column_ = 0;
     bool cut_ = false, over_ = false;
     std::optional<Error> error_;

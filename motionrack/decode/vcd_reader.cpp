@@ -1,4 +1,4 @@
-// Reads VCD files (IEEE 1364, clause 18) word by word.
+// Reader of VCD files (IEEE 1364, clause 18), word by word.
 #include <fmt/format.h>
 
 #include <array>
@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t max_signals = 100'000;
 constexpr int widest = 4096;
-constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its lines
+constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long name is stored for each of its lines
 
-/// A bit of a variable, and the chosen line that it is.
+/// A bit of a variable, and its chosen line.
 struct Tap {
     int bit = 0;
     std::size_t line = 0;
@@ -68,8 +68,8 @@ class VcdCapture final : public Capture {
     bool changed_ = false;  ///< since the last sample
     bool any_ = false;      ///< a sample has been taken
     bool ended_ = false;
-    bool over_ = false;  ///< the file ended where more was needed
-    std::string word_;   ///< kept between words
+    bool over_ = false;  ///< the file ended where more data were required
+    std::string word_;   ///< stored between words
 };
 
 Error VcdCapture::ends_in(const char* what) {
@@ -202,7 +202,7 @@ bool VcdCapture::set_level(const Tap& tap, char level) {
     return false;
 }
 
-/// `bits`: 0, 1, x, z, the highest first; those that are missing are 0, or as the highest if that is x or z.
+/// `bits`: 0, 1, x, z, the highest first; missing bits are 0, or equal to the highest one if that is x or z.
 Result<void> VcdCapture::assign(std::string_view code, std::string_view bits) {
     word_.assign(code);
     const auto found = codes_.find(word_);
@@ -279,7 +279,7 @@ Result<void> VcdCapture::change(std::string_view word) {
     }
 }
 
-/// The last time becomes a sample, changed or not, so that the capture is as long as it was.
+/// Adds a sample at the last time, changed or not, to keep the length of the capture.
 void VcdCapture::end() {
     ended_ = true;
     if (begun_ || changed_) sampler_.take(now_);
@@ -295,7 +295,7 @@ Result<bool> VcdCapture::next(Block& block) {
         }
         const Result<void> done = change(word);
         if (done) continue;
-        // What is wrong with the very last word, or behind it, is that the file is cut off.
+        // An error in or after the very last word means that the file is truncated.
         if (text_.error() || !(text_.cut() || over_)) return tl::unexpected(done.error());
         cut_ = Error{ErrorKind::invalid_input,
                      "The file ends inside a value or time: it is cut off. What is before that was decoded.", name_,
