@@ -1,4 +1,4 @@
-// Accesses, one at a time and not too fast.
+// Accesses, one at a time, with a minimum interval.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Linux' monotonic clock; sleeps until an instant, so that what signals interrupt is slept to its end.
+// Linux' monotonic clock; sleeps until an instant, so that a sleep interrupted by a signal is completed.
 #include <poll.h>
 
 #include <cerrno>
@@ -17,7 +17,7 @@ Instant since_boot() {
     return whole_seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
 }
 
-/// Rounded up: a wait is never too short. `duration`: 0 or more.
+/// Rounds up: a wait is never too short. `duration`: >= 0.
 timespec timespec_of(Duration duration) {
     const std::int64_t ns = duration.count() / 10 + (duration.count() % 10 != 0);
     return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};

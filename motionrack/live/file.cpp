@@ -1,4 +1,4 @@
-// Opening files of cards.
+// Opening of card files.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -47,7 +47,7 @@ Result<File> File::open(const std::string& path, int flags) {
     return File(descriptor);
 }
 
-/// A lock of the open file, not of the process: closing another descriptor of the same file does not end it.
+/// A lock of the open file, not of the process: it persists when another descriptor of the same file is closed.
 Result<void> File::keep(std::uint64_t from, std::uint64_t length, const std::string& named) const {
     struct flock range {};
     range.l_type = F_WRLCK;

@@ -1,4 +1,4 @@
-// An open file that closes itself, and sentences for what Linux refuses.
+// An open file that closes itself, and messages for errors of Linux.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace motionrack::live {
 
 class File {
   public:
-    /// For reading and writing. Errors: io, with the remedy.
+    /// Opens a file for reading and writing. Errors: io, with the remedy.
     static Result<File> open(const std::string& path, int flags = 0);
     File(const File&) = delete;
     File& operator=(const File&) = delete;
@@ -21,9 +21,8 @@ class File {
     }
     ~File();
     int descriptor() const { return descriptor_; }
-    /// Locks these bytes of the file against other Files that ask for them, in this program or another, until it is
-    /// closed or the process ends, however it ends. `named`: how sentences call the file. Errors: refused, another File
-    /// has them; io.
+    /// Locks these bytes of the file against other Files that lock them, in this or another program, until it is closed
+    /// or the process ends. `named`: name of the file in messages. Errors: refused, another File has locked them; io.
     Result<void> keep(std::uint64_t from, std::uint64_t length, const std::string& named) const;
 
   private:

@@ -1,4 +1,4 @@
-// Waiting for interrupts on a UIO node.
+// Waiting for interrupts of a UIO node.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -19,8 +19,8 @@ bool InterruptLine::take() {
 
 bool InterruptLine::wait(Duration timeout, Clock& clock) {
     if (opens_) {
-        // What was counted before may have been dealt with since. If it was not, the line is still active, and counts
-        // again when it is opened.
+        // Interrupts counted before may have been handled since. An unhandled one keeps the line active, and counts
+        // again when the line is enabled.
         take();
         const std::uint32_t open = 1;
         opens_ = ::write(file_.descriptor(), &open, sizeof open) == sizeof open;

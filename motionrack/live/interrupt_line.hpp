@@ -1,5 +1,5 @@
-// A card's interrupt line as UIO gives it: a read of four bytes waits for the next interrupt and counts them all; a
-// write of 1 lets the next one come, where the kernel's driver shuts the line off when it has one.
+// A card's interrupt line through UIO: a read of four bytes waits for the next interrupt and returns their count. A
+// write of 1 enables the next one, if the kernel's driver disables the line at an interrupt.
 #pragma once
 
 #include <motionrack/base/time.hpp>
@@ -12,8 +12,8 @@ namespace motionrack::live {
 class InterruptLine {
   public:
     static Result<InterruptLine> open(const std::string& path);
-    /// True if the line is or becomes active within `timeout`. Where the driver cannot open the line again (no write),
-    /// an interrupt from before the call counts too.
+    /// Returns true if the line is or becomes active within `timeout`. If the driver cannot enable the line again (no
+    /// write), an interrupt from before the call counts too.
     bool wait(Duration timeout, Clock& clock);
 
   private:
@@ -21,7 +21,7 @@ class InterruptLine {
     bool take();
 
     File file_;
-    bool opens_ = true;  ///< a write of 1 opens the line
+    bool opens_ = true;  ///< a write of 1 enables the line
 };
 
 }  // namespace motionrack::live

@@ -1,4 +1,4 @@
-// Reads what a person writes of a card's place.
+// Parsing of a card's location.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -39,7 +39,7 @@ constexpr Range numbers[] = {
      [](PortSpec& spec, std::uint64_t n) { spec.gap = nanoseconds(static_cast<std::int64_t>(n)); }},
 };
 
-/// What is wrong with KEY=VALUE; "" if it is taken.
+/// The error in KEY=VALUE; "" if it is accepted.
 std::string take(PortSpec& spec, std::string_view key, std::string_view value) {
     if (key == "interrupt") {
         if (value.empty()) return "interrupt has no path; 'interrupt=none' is none";

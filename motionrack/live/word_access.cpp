@@ -1,5 +1,5 @@
-// Mapped words are volatile accesses of their own width, so that a compiler makes one bus cycle of each; words of a
-// file are one system call each, which is one IN or OUT where the kernel serves I/O ports.
+// Mapped words are volatile accesses of their own width, so each is one bus cycle. Words of a file are one system call
+// each, which is one IN or OUT if the kernel serves I/O ports.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -18,7 +18,7 @@ namespace motionrack::live {
 
 namespace {
 
-constexpr std::uint64_t map_apart = 1ull << 41;  ///< between the locks of two maps: more than any offset
+constexpr std::uint64_t map_apart = 1ull << 41;  ///< between the locks of two maps: larger than any offset
 
 class MappedWords final : public WordAccess {
   public:
@@ -55,7 +55,7 @@ class MappedWords final : public WordAccess {
     }
 
   private:
-    File file_;  ///< has the lock
+    File file_;  ///< holds the lock
     void* mapping_;
     std::size_t length_;
     volatile std::uint8_t* first_;
@@ -119,7 +119,7 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
 
 Result<std::unique_ptr<WordAccess>> map_words(const PortSpec& spec, File file, std::uint64_t at, std::uint64_t start,
                                               std::uint64_t length) {
-    // `start`: where in the file the mapping may begin; `at`: the first register, counted from there.
+    // `start`: possible start of the mapping in the file; `at`: the first register, relative to it.
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     const std::uint64_t skipped = spec.reach == AddressSpace::uio ? 0 : at / page * page;
     const std::uint64_t mapped = at - skipped + length;
@@ -163,11 +163,11 @@ Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64
     const bool has_size = S_ISREG(facts.st_mode);
     if (has_size && static_cast<std::uint64_t>(facts.st_size) < needed)
         return too_short(spec, static_cast<std::uint64_t>(facts.st_size), needed);
-    // Cards at other places of the same file (/dev/port, maps of a node) are others'.
+    // Cards at other offsets of the same file (/dev/port, maps of a node) have other locks.
     MOTIONRACK_CHECK(file.keep(static_cast<std::uint64_t>(spec.map) * map_apart + spec.offset, length, spec.path));
 
     if (spec.reach == AddressSpace::port) {
-        // Linux cuts every access to its /dev/port into bytes, the low one first.
+        // Linux divides every access to its /dev/port into bytes, the low one first.
         if (spec.width == 16 && S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 4))
             return fail(
                 ErrorKind::refused,

@@ -1,4 +1,4 @@
-// Sixteen-bit words at a card: in mapped memory, or in a file that takes them one by one.
+// Access to 16-bit words of a card: in mapped memory, or in a file that takes them one by one.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 namespace motionrack::live {
 
 /// One word is one access of 16 bits, or two of 8: the high byte first, because the low byte of a command register
-/// carries it out.
+/// executes it.
 class WordAccess {
   public:
     virtual ~WordAccess() = default;
-    /// `at`: bytes from the first register's place. 0, or the errno of what was refused.
+    /// `at`: bytes from the first register. Returns 0, or the errno of a refused access.
     virtual int write(std::uint64_t at, std::uint16_t value) = 0;
     virtual int read(std::uint64_t at, std::uint16_t& value) = 0;
 };
 
-/// `length`: bytes from the first register's start to the last one's end. Errors: io, refused.
+/// `length`: bytes from the start of the first register to the end of the last. Errors: io, refused.
 Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64_t length);
 
-/// A map of a UIO node, as its folder in /sys tells it (maps/map0/size and offset).
+/// A map of a UIO node, as given by its folder in /sys (maps/map0/size and offset).
 struct UioMap {
     std::uint64_t size = 0;    ///< bytes of the card's region
-    std::uint64_t offset = 0;  ///< where in the mapping's first page it begins
+    std::uint64_t offset = 0;  ///< its start in the mapping's first page
 };
 Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map);
 

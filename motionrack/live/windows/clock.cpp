@@ -28,7 +28,7 @@ Instant since_boot() {
     return whole_seconds(counts / per_second) + nanoseconds(counts % per_second * 1'000'000'000 / per_second);
 }
 
-/// Waits by a timer that ends no sooner than after `duration`. False: there is no timer.
+/// Waits by a timer for at least `duration`. Returns false if no timer is available.
 bool wait_by_timer(Duration duration) {
     HANDLE timer = ::CreateWaitableTimerExW(nullptr, nullptr, CREATE_WAITABLE_TIMER_HIGH_RESOLUTION, TIMER_ALL_ACCESS);
     if (timer == nullptr) timer = ::CreateWaitableTimerExW(nullptr, nullptr, 0, TIMER_ALL_ACCESS);
@@ -56,7 +56,7 @@ void MonotonicClock::sleep(Duration duration) {
             ::Sleep(static_cast<DWORD>(std::min<std::int64_t>(left / milliseconds(1) + 1, 1'000'000)));
 }
 
-/// Nothing here can be read: see InterruptLine.
+/// No file is readable here: see InterruptLine.
 bool MonotonicClock::wait_readable(int, Duration timeout) {
     sleep(timeout);
     return false;

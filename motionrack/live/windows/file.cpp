@@ -1,4 +1,4 @@
-// Windows gives no card as a file, so that none is ever opened.
+// Windows does not provide cards as files, so none is ever opened.
 #include <fmt/format.h>
 
 #include <motionrack/live/file.hpp>

@@ -1,4 +1,4 @@
-// Windows brings no interrupt of a card to a program without the card's own driver.
+// Windows does not deliver a card's interrupts to a program without the card's own driver.
 #include <fmt/format.h>
 
 #include <motionrack/live/interrupt_line.hpp>

@@ -1,5 +1,5 @@
-// The PC's I/O ports on Windows, which lets no program reach them by itself: through a library with the functions of
-// InpOut32 (inpoutx64.dll), which brings a driver of the kernel. port:PATH names that library.
+// The PC's I/O ports on Windows, which a program cannot access directly: through a library with the functions of
+// InpOut32 (inpoutx64.dll), which includes a kernel driver. port:PATH names that library.
 //
 //   CardPort ──► WordAccess ──► DlPortWritePortUshort, DlPortReadPortUshort   one IN or OUT of 16 bits
 //                 └──► DlPortWritePortUchar, DlPortReadPortUchar     two of 8 bits, the high byte first
@@ -8,7 +8,7 @@
 #include <motionrack/base/late_library.hpp>
 #include <motionrack/live/word_access.hpp>
 
-// How the library's functions are called by programs of 32 bits; those of 64 bits have one way.
+// Calling convention of the library's functions in 32-bit programs; 64-bit programs have only one.
 #if defined(__i386__)
 #define MOTIONRACK_STDCALL __attribute__((stdcall))
 #else
