@@ -1,4 +1,4 @@
-// The declaration languages refuse what is wrong, in a sentence; the same functions stand in the maps' static_asserts.
+// The declaration checks refuse every flaw with a sentence; the maps' static_asserts use the same functions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr RegisterInfo reg(std::string_view name, std::uint32_t offset, Access a
     return {name, offset, 16, access, false, bank, "a register", fields};
 }
 
-// What the compiler would print for a register with these fields.
+// The compiler message for a register with these fields.
 std::string with_fields(std::initializer_list<FieldInfo> list) {
     const std::vector<FieldInfo> fields(list);
     return std::string(fields_flaw(reg("R", 0, Access::read, fields)).text());

@@ -1,4 +1,4 @@
-// How near the exponential and the logarithm are to what they should be.
+// Accuracy of the exponential and the logarithm.
 #include <gtest/gtest.h>
 
 #include <cmath>

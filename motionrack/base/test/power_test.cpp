@@ -1,4 +1,4 @@
-// How near powers, tangent and arc sine are to what they should be.
+// Accuracy of powers, tangent and arc sine.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -36,7 +36,7 @@ TEST(Power, IsWithinItsErrors) {
             worst, ulps_of_power(power(x, y), std::pow(static_cast<long double>(x), static_cast<long double>(y))));
         const double at = i % 3 ? x : -x;
         if (std::fabs(std::log2(x) * whole) > 990) continue;
-        // Whole powers of long double lose half an ulp of theirs with each product; they are as good as 2^-60 here.
+        // Whole powers of long double lose half an ulp with each product; they are accurate to 2^-60 here.
         worst_whole = std::fmax(
             worst_whole,
             ulps_of_power(power(at, whole), std::pow(static_cast<long double>(at), static_cast<long double>(whole))));

@@ -1,4 +1,4 @@
-// What a user may name as a file.
+// Files that a user may name.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Edges of sound switches, and of others.
+// Edges of sound and faulty switches.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

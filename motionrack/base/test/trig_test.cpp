@@ -1,4 +1,4 @@
-// The trigonometry of the house against long double (64-bit mantissa on x86) and against exact angles.
+// The project's trigonometry against long double (64-bit mantissa on x86) and against exact angles.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ TEST(Trig, SineAndCosineAreWithinAnUlpUpToAMillionRadians) {
 
 TEST(Trig, SineAndCosineStayExactNextToMultiplesOfAQuarterTurn) {
     if (!wide_long_double()) GTEST_SKIP() << "long double is no wider than double here";
-    // pi/2 to 2^-118: a reference that does not need the C library's own reduction.
+    // pi/2 to 2^-118: a reference independent of the C library's own reduction.
     const long double high = 1.57079632679489661923132169163975144L;
     for (int k = 1; k <= 600'000; k += k < 1000 ? 1 : 997) {
         const double x = static_cast<double>(high * k);
