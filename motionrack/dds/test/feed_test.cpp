@@ -1,4 +1,4 @@
-// What goes to a virtual card, the publishing loop, and what is refused before any network is touched.
+// Frames for a virtual card, the publishing loop, and refusals before any network access.
 #include <gtest/gtest.h>
 
 #include <motionrack/dds/frame_publisher.hpp>
@@ -9,7 +9,7 @@
 namespace motionrack::dds {
 namespace {
 
-/// A subscriber that hears what the test says.
+/// A subscriber with samples from the test.
 class ScriptedSubscriber final : public Subscriber {
   public:
     ScriptedSubscriber() : Subscriber(ValidatorSettings{}) {}
@@ -64,7 +64,7 @@ class CountingPublisher final : public Publisher {
     std::vector<std::uint32_t> numbers;
 };
 
-/// Frames 0, 1, ...; at `broken` it fails.
+/// Frames 0, 1, ...; fails at `broken`.
 class CountingSource final : public FrameSource {
   public:
     std::uint32_t number = 0, frames = 100, broken = 1000;

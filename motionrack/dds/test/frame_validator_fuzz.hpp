@@ -1,12 +1,12 @@
-// Any samples at any time: a stream of numbers becomes samples, good, nearly good and senseless, and what must always
-// hold of a judge is checked after each. For libFuzzer and the room's own test.
+// Fuzzer of the validator: a stream of numbers becomes valid, nearly valid and invalid samples at any time. The
+// invariants are checked after each. For libFuzzer and the module's own test.
 //
-//   used is sound         what is used has the right CRCs, the expected N and the source that has the bus;
-//                         what is held is what was used last
+//   used is sound         a used frame has the right CRCs, the expected N and the source that owns the bus;
+//                         the held frame is the one used last
 //   all is counted        every sample is in one count
 //   one bus, one source   the source changes only when it was silent, and that is counted
 //   time                  stale if and only if no frame was used for two paces
-//   words                 every event has a sentence that can be printed
+//   words                 every event has a printable message
 #pragma once
 
 #include <motionrack/dds/test/samples.hpp>
@@ -21,7 +21,7 @@ class Run {
   public:
     explicit Run(Feed& feed) : feed_(feed), judge_({static_cast<int>(feed.below(3) * 3), milliseconds(200)}) {}
 
-    /// Up to `samples` samples; "" or what does not hold.
+    /// Takes up to `samples` samples; returns "" or the violated invariant.
     std::string go(int samples) {
         for (int i = 0; i < samples && problem_.empty() && !feed_.empty(); ++i) step();
         return problem_;

@@ -1,4 +1,4 @@
-// What holds of a judge whatever the network does, and the pacer.
+// Invariants of a validator on any network, and the pacer.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +11,7 @@ namespace motionrack::dds {
 namespace {
 
 RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
-    // Frames that a network lost, doubled and shuffled a little.
+    // Frames that a network has lost, duplicated and slightly reordered.
     const int frames = *rc::gen::inRange(1, 200);
     const auto start = *rc::gen::arbitrary<std::uint32_t>();
     struct Arrival {
@@ -37,7 +37,7 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
         sample.frame.time = (arrival.number + 1) * period.count();
         seal(sample);
         const Validation verdict = judge.take(sample, now += period);
-        // What was there before the judge listened is late each time it comes.
+        // A frame from before the validator listened is late each time it comes.
         const bool known = arrival.number >= oldest, again = known && !seen.insert(arrival.number).second;
         duplicates += again ? 1 : 0;
         const Validation expected = again                                                     ? Validation::duplicate

@@ -1,4 +1,4 @@
-// What a judge uses, counts and reports.
+// Used, counted and reported samples of a validator.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A judge that hears a frame each period.
+/// A validator that receives a frame each period.
 class Judging : public testing::Test {
   protected:
     FrameValidator judge;

@@ -1,4 +1,4 @@
-// Samples for tests: whose positions tell their number.
+// Samples for tests, whose positions show their number.
 #pragma once
 
 #include <motionrack/dds/frame_validator.hpp>
