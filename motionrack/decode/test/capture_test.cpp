@@ -1,4 +1,4 @@
-// Captures as logic analysers write them, and as they should not be: a clear outcome with its place for each.
+// Captures as logic analysers write them, and malformed ones: a clear result with its place for each.
 #include <gtest/gtest.h>
 
 #include <motionrack/decode/analysis.hpp>
@@ -21,7 +21,7 @@ Result<Analysis> analysed(std::string_view text, const std::string& name, const 
     return analyse(*capture, choices, how);
 }
 
-/// The sentence that `text` is refused with, and its place.
+/// The message of the refusal of `text`, and its place.
 std::string refusal(std::string_view text, const std::string& name, const std::vector<std::string>& channels = {},
                     const CaptureSettings& settings = {}) {
     const auto analysis = analysed(text, name, channels, settings);

@@ -1,4 +1,5 @@
-// The wide decoder beside its referee: every CPU's kernels, every length and alignment, whole and block by block.
+// The vectorised decoder against its referee: every CPU's kernels, every length and alignment, whole and block by
+// block.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -35,7 +36,7 @@ ChannelSettings keep_all() {
 }
 
 std::vector<std::uint64_t> plane_of(const std::uint8_t* samples, std::size_t size, int bit) {
-    // What is behind the last sample is rubbish on purpose.
+    // The data after the last sample are random on purpose.
     std::vector<std::uint64_t> plane(size / 64 + 1, 0xA5A5'5A5A'0FF0'1234U);
     for (std::size_t i = 0; i < size; ++i) {
         plane[i / 64] &= ~(std::uint64_t{1} << i % 64);

@@ -1,4 +1,5 @@
-// The decoder's referee: a loop over samples with a table of 16 transitions; and random streams of lines.
+// Reference implementation of the decoder: a loop over samples with a table of 16 transitions; and random streams of
+// lines.
 #pragma once
 
 #include <array>
@@ -35,7 +36,7 @@ struct Referee {
     int before_ = 0, before_z_ = 0;
 };
 
-/// `size` bytes: bits that turn round, stand still and jump, each bit by itself.
+/// `size` bytes whose bits reverse, stop and jump, each channel independently.
 inline std::vector<std::uint8_t> random_lines(std::uint64_t seed, std::size_t size) {
     std::mt19937_64 random(seed);
     std::vector<std::uint8_t> out(size);
