@@ -1,4 +1,4 @@
-// Live ports on plain files: which bytes an access touches, and what is said when a file is not what was hoped for.
+// Live ports on plain files: the bytes of an access, and the messages for unsuitable files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Four registers, as a card might have them.
+/// Four registers of a sample card.
 constexpr RegisterInfo registers[] = {
     {"A", 0, 16, Access::write, false, "", "", {}},
     {"B", 2, 16, Access::write, false, "", "", {}},
@@ -101,7 +101,7 @@ TEST(LivePort, SaysWhoMayNotOpenAFileAndTheRemedy) {
     std::filesystem::permissions(path, std::filesystem::perms::none);
     std::filesystem::permissions(folder.path(), std::filesystem::perms::others_exec,
                                  std::filesystem::perm_options::add);
-    // Root may open everything, so root becomes somebody else for a moment.
+    // Root may open every file, so the test drops root's privileges temporarily.
     const uid_t me = ::geteuid(), somebody = me == 0 ? 65534 : me;
     ASSERT_EQ(::seteuid(somebody), 0);
     const std::string sentence = refusal("memory:" + path);
@@ -207,7 +207,7 @@ TEST(LivePort, ItsClockCanWaitForAFileForEver) {
     ::close(ends[1]);
 }
 
-/// A clock that passes only when somebody waits.
+/// A clock that advances only during waits.
 class Counted final : public Clock {
   public:
     Instant now() const override { return now_; }

@@ -1,4 +1,4 @@
-// What people write of a card's place, right and wrong.
+// Texts of a card's location, valid and invalid.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-// /dev/zero in the place of a real card: one that stands, whatever is written to it.
+// /dev/zero as a real card: it is stationary, whatever is written to it.
 #pragma once
 
 #include <fcntl.h>
@@ -9,7 +9,7 @@
 
 namespace motionrack::live::test {
 
-/// A card is open once only, and /dev/zero is one for all tests of this computer: the others wait.
+/// A card can be open only once, and /dev/zero is one card for all tests of this computer: the others wait.
 class ZeroCard {
   public:
     ZeroCard() { ::flock(lock_, LOCK_EX); }
