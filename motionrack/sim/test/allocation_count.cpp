@@ -1,4 +1,4 @@
-// Operator new and delete that count.
+// Counting operators new and delete.
 #include <atomic>
 #include <cstdlib>
 #include <motionrack/sim/test/allocation_count.hpp>
@@ -26,7 +26,7 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return counted(size);
 }
-// The library's would do, but AddressSanitizer has its own, whose memory may not be freed here.
+// The library's version would suffice, but AddressSanitizer has its own, whose memory must not be freed here.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     count.fetch_add(1, std::memory_order_relaxed);
     return std::malloc(size == 0 ? 1 : size);

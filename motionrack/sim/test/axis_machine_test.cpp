@@ -1,4 +1,4 @@
-// An axis of the machine behind fake pulses: truth, switches, lost steps, encoder, snapshots.
+// An axis of the machine with fake pulses: true position, switches, step loss, encoder, snapshots.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,7 +14,7 @@ using sim::Kernel;
 using sim::PulseLaw;
 using sim::WireId;
 
-/// Pulses every 100 us: 10 kHz needs a start rate that takes it.
+/// Pulses every 100 us: 10 kHz requires a start rate that permits it.
 AxisMechanicsSettings plain() {
     AxisMechanicsSettings s;
     s.motor.start_stop_hz = 50'000;
@@ -22,7 +22,7 @@ AxisMechanicsSettings plain() {
     return s;
 }
 
-/// Writes down every change of every wire.
+/// Records every change of every wire.
 class Scribe final : public Kernel::WireObserver {
   public:
     struct Line {
@@ -55,7 +55,7 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
     return out;
 }
 
-// ---- Truth
+// ---- True position
 
 TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
     MachineWorld w(plain(), {{Instant{0}, microseconds(100), +1}});
@@ -68,7 +68,7 @@ TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
     EXPECT_EQ(w.machine.speed(), 10'000 * 5.0 / 3200);
     EXPECT_EQ(w.machine.top_speed(), w.machine.speed());
     EXPECT_TRUE(w.kernel.conditions().empty());
-    EXPECT_LE(w.kernel.events(), 2u);  // nothing is done for a pulse
+    EXPECT_LE(w.kernel.events(), 2u);  // single pulses cost no time
 }
 
 TEST(AxisMechanics, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
@@ -197,7 +197,7 @@ RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPlace
     RC_ASSERT(w.kernel.level(w.machine.limit_plus_wire()) == 0);
 }
 
-// ---- Lost steps
+// ---- Step loss
 
 TEST(AxisMechanics, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     AxisMechanicsSettings s = plain();
@@ -256,8 +256,8 @@ TEST(AxisMechanics, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
 TEST(AxisMechanics, AMotorFollowsARampToTheSpeedAtWhichItStops) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
-    // From standstill 1600 Hz, up to 20 kHz and down again by 40 Hz each 10 us, and from 1600 Hz to standstill: an
-    // acceleration of twice the start/stop rate a millisecond.
+    // From standstill to 1600 Hz, up to 20 kHz and down again by 40 Hz each 10 us, and from 1600 Hz to standstill: an
+    // acceleration of twice the start/stop rate per millisecond.
     std::vector<PulseLaw> laws;
     Instant at{};
     const auto step = [&](double hz) {

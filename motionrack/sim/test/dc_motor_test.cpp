@@ -65,8 +65,7 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
         const double time = 1e-3 * *rc::gen::inRange(1, 60);
         rig.run(time);
         stepped.run(time);
-        // A microsecond here or there is 2 counts a second at the greatest acceleration, and the steps' own errors add
-        // up.
+        // One microsecond more or less is 2 counts/s at the maximum acceleration, and the errors of the steps add up.
         RC_ASSERT(std::fabs(rig.rate() - stepped.speed) < 60);
         RC_ASSERT(std::fabs(rig.position() - stepped.place) < 3);
     }

@@ -178,7 +178,7 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
 }
 
 TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
-    AxisMechanicsSettings s = with_counts(4001);  // turns end between microsteps, counts are skipped
+    AxisMechanicsSettings s = with_counts(4001);  // revolutions end between microsteps, counts are skipped
     s.motor.microsteps = 1;                       // 20 counts a pulse
     EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
     w.kernel.start();

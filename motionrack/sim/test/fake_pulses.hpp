@@ -1,4 +1,4 @@
-// A card that is no card: pulses of constant rate, law after law, as a Motion.
+// A substitute for a card: pulses of constant rate, law after law, as a PositionFunction.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class FakePulses final : public DeferringDevice, public PositionFunction {
         reschedule();
     }
 
-    // ---- Motion
+    // ---- PositionFunction
     std::int64_t count(Instant t) const override { return state_.base + state_.law.direction * steps(t); }
     double rate(Instant) const override { return rate_of(state_.law); }
     void watch(int slot, std::int64_t below, std::int64_t above) override {

@@ -1,4 +1,4 @@
-// Where the numbers of the cards' fuzzers come from: a generator with a seed, or the bytes that libFuzzer makes.
+// Source of numbers for the cards' fuzzers: a generator with a seed, or the bytes from libFuzzer.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class Random final : public Feed {
     std::mt19937_64 random_;
 };
 
-/// Two bytes a word, the low one first; 0 beyond the end.
+/// Two bytes per word, the low one first; 0 beyond the end.
 class Bytes final : public Feed {
   public:
     explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

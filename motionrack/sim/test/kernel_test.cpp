@@ -1,4 +1,4 @@
-// The kernel: order of events, wires, conditions, snapshots, and that a run allocates nothing.
+// The kernel: order of events, wires, conditions, snapshots, and runs without allocation.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -8,7 +8,7 @@
 namespace motionrack::sim {
 namespace {
 
-/// A device whose parts are functions.
+/// A device with functions as its parts.
 class Puppet final : public DeferringDevice {
   public:
     void on_scheduled(Instant now) override {
@@ -71,7 +71,7 @@ TEST(Kernel, ALaterRequestReplacesTheEarlierOneAndThePastBecomesNow) {
     std::vector<Instant> acts;
     p.on_act = [&](Instant now) {
         acts.push_back(now);
-        if (acts.size() == 1) kernel.schedule(id, Instant{5});  // gone by
+        if (acts.size() == 1) kernel.schedule(id, Instant{5});  // already past
     };
     kernel.start();
     kernel.schedule(id, Instant{10});
@@ -276,7 +276,7 @@ TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
 
 // ---- Snapshots
 
-/// Two devices that drive each other's wires and report, by a rule that mixes numbers.
+/// Two devices that drive each other's wires and report, by a pseudo-random rule.
 struct Clockwork {
     Clockwork() {
         for (std::size_t i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// Encoders and resolvers whose lines are wires: geometry, electronics, and each fault.
+// Encoders and resolvers with their lines as wires: geometry, electronics, and each fault.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace motionrack::parts {
 namespace {
 
-/// Counts what comes out of the lines.
+/// Counts the edges of the lines.
 class Counter final : public sim::Device {
   public:
     Counter(sim::Kernel& kernel, sim::WireId a, sim::WireId b, sim::WireId z)
@@ -148,7 +148,7 @@ TEST(LineEncoder, JitterDelaysEdgesButLosesNone) {
 
 TEST(LineEncoder, TooQuickItLosesWholeLinesWithoutASign) {
     Disc w(small_disc(), to_and_fro);
-    EXPECT_TRUE(w.fault("overspeed", 30'000));  // it turns with 100,000
+    EXPECT_TRUE(w.fault("overspeed", 30'000));  // it moves at 100,000
     w.run(milliseconds(30));
     EXPECT_GT(w.part.lost(), 100);
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
@@ -345,7 +345,7 @@ TEST(Resolver, WindingsThatAreNotAlikeErrTwiceATurnOffsetsOnce) {
         EXPECT_TRUE(w.fault(c.fault, c.value));
         for (int i = 1; i <= 10'240; ++i) {
             w.run(microseconds(1));
-            if (i < 50) continue;  // it goes to the new angle, a count in 1 us
+            if (i < 50) continue;  // it moves to the new angle, a count in 1 us
             const SinCos at = sin_cos(2 * pi * i / 10'240);
             const std::string name = c.fault;
             double angle = atan2(at.sin * (name == "gain" ? 1 + c.value : 1) + (name == "offset_sin" ? c.value : 0),
@@ -374,7 +374,7 @@ TEST(Resolver, WithoutASignalTheLinesStayAndAfterwardsItGoesTheShorterWay) {
         w.run(milliseconds(5));
         EXPECT_TRUE(w.fault(winding, 1));
         EXPECT_EQ(w.kernel.level(w.part.los()), 1);
-        w.run(milliseconds(45));  // to 4000 counts: 3 turns and 928
+        w.run(milliseconds(45));  // to 4000 counts: 3 revolutions and 928
         EXPECT_EQ(w.counted(), 500);
         EXPECT_TRUE(w.fault(winding, 0));
         w.run(milliseconds(5));

@@ -1,4 +1,4 @@
-// The grating scale against its formula, its lines against its count, and what makes it lose counts.
+// The grating scale against its formula, its lines against its count, and the causes of lost counts.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace motionrack::parts {
 namespace {
 
-/// Counts what it sees on two wires while it listens.
+/// Counts edges on two wires while it listens.
 struct Head final : sim::Device {
     Head(sim::Kernel& k, const LinearScale& scale)
         : kernel(k), id(k.add(*this, sim::Phase::cards, "head")), a(scale.a()), b(scale.b()) {
@@ -101,7 +101,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
         const long double counts = nm * 1'000 * s.interpolation / s.pitch_pm;
         const auto expected = static_cast<std::int64_t>(std::floor(counts));
         RC_ASSERT(rig.scale.lost() == 0);
-        // The long double may be on the wrong side where it is next to a whole number.
+        // The long double may be on the wrong side next to a whole number.
         if (std::fabs(counts - std::round(counts)) > 1e-3L)
             RC_ASSERT(rig.count() == (s.reversed ? -expected : expected));
         RC_ASSERT(std::fabs(rig.scale.position_nm(rig.kernel.now()) - static_cast<double>(nm)) <=
@@ -125,8 +125,8 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     EXPECT_NEAR(static_cast<double>(rig.count() - from), 200e6 * 0.999'999, 2);
     EXPECT_LT(rig.kernel.events() - events, 10u);
     EXPECT_TRUE(rig.scale.trusted());
-    // 2 m are more counts of a finer scale than 32 bits hold; a card that keeps the low 32 bits finds the rest from its
-    // last reading.
+    // 2 m are more counts of a finer scale than 32 bits hold; a card that stores the low 32 bits finds the others from
+    // its last reading.
     LinearScaleSettings fine;
     fine.pitch_pm = 512'000;
     fine.fastest = 1e9;
@@ -161,7 +161,7 @@ TEST(LinearScale, TellsAWatchAtTheInstantOfTheEdge) {
         EXPECT_EQ(again.count(), there + (reversed ? 1 : -1));
         again.kernel.run_until(rig.ear.at);
         EXPECT_EQ(again.count(), there);
-        // What is left already is told at once, once.
+        // A range that is already left is reported at once, and only once.
         again.scale.watch(again.slot, sim::unwatched_below, -2'000'000);
         again.kernel.settle();
         EXPECT_EQ(again.ear.crossings, 1);
@@ -299,7 +299,7 @@ TEST(LinearScale, RidesOnAnyMotion) {
     s.pitch_pm = 20'000'000;
     s.interpolation = 40;     // 500 nm
     s.places = 25'600;        // microsteps ...
-    s.places_nm = 5'000'000;  // ... of a turn of 5 mm
+    s.places_nm = 5'000'000;  // ... of a revolution of 5 mm
     LinearScale scale(kernel, "s", pulses, s);
     kernel.start();
     kernel.run_until(whole_seconds(1));

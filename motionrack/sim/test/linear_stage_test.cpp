@@ -66,7 +66,7 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         const double time = 1e-4 * *rc::gen::inRange(1, 300);
         rig.run(time);
         stepped.run(time);
-        // Where it turns or meets the top speed, the steps are off by a step's way: 0.25 us of 50 m/s2 last for the
+        // At a reversal or at the top speed, the steps have an error of one step: 0.25 us of 50 m/s2 persist for the
         // rest of the run.
         RC_ASSERT(std::fabs(rig.speed() - static_cast<double>(stepped.speed)) < 5e-5);
         RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
@@ -115,7 +115,7 @@ TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
     rig.volts(0);
     rig.run(3);
     EXPECT_EQ(rig.speed(), 0);
-    // All of it has gone into rubbing.
+    // All of it went into friction.
     EXPECT_NEAR(rig.nm() * 1e-9 * 0.5, 10 * way, 1e-8);
     const std::uint64_t events = rig.kernel.events();
     rig.run(1'000);
@@ -183,7 +183,7 @@ RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
         ear.at.clear();
         for (int k = 0; k < 100'000 && ear.at.empty(); ++k) rig.run(1e-3);
         RC_ASSERT(ear.at.size() == 1u);
-        // The rig has run on; a second one is stopped a tick before and at the instant.
+        // The rig has run on; a second one is stopped one tick before and at the instant.
         Rig again(s);
         again.kernel.start();
         again.volts(rig.stage.volts());

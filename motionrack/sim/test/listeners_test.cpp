@@ -1,4 +1,4 @@
-// What motions have in common: ranges and intervals, who hears of them, edges in batches.
+// Common parts of position functions: ranges and intervals, notifications, edges in batches.
 #include <gtest/gtest.h>
 
 #include <motionrack/sim/edge_batcher.hpp>

@@ -1,4 +1,4 @@
-// Mirrors, tracks, position words, laser and work piece of a marking machine.
+// Mirrors, conveyors, position words, laser and work piece of a marking machine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
     std::vector<std::int32_t> ramp(3000);
     for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::int32_t>(i) * 40;
     const auto x = driven(galvo, ramp);
-    // At the end of tick i ideal mirrors are at 40 i; each bit held for a tick is half a tick late on the average.
+    // At the end of tick i ideal mirrors are at 40 i; a bit held for a tick is late by half a tick on average.
     EXPECT_NEAR((40.0 * 2999 - x.back()) / 40 * 10, galvo.lag_us() - 5, 0.2);
 }
 
@@ -113,7 +113,7 @@ TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
     std::vector<std::uint32_t> words(2000);
     SerialPositionSource::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
     EXPECT_EQ(static_cast<std::int32_t>(words[11]), -5);  // read at -0.05 ms
-    EXPECT_EQ(words[1000], 985u);                         // read at 9.85 ms, at hand after 9.97 ms
+    EXPECT_EQ(words[1000], 985u);                         // read at 9.85 ms, available after 9.97 ms
     EXPECT_EQ(words[1001], 985u);
     EXPECT_EQ(words[1002], 990u);
     SerialPositionSource::make(track, {.bits_per_mm = -100, .two_axes = true})->words(0, words);
@@ -123,7 +123,7 @@ TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
     EXPECT_FALSE(SerialPositionSource::make(*Conveyor::make({.rotary = true}), {.two_axes = true}));
 }
 
-/// How much of each tick the laser shines.
+/// Part of each tick with laser light.
 void expect_lights(LaserGate& gate, const std::vector<double>& expected) {
     for (std::size_t t = 0; t < expected.size(); ++t) {
         const auto tick = static_cast<std::int64_t>(t);
@@ -142,7 +142,7 @@ TEST(LaserGate, LightIsTheGateWithItsDelays) {
     expect_lights(gate, {0.65, 1, 0.25, 0});
     LaserGate slow = *LaserGate::make({.on_delay_us = 5, .off_delay_us = 1});
     slow.change(0, true);
-    slow.change(6, false);  // 3 us: too short to shine
+    slow.change(6, false);  // 3 us: too short for light
     slow.change(20, true);
     slow.change(40, false);
     expect_lights(slow, {0, 0.5, 0.1});
@@ -193,7 +193,8 @@ TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
     EXPECT_GT(d.worst_at.x, 9);
     EXPECT_EQ(d.worst_s, 0);
     EXPECT_GT(d.rms_mm, 0.05);
-    EXPECT_NEAR(d.missing_mm, 10 + 6.4, 0.5);  // the left side, and where the slanted one is more than 0.1 mm off
+    EXPECT_NEAR(d.missing_mm, 10 + 6.4,
+                0.5);  // the left side, and the part of the slanted one with a deviation above 0.1 mm
     EXPECT_DOUBLE_EQ(Nearest(square).distance({-30, 5}), 30);
     EXPECT_DOUBLE_EQ(Nearest(square).distance({5, 5}), 5);
     for (int i = 0; i < 500; ++i) {

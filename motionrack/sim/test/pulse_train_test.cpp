@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration clock = Duration{6};
 
-/// A device with a pulse train and nothing else.
+/// A device with only a pulse train.
 class Divider final : public DeferringDevice, private PulseTrain::Owner {
   public:
     explicit Divider(Kernel& k) : train(state_, clock), kernel(k), id(k.add(*this, Phase::cards, "divider")) {

@@ -1,4 +1,4 @@
-// The three forms of a quadrature counter agree, and the table says what every transition counts.
+// The three forms of a quadrature counter agree, and the table gives the count of every transition.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -53,7 +53,7 @@ RC_GTEST_PROP(QuadratureDecoder, CountsFewerEdgesAsTheClosedFormSays, (std::vect
 }
 
 RC_GTEST_PROP(BatchDecoder, DecodesAnyLinesAsTheTableDoes, ()) {
-    // From long runs in one direction to plain noise, in pieces of any size.
+    // From long runs in one direction to pure noise, in pieces of any size.
     const int noise = *rc::gen::inRange(0, 5);
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
     std::uint64_t x = seed;

@@ -1,4 +1,4 @@
-// A rack driven through its port, recorded, and played into a fresh one: the same history, bit for bit.
+// A rack driven through its port, recorded, and replayed into a new one: the same history, bit for bit.
 #include <gtest/gtest.h>
 
 #include <motionrack/sim/input_log.hpp>
@@ -9,8 +9,7 @@
 namespace motionrack::sim {
 namespace {
 
-/// Register 0: the pulses' period in microseconds (0: stop); register 1: direction; register 2 reads how often it was
-/// read.
+/// Register 0: the pulses' period in microseconds (0: stop); register 1: direction; register 2: number of its reads.
 class PulseCard final : public RegisterDevice, public Device {
   public:
     PulseCard(Kernel& kernel, FakePulses& pulses) : kernel_(kernel), pulses_(pulses) {

@@ -1,4 +1,4 @@
-// A scan head on wires: ticks from changes of lines, rest without cost, nothing allocated in a run.
+// A scan head on wires: ticks from changes of lines, idle without cost, no allocation in a run.
 #include <gtest/gtest.h>
 
 #include <motionrack/sim/parts/scan_head.hpp>
@@ -7,7 +7,7 @@
 namespace motionrack::parts {
 namespace {
 
-/// 1000 bits/mm over a part that lies still.
+/// 1000 bits/mm over a stationary part.
 StationSettings plain_head() {
     StationSettings out;
     out.bits_per_mm = 1000;
@@ -24,7 +24,7 @@ struct Bench {
         kernel.start();
         head.begin();
     }
-    /// At that instant, which is not over yet.
+    /// At that instant, which has not ended.
     void at(std::int64_t half_us, sim::WireId wire, int level) {
         kernel.run_until(nanoseconds(500 * half_us));
         kernel.force(wire, level);

@@ -1,4 +1,5 @@
-// Tracks in virtual time: when counts are left, speeds changed by hand, parts before a sensor, words on wires.
+// Conveyors in virtual time: instants at which ranges are left, manual speed changes, parts at a sensor, words on
+// wires.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,7 @@ TEST(Conveyor, TellsWhenItLeavesARange) {
     EXPECT_DOUBLE_EQ(even.leaves(0, -1, 5), 0.05);
     EXPECT_DOUBLE_EQ(even.leaves(0.02, -1, 5), 0.05);
     EXPECT_EQ(even.leaves(0, -1, never_s), never_s);
-    const Conveyor back = track_of({{0, 0}, {1, 100}, {3, -100}});  // turns at 2 s, after 100 mm
+    const Conveyor back = track_of({{0, 0}, {1, 100}, {3, -100}});  // reverses at 2 s, after 100 mm
     EXPECT_DOUBLE_EQ(back.leaves(0, -1, 50), 1);
     EXPECT_DOUBLE_EQ(back.leaves(2, 50, 101), 3);
     EXPECT_DOUBLE_EQ(back.leaves(0, -100, 101), 4.5) << "it never comes to 101";
@@ -159,7 +160,7 @@ TEST(SerialWordSource, AWordIsCompleteTheDelayAfterItsReading) {
     kernel.run_until(microseconds(170));
     EXPECT_EQ(kernel.level(word), 50) << "the reading at 50 us";
     EXPECT_EQ(kernel.level(frame), 1) << "the first word was 0 again";
-    // The same as SerialPositionSource says for ticks of 10 us.
+    // The same as SerialPositionSource for ticks of 10 us.
     std::vector<std::uint32_t> words(100);
     sender.words(0, words);
     for (std::size_t tick = 18; tick < words.size(); ++tick) {

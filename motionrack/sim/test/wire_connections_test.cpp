@@ -1,4 +1,4 @@
-// Joined wires.
+// Connected wires.
 #include <gtest/gtest.h>
 
 #include <motionrack/sim/parts/axis_mechanics.hpp>
@@ -58,7 +58,7 @@ TEST(WireConnections, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
     junctions.join(machine.index_wire(), z);
     junctions.join(machine.index_wire(), unused);
     kernel.start();
-    kernel.run_until(milliseconds(64));  // two turns
+    kernel.run_until(milliseconds(64));  // two revolutions
     EXPECT_EQ(kernel.level(z), 1);
     EXPECT_LE(kernel.events(), 2u);
     kernel.run_until(milliseconds(65));
