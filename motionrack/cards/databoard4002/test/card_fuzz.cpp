@@ -62,7 +62,7 @@ class Run {
         return s.byte_time + nanoseconds(2'500) * (s.pass_ticks + 1);
     }
 
-    // ---- what is done
+    // ---- actions
     void something() {
         const std::uint32_t roll = feed_.below(100);
         if (roll < 45) return access();
@@ -87,7 +87,7 @@ class Run {
             if (port == ports::CS && feed_.below(4)) out(ports::CS, select);
         }
     }
-    /// A command with its arguments as a program gives it, perhaps cut short.
+    /// A command with its arguments as a program sends it, sometimes truncated.
     void order() {
         constexpr char letters[] = "ADLMNNNOPPPQRRRSVWGGG";
         const char code = letters[feed_.below(sizeof letters - 1)];
@@ -99,7 +99,7 @@ class Run {
         out(ports::C2, static_cast<std::uint8_t>(code));
         for (int i = 0; i < bytes; ++i) {
             run(max_access_time());
-            // High bytes that make moves which end, and speeds that one can see.
+            // High bytes for moves that end, and for visible speeds.
             const bool high = (full == 3 && i == 2) || (full == 2 && i == 1) || (full == 240 && i % 5 == 1);
             const std::uint32_t wild = feed_.word();
             const std::uint32_t plausible = full == 3 ? (wild & 1 ? 0xFFu : 0u) : 0x3Fu;
@@ -114,7 +114,7 @@ class Run {
         host_.kernel.set_wire(id, active);
         host_.kernel.settle();
     }
-    /// The encoder is cut off, its lines are driven from outside and, sooner or later, released.
+    /// Disconnects the encoder, drives its lines from outside and, sooner or later, releases them.
     void encoder_lines() {
         if (!taken_ || feed_.below(8) == 0) {
             take_encoder(!taken_);
@@ -136,7 +136,7 @@ class Run {
         host_.card.fault("watchdog.hang", 1, host_.kernel.now());
     }
 
-    // ---- how it is done, and what the card may do from then on
+    // ---- execution, and the permitted reactions of the card
     void run(Duration time) {
         const bool hung = host_.card.hung();
         host_.run(time);
@@ -160,7 +160,7 @@ class Run {
         host_.port.out(port, value);
         if (port == ports::C3 && chosen_) reset_by_host();
     }
-    /// The card will work on that access.
+    /// Records that the card will process that access.
     void taken(std::uint8_t port, std::uint8_t value) {
         if (port == ports::C2 && value == 'G') went_ = true;
         const bool arms =
@@ -185,7 +185,7 @@ class Run {
         rebase();
     }
 
-    // ---- what must hold
+    // ---- invariants
     void check(bool holds, const char* what) {
         if (holds || !verdict_.problem.empty()) return;
         verdict_.problem =
@@ -219,7 +219,7 @@ class Run {
     }
     void look_at_counter() {
         if (loose_ || armed_) {
-            if (host_.kernel.now() > loose_until_ && !host_.card.hung()) {  // the access was worked on
+            if (host_.kernel.now() > loose_until_ && !host_.card.hung()) {  // the access was processed
                 loose_ = false;
                 armed_ = arms_;
             }
@@ -266,11 +266,11 @@ class Run {
     Instant loose_until_{};
     bool listening_ = false;
     bool chosen_ = true;
-    bool went_ = false;   // a G was taken since the last reset
+    bool went_ = false;   // a G was accepted since the last reset
     bool arms_ = false;   // the last C4 arms the zeroing
     bool armed_ = false;  // zero pulse or reference may zero the counter
-    bool loose_ = false;  // A or C4 is being worked on, which may zero the counter, too
-    bool taken_ = false;  // the encoder is cut off
+    bool loose_ = false;  // A or C4 is in progress, which may also zero the counter
+    bool taken_ = false;  // the encoder is disconnected
     std::int64_t counter_ = 0, offset_ = 0, still_at_ = 0, may_count_ = 0, last_pulses_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The card from outside: ports, wires, time. What the maker's description says it does.
+// The card from outside: ports, wires, time, as described by the maker.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -249,7 +249,7 @@ TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndSaysSo) {
     sim::FakePulses encoder(kernel, {});
     Host host({}, false, &encoder, &kernel);
     host.start();
-    encoder.drive(nanoseconds(2'500), 1);  // 400,000 counts a second: 100 kHz a line
+    encoder.drive(nanoseconds(2'500), 1);  // 400,000 counts/s: 100 kHz per line
     host.run(milliseconds(1));
     EXPECT_EQ(host.card.position(), 400);
     encoder.drive(nanoseconds(2'000), 1);

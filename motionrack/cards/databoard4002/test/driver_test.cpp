@@ -1,4 +1,4 @@
-// The function library: its exact traffic, and what it does with a card that moves, stops, hangs or is not there.
+// The function library: its exact traffic, and its behaviour with a card that moves, stops, hangs or is absent.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::ostream& operator<<(std::ostream& out, const PortAccess& a) {
     return out << a.kind << a.port << ' ' << a.value;
 }
 
-/// Answers STAT with Ready after a few looks, DATA from a list; writes everything else down.
+/// Answers STAT with Ready after a few reads, DATA from a list; records all writes.
 class ScriptedPort final : public BytePort, public Interrupt {
   public:
     void out(std::uint8_t port, std::uint8_t value) override {
@@ -150,7 +150,7 @@ TEST(Databoard4002Driver, WaitsMayBeEndless) {
 TEST(Databoard4002Driver, TellsWhichStopWasMetAndWhere) {
     for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
         Rig rig;
-        // The stop is met while the driver waits: a broken wire after 50 ms, seen at the next look.
+        // The stop is reached while the driver waits: a broken wire after 50 ms, detected at the next poll.
         const auto moved = [&] {
             rig.host.port.on_slice(milliseconds(50), [&, n = 0]() mutable {
                 if (++n == 2) rig.host.card.fault("esr.broken", 1, rig.host.kernel.now());

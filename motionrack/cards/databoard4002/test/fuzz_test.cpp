@@ -1,6 +1,6 @@
-// Any byte to any port at any time, a million times; what must always hold is in card_fuzz.hpp.
+// A million random accesses to any port; the invariants are in card_fuzz.hpp.
 //
-// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment choose another and a longer run.
+// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment select another and a longer run.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A card on a bus with an 8-bit host in front of it, as the maker's demonstration programs see it.
+// A card on a bus with an 8-bit host, as in the maker's demonstration programs.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct Host {
             card.connect_encoder(card.pulses());
         bus.plug(card, select);
     }
-    /// No more cards and parts.
+    /// Ends the construction: no more cards and parts.
     void start() {
         kernel.start();
         port.out(ports::CS, select);
@@ -73,7 +73,7 @@ struct Host {
         return static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << unused) >> unused;
     }
     std::uint8_t status() { return port.in(ports::STAT); }
-    /// The EVENT word; frees it.
+    /// Reads the EVENT word, which frees it.
     std::uint8_t events(int enables) {
         out(ports::C4, enables);
         return in(ports::DATA);

@@ -1,5 +1,5 @@
-// The card with a machine behind it: servo amplifier and DC motor, carriage with end stops, reference cam, zero pulse,
-// emergency button.
+// The card with a machine: servo amplifier and DC motor, carriage with end stops, reference cam, zero pulse, emergency
+// button.
 //
 //   vout ─► motor ─► carriage ─► limit switches ─► esr, esl
 //                       ├─► encoder ─► o1, o2, zero
@@ -23,8 +23,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// 1000 counts a turn, 10 mm a turn: 100 counts for a millimetre; the carriage stands at 0, the stops are at -300 and
-/// +3000 mm.
+/// 1000 counts and 10 mm per revolution: 100 counts/mm. The carriage is at 0, the stops are at -300 and +3000 mm.
 parts::AxisMechanicsSettings carriage() {
     parts::AxisMechanicsSettings s;
     s.motor = {1'000, 1, 1e12, 1e12};
@@ -80,7 +79,7 @@ struct Machine {
     SpeedScale scale;
 };
 
-/// How often the output changes its direction, and how far the carriage swings, in `time`.
+/// Number of direction changes of the output, and range of the carriage, in `time`.
 struct Swing {
     int turns = 0;
     double width_mm = 0;
@@ -188,12 +187,12 @@ TEST(Databoard4002Machine, TheEmergencyButtonStopsItAndItStaysWhenReleased) {
 
 TEST(Databoard4002Machine, TheZeroPulseUnderTheCamBecomesTheZeroOfTheCounter) {
     Machine m;
-    // The cam is active at 126 .. 132 mm, the zero pulses are at whole turns: every 10 mm.
+    // The cam is active at 126 .. 132 mm, the zero pulses are at whole revolutions: every 10 mm.
     ASSERT_TRUE(m.driver.find_zero(event::ZERO | event::REF, 100'000, 15'463, whole_seconds(60)));
     m.host.run(milliseconds(300));
     EXPECT_NEAR(m.mm(), 130, 0.5);
     EXPECT_NEAR(*m.driver.position_mm(), m.mm() - 130, 0.011);
-    // The zero pulse alone: the next turn. The reference alone: the edge of the cam, from the other side.
+    // The zero pulse alone: the next revolution. The reference alone: the edge of the cam, from the other side.
     ASSERT_TRUE(m.driver.find_zero(event::ZERO, 100'000, 15'463, whole_seconds(60), Waiting::interrupt));
     m.host.run(milliseconds(300));
     EXPECT_NEAR(m.mm(), 140, 0.5);

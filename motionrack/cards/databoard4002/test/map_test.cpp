@@ -1,4 +1,4 @@
-// The card's map: what is declared is what the card does, and the reference page is made from it.
+// The card's map: its declarations match the card, and the reference page is generated from it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(Databoard4002Map, EveryAnswerAndArgumentHasItsDeclaredBytes) {
             host.out(ports::C4, 0);
             host.command(static_cast<char>(info.code));
             for (int i = 0; i < info.answer_bytes; ++i) host.in(ports::DATA);
-            host.out(ports::DATA, 1);  // the answer is over, no argument is waited for
+            host.out(ports::DATA, 1);  // the answer has ended, no argument is expected
             host.wait_ready();
             EXPECT_EQ(host.conditions(), std::vector{CardCondition::data_unexpected}) << info.name;
         }
@@ -117,7 +117,7 @@ TEST(Databoard4002SlopeTable, FindsTheIntervalAndWhereItEnds) {
         table.set(i, {1'000 + i, 100 * (i + 1)});
         table.set(24 + i, {2'000 + i, 10 * (i + 1)});
     }
-    table.set(5, {999, 450});  // ends before the one in front of it (500): never used
+    table.set(5, {999, 450});  // ends before the previous interval (500): never used
     EXPECT_EQ(table.decelerating(1).rate, 1'000);
     EXPECT_EQ(table.decelerating(100).rate, 1'000);
     EXPECT_EQ(table.decelerating(101).rate, 1'001);
@@ -150,7 +150,7 @@ TEST(Databoard4002Settings, OutOfRangeAreRefusedWithTheNumberSeen) {
     EXPECT_FALSE(check(s));
 }
 
-/// As printed, row for row; its two misprints are read as their neighbours ask for.
+/// As printed, row for row; its two misprints are corrected to fit the neighbouring rows.
 TEST(Databoard4002Trim, IsThePrintedOneUntilAnotherIsGiven) {
     const Trim printed = *trim_from_text(
         "0.01 13799, 0.025 14051, 0.05 14339, 0.075 14565, 0.1 14745, 0.15 15014, 0.2 15207, "

@@ -12,7 +12,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// The rates that the output has, one after the other, until the card stands.
+/// Consecutive rates of the output until the card is stationary.
 std::vector<int> rates_of_move(Host& host) {
     std::vector<int> out;
     host.wait_ready();
@@ -74,7 +74,7 @@ TEST(Databoard4002Moves, SpeedIsTheLeastOfAccelerationDecelerationAndRate) {
     for (int i = 22; i >= 0; --i) expected.push_back(demo_deceleration[i][0]);
     EXPECT_EQ(rates_of_move(host), expected);
     EXPECT_EQ(host.card.position(), 256'000);
-    // Limited: nothing above the rate, and the same way back.
+    // Limited: no higher rate, and the same path back.
     host.command('R', 16'310, 2);
     host.command('P', 0, 3);
     host.command('G');
@@ -105,7 +105,7 @@ TEST(Databoard4002Moves, ALongMoveCostsItsSlopeStepsNotItsCounts) {
     EXPECT_LT(host.kernel.events() - before, 400u);
 }
 
-/// One rate, wherever the card is.
+/// A single rate, independent of the card's position.
 void flat_table(Host& host, int rate) {
     host.command('S');
     for (int i = 0; i < 48; ++i) {
@@ -133,7 +133,7 @@ TEST(Databoard4002Moves, TheRunningMoveKeepsItsTargetAndTable) {
     EXPECT_EQ(rates, expected);
     EXPECT_GT(rates.size(), 23u);
     EXPECT_EQ(host.card.position(), 256'000);
-    // The next one has the target and the table that were written meanwhile.
+    // The next one uses the target and the table written in the meantime.
     host.command('G');
     EXPECT_THAT(rates_of_move(host), ElementsAre(-15'000));
     EXPECT_EQ(host.card.position(), 5);

@@ -1,7 +1,7 @@
-// The event-driven card against the looping twin: random programs of a host, a machine and hands on switches must look
-// the same in every read, in every change of an output, in every condition and in the pulses counted.
+// The event-driven card against the looping twin: random programs of a host, a machine and manually operated switches
+// must agree in every read, every change of an output, every condition and the pulses counted.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

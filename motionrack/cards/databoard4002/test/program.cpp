@@ -1,4 +1,4 @@
-// Making random programs, and running them on the twin.
+// Generation of random programs, and their execution on the twin.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class Maker {
         if (slice_ % slices_of_tick == 0) ++slice_;  // passes are at whole ticks
         program_.ops.push_back({kind, slice_, a, b});
     }
-    /// Mostly long enough for Ready.
+    /// Usually long enough for Ready.
     void after_access() {
         const Strapping& s = program_.strapping;
         const std::uint64_t busy = static_cast<std::uint64_t>(s.byte_slices + s.pass_ticks * slices_of_tick) + 1;
@@ -63,7 +63,7 @@ class Maker {
     void number(std::int64_t value, int bytes) {
         for (int i = 0; i < bytes; ++i) {
             write(0, value >> (8 * i));
-            if (one_in(150)) return;  // cut short
+            if (one_in(150)) return;  // truncated
             if (one_in(100)) disturbance();
         }
     }
@@ -151,7 +151,7 @@ class Maker {
         }
     }
 
-    /// The machine and the hands.
+    /// The machine and the manual operations.
     void disturbance() {
         const Strapping& s = program_.strapping;
         wait(1 + below(400));

@@ -1,5 +1,4 @@
-// Random programs of a host, a machine and a hand on the switches; run on the card and on its twin they must look the
-// same.
+// Random programs of a host, a machine and manually operated switches. The card and its twin must agree on them.
 #pragma once
 
 #include <array>
@@ -23,7 +22,7 @@ struct Program {
     std::vector<Op> ops;
 };
 
-/// What is seen right after an op.
+/// State right after an op.
 struct Sight {
     int value = 0, status = 0, latch = 0;
     std::int64_t position = 0, pulses = 0;
@@ -42,23 +41,23 @@ struct Outcome {
     std::vector<Sight> sights;
     std::vector<Change> changes;
     std::vector<Note> notes;
-    std::uint64_t events = 0;  ///< of the kernel
+    std::uint64_t events = 0;  ///< events of the kernel
 };
 
-/// The last level of each wire at each instant, where it is another than before; by instant, then wire.
+/// The last level of each wire at each instant of a change; by instant, then wire.
 std::vector<Change> settled(std::vector<Change> raw);
 
 Program make_program(std::uint64_t seed, std::uint64_t number);
 Outcome run_on_twin(const Program& program);
 
-/// How the card is run; all ways must give the same outcome.
+/// Run modes of the card; all must give the same outcome.
 struct Way {
-    bool follow_fout = false;     ///< somebody follows the wire fout
-    std::size_t snapshot_at = 0;  ///< after this op the world is saved, disturbed and restored; 0: never
+    bool follow_fout = false;     ///< a listener follows the wire fout
+    std::size_t snapshot_at = 0;  ///< after this op the state is saved, disturbed and restored; 0: never
 };
 Outcome run_on_card(const Program& program, const Way& way);
 
-/// The first difference in words, "" if there is none.
+/// The first difference as text, "" if there is none.
 std::string difference(const Program& program, const Outcome& twin, const Outcome& card);
 
 }  // namespace motionrack::databoard4002::twin

@@ -1,4 +1,4 @@
-// The slope designer: tables hold what was asked for, and the planned motion is the one that the card makes.
+// The slope designer: tables contain the requested values, and the planned motion is that of the card.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

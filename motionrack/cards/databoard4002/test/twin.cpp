@@ -6,7 +6,7 @@ namespace motionrack::databoard4002::twin {
 
 namespace {
 
-// The maker's table again, from the scan: volts in hundredths of a millivolt would be finer than it is.
+// The maker's table from the scan; a unit of hundredths of a millivolt would be finer than it is.
 struct Row {
     double volts;
     int rate;
@@ -268,7 +268,7 @@ bool Twin::gate() const {
     return direction_ > 0 ? !active(In::esr) : !active(In::esl);
 }
 
-/// The divider gets what the firmware and the gate ask for.
+/// Updates the divider from the firmware and the gate.
 void Twin::drive() {
     const std::int64_t divisor = (16'384 - rate_out_) * slices_of_tick;
     if (!driven()) {

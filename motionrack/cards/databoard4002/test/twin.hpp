@@ -1,10 +1,10 @@
-// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven
-// model.
+// The card as a slow loop: simple and evidently correct, written from RULES.md alone. It is the oracle of the
+// event-driven model.
 //
 //   slice (0.5 us):  divider ─► encoder ─► lines ─► watchdog ─► (every pass) firmware: access, stops, position, speed
 //
-// Nothing is worked out ahead: the divider counts down, the encoder is moved edge by edge, the firmware looks at
-// everything again.
+// Nothing is precomputed: the divider counts down, the encoder moves edge by edge, and the firmware evaluates
+// everything in every pass.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace motionrack::databoard4002::twin {
 
 inline constexpr std::int64_t slices_of_tick = 5;  // a slice is 0.5 us, a tick of the card 2.5 us
 
-/// How the card is strapped and what turns its encoder.
+/// Straps of the card, and the drive of its encoder.
 struct Strapping {
     int pass_ticks = 1;
     std::int64_t byte_slices = 200;
@@ -47,7 +47,7 @@ class Twin {
     void write(int port, int value);
     int read(int port);
     void set(In pin, int level);
-    /// From now on an encoder edge every `period` units of 100 ps.
+    /// Generates an encoder edge every `period` units of 100 ps from now on.
     void law(std::int64_t period, int direction);
     void hang(bool on);
     void break_wire(In pin, bool broken);
@@ -124,7 +124,7 @@ class Twin {
     std::int64_t access_at_ = 0;
     int latch_ = 0;
     std::vector<int> answer_;
-    int open_ = 0;  // command whose data is open
+    int open_ = 0;  // command with open data
     bool may_write_ = false, may_read_ = false;
     std::vector<int> bytes_;
     std::int64_t target_ = 0, number_ = 0, window_ = 0, requested_ = 0;

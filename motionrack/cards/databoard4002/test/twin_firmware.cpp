@@ -1,4 +1,4 @@
-// The twin's firmware: a loop that looks at everything in every pass.
+// The twin's firmware: a loop that evaluates everything in every pass.
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/test/twin.hpp>
 
