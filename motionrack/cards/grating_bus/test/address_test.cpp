@@ -1,4 +1,4 @@
-// Addresses: seven lines, lists of scales, and who gives and who takes them.
+// Addresses: seven lines, lists of scales, and the roles of host and slaves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Host and slaves on one bus: what all of them hold, and what becomes of faults.
+// Host and slaves on one bus: their common data, and the effects of faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 constexpr Duration period = microseconds(200);
 constexpr std::uint16_t stale_bit = 4;
 
-/// All frames of the crate's cards are the same, one a period, and true at their instants.
+/// Checks that the frames of all cards are equal, one per period, and true at their instants.
 void expect_true_frames(const Crate& crate, std::size_t frames, int scales) {
     for (std::size_t card = 0; card < crate.cards.size(); ++card) {
         ASSERT_EQ(crate.heard(card).size(), frames) << "card " << card;
@@ -54,8 +54,8 @@ TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
         for (int i = 0; i < 500; ++i) {
             const Duration step = nanoseconds(7'777);
             fast.run(step), slow.run(step), turning.run(step);
-            turning.cards[0]->fault("miss_edge", 0, turning.kernel.now());  // refused of a host: nothing happens
-            turning.cards[1]->fault("late", 0, turning.kernel.now());       // takes the frame up where it is
+            turning.cards[0]->fault("miss_edge", 0, turning.kernel.now());  // refused by a host: no effect
+            turning.cards[1]->fault("late", 0, turning.kernel.now());       // continues the present frame
             for (const char* wire : {"bus.clk", "bus.hold", "bus.read_n", "bus.addr", "bus.data", "bus.data3",
                                      "c0.state", "c2.state", "c1.frame_done"})
                 for (const Crate* crate : {&fast, &turning})

@@ -1,4 +1,4 @@
-// The four claims of CN104360639A, each shown as a whole from outside: by lines, states, registers and frames.
+// The four claims of CN104360639A, each demonstrated from outside: by lines, states, registers and frames.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class WireLog final : public sim::Kernel::WireObserver {
         else
             changes.push_back({now, name, level});
     }
-    /// Levels of a wire with the instants at which it took them.
+    /// Levels of a wire with the instants of their changes.
     std::vector<std::pair<Duration, int>> of(const std::string& wire, Instant from) const {
         std::vector<std::pair<Duration, int>> out;
         for (const Change& change : changes)
@@ -62,12 +62,12 @@ TEST(GratingBusClaims, Claim1OneCardGivesClockAndAddressAndTheOthersReadTheSameD
     crate.run(cycle - ns(100));
     WireLog log(crate);
     crate.run(ns(600));
-    // One card puts out the clock, and hold, READ and address arise with it; the address comes when READ is low.
+    // One card outputs the clock, from which hold, READ and address follow; the address comes when READ is low.
     EXPECT_EQ(log.of("bus.clk", cycle), (Levels{{ns(0), 1}}));
     EXPECT_EQ(log.of("bus.hold", cycle), (Levels{{ns(0), 1}, {ns(230), 0}}));
     EXPECT_EQ(log.of("bus.read_n", cycle), (Levels{{ns(20), 0}, {ns(80), 1}, {ns(130), 0}, {ns(190), 1}}));
     EXPECT_EQ(log.of("bus.addr", cycle), (Levels{{ns(20), 5}, {ns(130), 2}, {ns(230), 0x7F}}));
-    // The others begin at the clock's rising edge, take the address from the bus and the data with the first card.
+    // The others begin at the clock's rising edge, and take the address and the data from the bus with the first card.
     EXPECT_EQ(log.of("c1.state", cycle), log.of("c0.state", cycle));
     EXPECT_EQ(log.of("c2.state", cycle), log.of("c0.state", cycle));
     for (const std::size_t card : {0, 1, 2}) {
@@ -96,7 +96,7 @@ TEST(GratingBusClaims, Claim1OneCardGivesClockAndAddressAndTheOthersReadTheSameD
 TEST(GratingBusClaims, Claim2TheCardHasProcessorLogicShiftersAndConnector) {
     std::vector<CardSettings> settings = three_cards();
     Crate crate(settings, 6, {}, false);
-    // The logic collects frames while the processor does nothing, and the processor reads them by the memory interface.
+    // The logic collects frames without the processor, which reads them through the memory interface.
     crate.run(3 * cycle + microseconds(1));
     sim::VirtualPort port(crate.kernel, *crate.cards[0], crate.cards[0]->id(), crate.cards[0]->interrupt_wire(),
                           nanoseconds(40));
@@ -108,14 +108,14 @@ TEST(GratingBusClaims, Claim2TheCardHasProcessorLogicShiftersAndConnector) {
     ASSERT_TRUE(reading) << reading.error().message;
     EXPECT_EQ(reading->frame.sequence, 3u);
     EXPECT_EQ(reading->counts()[0], crate.truth(5, 3 * cycle));
-    // The shifters between logic and connector have a way, which makes the card what it is.
+    // The direction of the shifters between logic and connector determines the card's role.
     EXPECT_EQ(crate.cards[0]->peek(offset("ROLE")) & 7, 7) << "host: clock and address outwards";
     EXPECT_EQ(crate.cards[1]->peek(offset("ROLE")) & 7, 0) << "slave: inwards";
     settings[1].clock_shifter = Shifter::out;
     Crate wrong(settings, 6);
     wrong.run(cycle);
     EXPECT_NE(wrong.status(1) & field("STATUS", "DIRECTION").mask, 0);
-    // They shift 5 V of the connector's side to 3.3 V of the logic's, at pins of P2 that the source names.
+    // They shift 5 V on the connector side to 3.3 V on the logic side, at pins of P2 named by the source.
     EXPECT_EQ(map::signal_levels[0].supply_v, 5.0);
     EXPECT_EQ(map::signal_levels[1].supply_v, 3.3);
     EXPECT_EQ(std::size(map::connector_pins), 8u) << "the clock's and seven of the address";
@@ -141,7 +141,7 @@ TEST(GratingBusClaims, Claim3TheLogicIsAStateMachineOfThirteenStates) {
     EXPECT_EQ(log.of("c0.frame_done", cycle), (Levels{{entered(12), 1}, {entered(12) + ns(10), 0}}))
         << "S12: the pulse that reading is complete";
     EXPECT_EQ(crate.heard(0).back().at, cycle + entered(12));
-    // One scale: no S6 to S10. And no pulse, no state but S0.
+    // One scale: no S6 to S10. Without a pulse, no state but S0.
     Crate one(crew(0, 1), 1);
     one.run(cycle - ns(100));
     WireLog log_of_one(one);

@@ -84,7 +84,7 @@ TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
 }
 
 TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
-    Bench bench(crew(0, 8), 8, microseconds(37));  // a frame is read for some 5 periods
+    Bench bench(crew(0, 8), 8, microseconds(37));  // reading a frame takes about 5 periods
     bench.run(driver_period);
     std::uint32_t last = 0;
     for (int i = 0; i < 50; ++i) {
@@ -165,7 +165,7 @@ TEST(GratingCardLibrary, TellsAndClearsWhatWentWrong) {
     EXPECT_EQ(bench.libraries[1]->errors().broken, 0);
 }
 
-/// Not a card of a grating bus.
+/// A device that is not a card of a grating bus.
 struct Stranger : RegisterPort, Interrupt {
     void write(std::uint32_t, std::uint16_t) override {}
     std::uint16_t read(std::uint32_t) override { return 0xFFFF; }

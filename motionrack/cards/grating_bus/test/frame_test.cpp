@@ -1,4 +1,4 @@
-// The frame, its CRC and its time.
+// The frame, its CRC and its reading time.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/grating_bus/map.hpp>

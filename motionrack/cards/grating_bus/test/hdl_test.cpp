@@ -1,4 +1,4 @@
-// The logic in hdl/ is what its page says: pins, parameters, and what yosys makes of it.
+// The logic in hdl/ matches its page: pins, parameters, and the yosys results.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -40,7 +40,7 @@ std::vector<std::string> first_cells(const std::string& heading) {
     return out;
 }
 
-/// Names that the head of a module declares: of its parameters or of its ports.
+/// Names declared in the header of a module: of its parameters or of its ports.
 std::vector<std::string> names_declared(const std::string& module, bool parameters) {
     const std::string text = contents(hdl + "grating_bus/" + module + ".sv");
     const std::size_t begin = text.find("module " + module), end = text.find("\n);", begin);

@@ -1,4 +1,4 @@
-// The map against the pages and against what the cards do.
+// The map against the pages and against the behaviour of the cards.
 #include <gtest/gtest.h>
 
 #include <motionrack/base/describe.hpp>

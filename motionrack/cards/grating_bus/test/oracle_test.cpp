@@ -1,7 +1,7 @@
-// Random programs of cards, faults and stuck lines look the same on the event-driven cards and on their slow twin,
-// whoever looks at wires.
+// Random programs of cards, faults and stuck lines give the same result on the event-driven cards and on their slow
+// twin, with any listeners on wires.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace motionrack::grating_bus::twin {
 namespace {
 
-/// The first that differs, for people.
+/// The first difference as text.
 std::string difference(const char* what, const std::vector<std::string>& twin, const std::vector<std::string>& cards) {
     if (twin == cards) return "";
     std::size_t i = 0;

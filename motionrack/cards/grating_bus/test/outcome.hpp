@@ -1,4 +1,4 @@
-// All that a random program shows, of the twin and of the cards alike, as lines of text in one order.
+// Complete outcome of a random program, on the twin or the cards, as lines of text in one order.
 #pragma once
 
 #include <cstddef>
@@ -13,18 +13,18 @@ struct Outcome {
     std::vector<std::string> looks;      ///< registers and lines after each operation
     std::vector<std::string> conflicts;  ///< the last ones, in order
     std::vector<std::string> reports;    ///< bad frames, missed edges and stale data, card by card
-    std::vector<std::string> changes;    ///< of wires, wire by wire; only while all are looked at
+    std::vector<std::string> changes;    ///< changes of wires, wire by wire; only while all are watched
     std::size_t conflict_count = 0;
 };
 
-/// Who looks at single wires: that must not matter.
+/// Listeners of single wires, which must have no effect.
 enum class Watch { nobody, everybody, now_and_then };
 
 Outcome on_twin(const Program& program);
-/// After operation `snapshot_at` the cards run on, and are put back.
+/// After operation `snapshot_at` the cards continue, and are then restored.
 Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at);
 
-/// Of so many conflicts, the first one that is compared: cards remember the last ones only.
+/// The first conflict to be compared out of this number: cards store only the last ones.
 std::size_t first_compared(std::size_t conflicts);
 /// Numbers with blanks between them.
 std::string row(std::initializer_list<std::int64_t> numbers);

@@ -1,4 +1,4 @@
-// What a random program shows on the event-driven cards.
+// Outcome of a random program on the event-driven cards.
 #include <algorithm>
 #include <map>
 #include <memory>

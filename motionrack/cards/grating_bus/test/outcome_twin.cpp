@@ -1,4 +1,4 @@
-// What a random program shows on the twin.
+// Outcome of a random program on the twin.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/test/outcome.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::grating_bus::twin {
 
 namespace {
 
-/// Changes of one wire: the last level of an instant, and only what differs from before.
+/// Changes of one wire: the last level of an instant, if it differs from the previous one.
 class Wave {
   public:
     explicit Wave(std::int64_t level) : last_(level) {}
@@ -46,7 +46,7 @@ void put_changes(Outcome& out, const Twin& twin, std::size_t cards) {
     }
 }
 
-/// Conflicts of a line's bits become one from where the first bit differs to where none does.
+/// Merges the conflicts of a line's bits, from the first difference to the end of the last.
 void put_conflicts(Outcome& out, const Twin& twin) {
     struct Whole {
         Ticks begin, end;

@@ -1,4 +1,4 @@
-// Makes the random programs.
+// Generation of the random programs.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 #include <motionrack/cards/grating_bus/test/random_bus.hpp>
@@ -17,7 +17,7 @@ Program Maker::make() {
     program_.end = (periods + 1) * period_;
     const std::int64_t ops = one_in(4) ? 0 : below(one_in(2) ? 8 : 25);
     for (std::int64_t i = 0; i < ops; ++i) program_.ops.push_back(op());
-    // What is stuck or off is mostly put right again.
+    // Most stuck or disabled items are restored.
     for (std::size_t i = 0; i < program_.ops.size() && program_.ops.size() < 60; ++i) {
         Op other = program_.ops[i];
         if (one_in(4)) continue;
@@ -46,7 +46,7 @@ void Maker::set(CardSettings& card, const Timing& timing) {
     card.clock = timing.clock.count();
 }
 
-/// So many addresses, each once.
+/// The given number of different addresses.
 std::vector<int> Maker::list(int words) {
     std::vector<int> all(static_cast<std::size_t>(words + below(8)));
     std::iota(all.begin(), all.end(), 0);
@@ -112,7 +112,7 @@ void Maker::add_decoder() {
     };
 }
 
-/// Mostly where frames are read, and often at an instant at which something happens.
+/// Mostly during a frame, and often at an instant of an event.
 Ticks Maker::instant() {
     const CardSettings& card =
         program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];

@@ -1,4 +1,4 @@
-// Random programs for the bus: cards, decoders, timings, and what is done to them from outside.
+// Random programs for the bus: cards, decoders, timings, and external actions.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,13 @@
 
 namespace motionrack::grating_bus::twin {
 
-/// One thing done from outside; `who` a card or decoder, `a` and `b` as the kind has them.
+/// One external action; `who`: a card or decoder, `a` and `b`: parameters of the kind.
 struct Op {
     enum Kind { look, off, reset, late, miss_edges, jitter, no_latch, force, release, claim, give_back, clear };
     Ticks at = 0;
     Kind kind = look;
     int who = 0;
-    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level; look:
-                         ///< other wires are looked at
+    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: number; force: level; look: wires
     Line line = clk;
     int bit = -1;  ///< of addr or data, or the whole line
 };
@@ -57,12 +56,12 @@ class Maker {
     std::mt19937_64 random_;
     Program program_;
     Ticks grain_ = 1, period_ = 0;
-    bool healthy_ = false;  // one host, all cards alike, a decoder that fits: what a crate is like
+    bool healthy_ = false;  // one host, equal cards, a matching decoder: a typical crate
 };
 
-/// The program's twin, before its first instant.
+/// The twin of the program, before its first instant.
 Twin twin_of(const Program& program, bool every_tick = false);
-/// Runs the twin to the operation's instant and does it.
+/// Runs the twin to the operation's instant and executes it.
 void carry_out(Twin& twin, const Op& op);
 
 /// For messages of failed tests.

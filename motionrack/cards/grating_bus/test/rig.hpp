@@ -1,4 +1,4 @@
-// A crate: moving scales, a decoder, motion cards on one bus, and an ear for every frame.
+// A crate: moving scales, a decoder, motion cards on one bus, and a listener for every frame.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace motionrack::grating_bus {
 
-/// Moves at an even speed of whole counts; count(t) = from + t * per_second / 1e10, rounded down.
+/// Moves at a constant velocity of whole counts; count(t) = from + t * per_second / 1e10, rounded down.
 class EvenMotion final : public sim::PositionFunction {
   public:
     EvenMotion(std::int64_t from, std::int64_t per_second) : from_(from), per_second_(per_second) {}
@@ -40,14 +40,14 @@ class Ear final : public FrameListener {
     std::vector<Heard> heard;
 };
 
-/// `speeds`: counts a second of each scale.
+/// `speeds`: counts/s of each scale.
 inline std::vector<std::int64_t> speeds(int scales) {
     std::vector<std::int64_t> out;
     for (int n = 0; n < scales; ++n) out.push_back((n % 2 == 0 ? 1 : -1) * (20'000'000 - 1'234'567 * (n % 13)));
     return out;
 }
 
-/// Looks at wires, when it is told to.
+/// Watches wires on request.
 class Watcher final : public sim::Device {
   public:
     explicit Watcher(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "watcher")) {}
@@ -88,7 +88,7 @@ struct Crate {
         while (kernel.run_until(at) == sim::RunEnd::broken) {  // an interrupt
         }
     }
-    /// Somebody looks at all wires from now on, or no longer.
+    /// Starts or stops watching all wires.
     void watch_wires(bool on = true) { watcher.watch(on); }
     std::uint16_t status(std::size_t card) const { return cards[card]->peek(offset("STATUS")); }
     const std::vector<Heard>& heard(std::size_t card) const { return ears[card]->heard; }

@@ -15,7 +15,7 @@ namespace {
 
 const MotionLimits limits{8e7, 5e9, 1e12};  // 80 mm/s, 5 m/s2, 1000 m/s3
 
-/// The greatest speed, acceleration and jerk of a profile; each must be the derivative of the one before.
+/// Maximum velocity, acceleration and jerk of a profile; each must be the derivative of the previous one.
 template <class Profile>
 void check(const Profile& profile, double until, const MotionLimits& most) {
     const double h = 1e-6;
@@ -109,14 +109,14 @@ struct Axis {
         frame.time = time.count();
         frame.sequence = sequence++;
         frame.words = 3;
-        const std::size_t word = frame.sequence % 3;  // wherever the scale is in the frame
+        const std::size_t word = frame.sequence % 3;  // the word position of the scale varies
         for (std::size_t k = 0; k < 3; ++k) frame.addresses[k] = k == word ? 7 : static_cast<std::uint8_t>(k);
         frame.counts[word] = static_cast<std::uint32_t>(scale.count(kernel.now()));
         frame.crc = crc_of(frame);
         return frame;
     }
     /// Runs `seconds` with frames that are used `late` periods after their instant and whose counts were latched `skew`
-    /// after it. Returns the greatest true distance from the profile at the frames' instants.
+    /// after it. Returns the maximum true distance from the profile at the frames' instants.
     template <class Profile>
     double run(const Profile& profile, double seconds, std::size_t late = 0, Duration skew = Duration{0}) {
         double worst = 0;
@@ -230,7 +230,7 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
     EXPECT_EQ(axis.loop.volts(), 0) << "frames that come later do not close it";
     EXPECT_EQ(axis.loop.on_stale(), 0);
     EXPECT_EQ(axis.loop.state(), LoopState::stale);
-    // Without volts it coasts; somebody catches it and begins anew where it stands.
+    // Without voltage it coasts; it is stopped by hand and restarted from its position.
     axis.stage.fault("motor.stall", 1, axis.kernel.now());
     axis.stage.fault("motor.stall", 0, axis.kernel.now());
     axis.loop.close(axis.scale.count(axis.kernel.now()));
@@ -301,7 +301,7 @@ TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
     ServoLoop weak(limited);
     weak.close();
     EXPECT_EQ(weak.on_frame(frame, {1e9, 0, 0}), 0.01);
-    // A scale that wraps: the count next to the last one.
+    // A scale that wraps: the count nearest to the last one.
     ServoLoop far(axis.loop.settings());
     far.close(5'000'000'000);
     frame.counts[0] = static_cast<std::uint32_t>(5'000'000'123);

@@ -69,7 +69,7 @@ void Twin::instant() {
     for (Card& card : cards_) look_at_age(card);
 }
 
-/// Lines take their levels, edges act; again, if what they started drives lines itself.
+/// Lines take their levels and edges act; repeated if this changes driven lines.
 void Twin::settle() {
     for (bool again = true; again;) {
         const Levels old = levels_;
@@ -177,7 +177,7 @@ Ticks Twin::duration(const Card& card) const {
     }
 }
 
-/// The state's time is over.
+/// Handles the end of a state.
 void Twin::leave(Card& card) {
     switch (card.state) {
         case 4:
@@ -280,7 +280,7 @@ void Twin::finish(Card& card) {
     }
 }
 
-/// If it wrote over the frame published last, the claimed one, which is older, takes its place.
+/// If it overwrote the frame published last, the older claimed one replaces it.
 void Twin::abandon(Card& card) {
     if (card.filling != none && card.filling == card.published) card.published = card.claimed;
     card.filling = none;

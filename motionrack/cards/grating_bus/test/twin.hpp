@@ -1,9 +1,9 @@
-// The grating bus as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the
+// The grating bus as a slow loop: simple and evidently correct, written from RULES.md alone. It is the oracle of the
 // event-driven cards.
 //
-// Each instant is worked off in the order that RULES.md gives: all cards sample the lines as they were, all that drive
-// change what they drive, edges act. Instants at which nothing can happen are left out, or visited too if `every_tick`.
-// What is done from outside (faults, stuck lines, claims) comes after everything of its instant.
+// Each instant is processed in the order of RULES.md: all cards sample the previous lines, all drivers change their
+// outputs, edges act. Instants without a possible event are skipped, or also processed if `every_tick`. External
+// actions (faults, stuck lines, claims) follow everything else of their instant.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ struct CardSettings {
     int first = 0, words = 1;
     std::vector<int> list;  ///< addresses of the words; empty: from `first` on
     Ticks t1 = 200, t2 = 300, t3 = 300, clock = 100, period = 2'000'000, offset = 0;
-    /// How much later pulse n comes, at most `most` (the fault `jitter`).
+    /// Delay of pulse n, at most `most` (the fault `jitter`).
     std::function<Ticks(std::int64_t n, Ticks most)> jitter;
 
     std::uint32_t address(int word) const {
@@ -79,7 +79,7 @@ struct Conflict {
     friend bool operator==(const Conflict&, const Conflict&) = default;
 };
 
-/// Each stays at FFFFh but `frames`.
+/// Each stays at FFFFh except `frames`.
 struct Counters {
     std::uint32_t broken = 0, missed_words = 0, alien = 0, lines = 0, missed_edges = 0, overrun = 0, frames = 0;
     friend bool operator==(const Counters&, const Counters&) = default;
@@ -89,31 +89,31 @@ class Twin {
   public:
     Twin(std::vector<CardSettings> cards, std::vector<DecoderSettings> decoders, bool every_tick = false);
 
-    /// Works off every instant up to and with `until`.
+    /// Processes every instant up to and including `until`.
     void run_to(Ticks until);
 
-    // ---- from outside, at the instant that was run to
+    // ---- external actions, at the instant reached
     void set_off(int card, bool off);
     void reset(int card);
     void set_late(int card, Ticks late) { cards_[card].late = late; }
     void set_miss_edges(int card, int edges) { cards_[card].miss_edges = edges; }
     void set_jitter(int card, Ticks most) { cards_[card].jitter_most = most; }
     void set_no_latch(int decoder, bool no_latch) { decoders_[decoder].no_latch = no_latch; }
-    /// Holds a bit of a line, or with `bit` -1 the whole line; the bit wins.
+    /// Forces a bit of a line, or with `bit` -1 the whole line; the bit takes precedence.
     void force(Line line, int bit, std::uint32_t level);
     void release(Line line, int bit);
     void claim(int card);
     void give_back(int card) { cards_[card].claimed = none; }
     void clear_errors(int card);
 
-    // ---- what is seen
+    // ---- observations
     const Levels& levels() const { return levels_; }
     const std::vector<LevelChange>& changes() const { return changes_; }
     const std::vector<Conflict>& conflicts() const { return conflicts_; }
     const std::vector<Published>& frames(int card) const { return cards_[card].frames; }
     const std::vector<StateChange>& states(int card) const { return cards_[card].states; }
     const std::vector<StaleChange>& stale_changes(int card) const { return cards_[card].stale_changes; }
-    /// Instants at which the first of a row of bad frames ended.
+    /// Instants of the end of the first of consecutive bad frames.
     const std::vector<Ticks>& broken_rows(int card) const { return cards_[card].broken_rows; }
     const Counters& counters(int card) const { return cards_[card].counters; }
     int state(int card) const { return cards_[card].state; }
@@ -149,16 +149,16 @@ class Twin {
         bool seen_one = false;
         std::uint32_t sequence = 0, frame_sequence = 0;
         bool word_bad = false, frame_bad = false, row_bad = false;
-        // What it drives, behind its shifters.
+        // Its outputs, behind the shifters.
         std::uint32_t hold_pin = 0, read_pin = 1, address_pin = rest[addr];
-        bool asks = false;              // pulls READ low at this instant, and will look at it
-        std::set<std::uint32_t> taken;  // addresses of the frame under way
+        bool asks = false;              // pulls READ low at this instant, and will sample it
+        std::set<std::uint32_t> taken;  // addresses of the present frame
         // The buffers.
         std::array<Frame, 2> buffer;
         int filling = none, published = none, claimed = none;
         Ticks last_time = none;  // of the frame published last
         bool stale = true, fresh = false;
-        // What came of it.
+        // The results.
         Counters counters;
         std::vector<Published> frames;
         std::vector<StateChange> states;
@@ -174,7 +174,7 @@ class Twin {
         Ticks valid_at = 0;
         Levels seen = rest;
         Ticks read_fell = 0, address_changed = 0;
-        bool put_out = false;  // what the present reading asks for
+        bool put_out = false;  // requested by the present read
         std::uint32_t drives = 0;
         bool answers = false;
     };
@@ -207,7 +207,7 @@ class Twin {
     bool every_tick_;
     Ticks now_ = -1;
     Levels levels_ = rest;
-    Levels before_ = rest;                                  // as they were just before this instant
+    Levels before_ = rest;                                  // levels just before this instant
     std::map<std::pair<Line, int>, std::uint32_t> forced_;  // line and bit, or -1 -> level
     std::vector<LevelChange> changes_;
     std::vector<Conflict> conflicts_;

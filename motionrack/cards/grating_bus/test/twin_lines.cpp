@@ -1,10 +1,10 @@
-// The twin's lines, who drives them, and its decoders.
+// The twin's lines, their drivers, and its decoders.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/test/twin.hpp>
 
 namespace motionrack::grating_bus::twin {
 
-/// Whether card or decoder number `driver` drives `line`, and with what.
+/// The level that card or decoder number `driver` drives on `line`, if any.
 bool Twin::drives(int driver, Line line, std::uint32_t& level) const {
     const int cards = static_cast<int>(cards_.size());
     if (driver >= cards) {
@@ -61,7 +61,7 @@ void Twin::note_conflicts(Line line) {
     }
 }
 
-/// When the count that is asked for is put out; never, if it has been or none is asked for.
+/// Instant at which the requested count is output; never, if it is already, or none is requested.
 Ticks Twin::ready_at(const Decoder& decoder) const {
     if (levels_[read_n] != 0 || decoder.put_out || levels_[addr] >= static_cast<std::uint32_t>(decoder.settings.scales))
         return nothing_due;

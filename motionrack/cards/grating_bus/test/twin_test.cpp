@@ -1,4 +1,4 @@
-// The twin itself against the source's numbers and against RULES.md.
+// The twin against the source's numbers and against RULES.md.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -105,7 +105,7 @@ TEST(GratingTwin, HostAndTenSlavesHoldTheCountsOfHold) {
 
 TEST(GratingTwin, SeesTheLinesAsTheyWereJustBeforeTheSample) {
     DecoderSettings slow = decoder(4);
-    slow.output = 30 * ns;  // put out at the very instant of the sample
+    slow.output = 30 * ns;  // output at the very instant of the sample
     Twin twin({host(4)}, {slow});
     twin.run_to(1000 * ns);
     const Frame& frame = twin.frames(0).at(0).frame;

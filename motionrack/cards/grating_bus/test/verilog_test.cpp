@@ -1,7 +1,7 @@
-// The bus in SystemVerilog (hdl/grating_bus, run by iverilog) against the twin: another writing of the rules, clock by
-// clock.
+// The bus in SystemVerilog (hdl/grating_bus, run by iverilog) against the twin: an independent implementation of the
+// rules, clock by clock.
 //
-// The logic takes a clock from the edge of clk to S1, and its decoder one from a scale's lines to the count; so the
+// The logic takes a clock from the edge of clk to S1, and its decoder one from a scale's lines to the count; hence the
 // offset below, and counts of the clock before HOLD.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -27,14 +27,14 @@ struct System {
     int stride = 1, shift = 0;           ///< word k of host h is that of scale (k stride + h shift) mod words
 };
 
-/// What both show, as text: "clock state", "clock" of good frames, the counters, and "card sequence time crc, then
+/// Results of both, as text: "clock state", "clock" of good frames, the counters, and "card sequence time crc, then
 /// address and count of each word".
 struct Shown {
     std::vector<std::vector<std::string>> states, frames, published, counters;
     std::string end;
 };
 
-/// The modules, and those of the bench around them.
+/// The modules, and those of the testbench.
 std::string files_of(const std::string& top) {
     std::string out;
     for (const char* file : {"card", "decoder", "shifter", "motion_card", "decoder_card"})
@@ -84,7 +84,7 @@ Shown run_verilog(const System& system) {
     return out;
 }
 
-/// A scale's position after that clock edge, as grating_scales.sv has it.
+/// Position of a scale after that clock edge, as in grating_scales.sv.
 std::uint32_t position(int scale, std::int64_t edge) {
     const std::int64_t rate = 13'107 - 3'001 * (scale % 9), fraction = rate * edge;
     return static_cast<std::uint32_t>(fraction >= 0 ? fraction / 65'536 : -((-fraction + 65'535) / 65'536));
