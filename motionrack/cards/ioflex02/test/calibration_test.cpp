@@ -33,7 +33,7 @@ TEST(Ioflex02Calibration, ResNmZeroesAtTheFirstIndexAndOnlyThere) {
     rig.pulse("z1");
     EXPECT_EQ(position(rig, 1), 33);
     EXPECT_EQ(of_axis(rig, 1, offset("INDEXES")), 2);
-    EXPECT_EQ(of_axis(rig, 1, offset("INDEX_AT_L")), 133);  // in counts that no calibration zeroes
+    EXPECT_EQ(of_axis(rig, 1, offset("INDEX_AT_L")), 133);  // in counts, which a calibration does not zero
 }
 
 TEST(Ioflex02Calibration, AnIndexThatIsHighAlreadyIsNone) {
@@ -70,7 +70,7 @@ TEST(Ioflex02Calibration, ResNmSigWaitsForCalThenForTheIndex) {
     rig.run(microseconds(1));
     rig.command(3, cResNmSig);
     rig.turn(3, 5);
-    rig.pulse("z3");  // before any edge of Cal: nothing, and a Cal that is high gives none
+    rig.pulse("z3");  // before any edge of Cal: no effect, and a high Cal gives no edge
     EXPECT_EQ(status(rig, 3), sNotCal);
     rig.set("cal3", 0);
     rig.run(microseconds(1));
@@ -121,7 +121,7 @@ TEST(Ioflex02Calibration, AnAxisThatKeepsTakesNoCommandAndLosesNothingThatItHasS
     for (int axis = 0; axis < 4; ++axis) rig.turn(axis, 40);
     rig.write(offset("CMD"), cResNmSig | cResNm << 2);
     rig.pulse("cal0");
-    // Axis 2 is armed; 0 has had its edge of Cal, 1 waits for an index, 3 for nothing.
+    // Axis 2 is armed; 0 has had its edge of Cal, 1 waits for an index, 3 does not wait.
     rig.write(offset("CMD"), cResNm << 4 | 0xB00);
     EXPECT_EQ(rig.read(offset("STS")), 0b1000);
     for (const char* index : {"z0", "z1", "z2", "z3"}) rig.pulse(index);

@@ -41,7 +41,7 @@ class Run {
         return out;
     }
 
-    // ---- what is done
+    // ---- actions
     void something() {
         const std::uint32_t roll = feed_.below(200);
         if (roll < 70) return turn();
@@ -64,7 +64,7 @@ class Run {
     }
     void set_wire(std::uint32_t number, bool level) {
         const sim::WireId wire = inputs_[number];
-        // in0 to in15 are the lines of the axes once more.
+        // in0 to in15 are also the lines of the axes.
         const bool counts = number < 8 || (number >= 16 && number % 4 < 2);
         const std::uint32_t axis = number < 16 ? number % 4 : (number - 16) / 4;
         if (counts && (rig_.kernel.level(wire) != 0) != level) ++may_count_[axis];
@@ -78,7 +78,7 @@ class Run {
     void write() {
         const std::uint32_t at = address();
         std::uint32_t value = feed_.word();
-        if (at == rig_.base && feed_.below(16)) value &= ~1u;  // CONTROL: else there is no project, mostly
+        if (at == rig_.base && feed_.below(16)) value &= ~1u;  // CONTROL: otherwise usually no project runs
         rig_.port.write(at, static_cast<std::uint16_t>(value));
         follow();
     }
@@ -108,7 +108,7 @@ class Run {
         (state == ArrayState::failed ? verdict_.refused : verdict_.images) += 1;
         follow();
     }
-    /// Through the function library, from a file that may be anything.
+    /// Through the function library, from a file with arbitrary content.
     void init() {
         FlexSettings settings;
         settings.image = compressed(some_image());
@@ -124,10 +124,10 @@ class Run {
         (card.ok() ? verdict_.images : verdict_.refused) += 1;
         follow();
     }
-    /// A project may have begun anew, or an axis been zeroed: counts have jumped.
+    /// A project may have restarted, or an axis been zeroed: counts have jumped.
     void follow() { rebase_ = true; }
 
-    // ---- what must hold
+    // ---- invariants
     void check(bool holds, const char* what) {
         if (holds || !verdict_.problem.empty()) return;
         verdict_.problem =
@@ -141,7 +141,7 @@ class Run {
             check(position >= -8'388'608 && position <= 8'388'607, "a position of more than 24 bits");
             const std::int64_t raw = rig_.card.raw_count(axis);
             if (!rebase_) {
-                // Edges that the filter holds back may count later.
+                // Edges delayed by the filter may count later.
                 may_count_[axis] -= std::llabs(raw - last_[axis]);
                 check(may_count_[axis] >= 0, "more counts than edges");
                 verdict_.counts += std::llabs(raw - last_[axis]);
@@ -160,7 +160,7 @@ class Run {
         check(low == 0 || known, "an output is not 0 without a project");
     }
     void look_closer() {
-        rig_.kernel.settle();  // a read hears of wires that were set at this instant, a peek does not
+        rig_.kernel.settle();  // a read includes wires set at this instant, a peek does not
         const std::uint64_t before = rig_.kernel.state_hash();
         for (std::uint32_t at = 0; at < window; ++at) words_[at] = rig_.card.peek(at);
         check(rig_.kernel.state_hash() == before, "peek changes the card");

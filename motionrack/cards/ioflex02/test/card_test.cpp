@@ -156,7 +156,7 @@ TEST(Ioflex02Time, CountsTicksOfTwelveHundredNanoseconds) {
     rig.capture();
     EXPECT_EQ(rig.read24(time_l), 10'000);
     rig.run(nanoseconds(1));
-    EXPECT_EQ(rig.read24(time_l), 10'000);  // captured is captured
+    EXPECT_EQ(rig.read24(time_l), 10'000);  // the captured value stays
     rig.capture();
     EXPECT_EQ(rig.read24(time_l), 10'001);
 }
@@ -184,7 +184,7 @@ RC_GTEST_PROP(Ioflex02Time, SumsOfClearedTimesLoseNothing, ()) {
 }
 
 TEST(Ioflex02Capture, HasTimeAndFourPositionsOfOneInstant) {
-    Rig rig(loaded_settings(), microseconds(3));  // accesses take their time
+    Rig rig(loaded_settings(), microseconds(3));  // accesses take time
     rig.start();
     rig.turn(0, 5, nanoseconds(200));
     rig.turn(3, -6, nanoseconds(200));
@@ -213,7 +213,7 @@ TEST(Ioflex02Capture, TellsHowLongAgoTheLastCountWas) {
     EXPECT_EQ(rig.read24(offset("AGE0_L")), 100);
     rig.run(microseconds(120));
     rig.capture();
-    EXPECT_EQ(rig.read24(offset("AGE0_L")), 200);  // clearing the time is nothing to it
+    EXPECT_EQ(rig.read24(offset("AGE0_L")), 200);  // not affected by clearing the time
     rig.run(whole_seconds(21));
     rig.capture();
     EXPECT_EQ(rig.read24(offset("AGE0_L")), 0xFFFFFF);

@@ -1,4 +1,4 @@
-// The configuration image: what is taken, what is refused and with which sentence, and the bus with its addresses.
+// The configuration image: accepted and refused images with their messages, and the bus with its addresses.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,4 +1,4 @@
-// The function library: its exact traffic on a scripted port, and its behaviour in front of the virtual card.
+// The function library: its exact traffic on a scripted port, and its behaviour with the virtual card.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -228,7 +228,7 @@ TEST(Flex2PosInit, AnotherInitAfterAFailureWorks) {
     EXPECT_EQ(b.card.Result, Flex_Ok) << b.card.why();
 }
 
-// ---- in front of the card
+// ---- with the card
 
 struct Ready : Bench {
     Ready() {
@@ -321,7 +321,7 @@ TEST(Flex2Pos, PositionsAreCarriedOnOver24BitsAndCalibration) {
         EXPECT_EQ(reading().position, position);
         EXPECT_EQ(reading().raw, raw);
     }
-    position = -3;  // calibrated meanwhile
+    position = -3;  // calibrated in the meantime
     raw += 4;
     EXPECT_EQ(reading().position, -3);
     EXPECT_EQ(reading().raw, raw);

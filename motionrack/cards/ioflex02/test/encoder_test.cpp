@@ -1,4 +1,4 @@
-// Encoders with faults at the card's lines: what the diagnostics find, which line, and where; and a resolver as the
+// Encoders with faults at the card's lines: findings of the diagnostics, with line and position; and a resolver as the
 // source of the lines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ struct Machine {
         rig.kernel.settle();
         return done;
     }
-    /// Goes `steps` of the rotor, one each `step`, and looks each ms.
+    /// Moves `steps` of the rotor, one each `step`, and polls each ms.
     void go(std::int64_t steps, Duration step = microseconds(2)) {
         const Instant until = rig.kernel.now() + step * (steps < 0 ? -steps : steps);
         place.drive(step, steps < 0 ? -1 : 1);
@@ -116,7 +116,7 @@ TEST(EncoderCheck, NamesTheLineThatIsBroken) {
         const auto moved = m.check.check_move(before, m.detail(), 1'000);
         ASSERT_EQ(moved.size(), 1u);
         EXPECT_EQ(moved[0].fault, m.found[0].fault);
-        // Told once while it lasts, and again when it comes again.
+        // Reported once while it persists, and again when it recurs.
         const auto lines = [&] {
             return std::count_if(m.found.begin(), m.found.end(), [](const Finding& f) {
                 return f.fault == EncoderFault::line_a_missing || f.fault == EncoderFault::line_b_missing;
@@ -177,7 +177,7 @@ TEST(EncoderCheck, TellsASecondIndexAndItsPlace) {
 TEST(EncoderCheck, TellsLostLinesHowManyAndBetweenWhichIndexes) {
     Disc m;
     m.go(9'000);
-    m.card.calibrate({cNop, cNop, cRes, cNop});  // places are not disturbed by it
+    m.card.calibrate({cNop, cNop, cRes, cNop});  // positions are not affected by it
     m.fault("dirt", 3);
     m.go(8'000);
     ASSERT_FALSE(m.found.empty());
@@ -213,7 +213,7 @@ TEST(EncoderCheck, TellsSwappedAndInvertedLinesByTheWayTheyCount) {
         ASSERT_EQ(moved.size(), 1u) << name;
         EXPECT_EQ(moved[0].fault, EncoderFault::backwards);
         EXPECT_THAT(m.sentence(moved[0]), HasSubstr("swapped, or one of them is inverted"));
-        ASSERT_TRUE(m.card.set_mode(2, {.reversed = true}));  // as the sentence says
+        ASSERT_TRUE(m.card.set_mode(2, {.reversed = true}));  // as the message advises
         const AxisDetail again = m.detail();
         m.go(10'000);
         EXPECT_TRUE(m.check.check_move(again, m.detail(), 1'000).empty());

@@ -1,7 +1,6 @@
-// Any access at any time, half a million times; what must always hold is in card_fuzz.hpp. And equal inputs give equal
-// histories.
+// Half a million random accesses; the invariants are in card_fuzz.hpp. Equal inputs give equal histories.
 //
-// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment choose another and a longer run.
+// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment select another and a longer run.
 #include <gtest/gtest.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-// The map is what the card has, and the page made from it is current.
+// The map matches the card, and the page generated from it is current.
 #include <gtest/gtest.h>
 
 #include <algorithm>

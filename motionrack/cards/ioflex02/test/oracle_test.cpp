@@ -1,6 +1,7 @@
-// Random programs of register accesses and wire changes look the same on the event-driven card and on its slow twin.
+// Random programs of register accesses and wire changes give the same result on the event-driven card and its slow
+// twin.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +73,7 @@ class Maker {
         wait();
         const int axis = static_cast<int>(below(4));
         const std::uint64_t what = below(100);
-        if (what < 55) {  // an encoder turns, mostly as it should
+        if (what < 55) {  // an encoder moves, usually correctly
             phase_[axis] += below(8) == 0 ? static_cast<std::int64_t>(below(4)) : (below(6) ? 1 : -1);
             const int lines = lines_of_phase(phase_[axis]);
             op(Op::wire, axis, 0, lines & 1);
@@ -111,7 +112,7 @@ class Maker {
     std::int64_t phase_[4] = {};
 };
 
-/// All that a program shows: what it read, then the conditions.
+/// Complete outcome of a program: the values read, then the conditions.
 struct Outcome {
     std::vector<int> words;
     std::vector<twin::Note> notes;
@@ -169,7 +170,7 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
     };
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         const Op& op = program.ops[i];
-        // In two runs, the cut where it may be: it must not matter.
+        // In two runs, divided anywhere: this must have no effect.
         kernel.run_until(std::max(kernel.now(), half * (op.at - static_cast<std::int64_t>(i % 3))));
         kernel.run_until(half * op.at);
         if (i == snapshot_at) {
@@ -202,7 +203,7 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
         Outcome twin = on_twin(program),
                 card = on_card(program, with_snapshot ? number % program.ops.size() : program.ops.size());
         ASSERT_EQ(twin.words, card.words) << "program " << number << " of seed " << seed;
-        // An illegal transition is told when it is worked off, so only the order may differ.
+        // An illegal transition is reported when it is processed, so only the order may differ.
         std::sort(twin.notes.begin(), twin.notes.end());
         std::sort(card.notes.begin(), card.notes.end());
         ASSERT_EQ(twin.notes, card.notes) << "program " << number << " of seed " << seed;

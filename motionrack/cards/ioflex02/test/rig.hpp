@@ -1,4 +1,4 @@
-// Cards on a bus with a host in front of them and hands at their wires.
+// Cards on a bus with a host and manually driven wires.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct Rig {
         kernel.settle();
     }
     int level(const std::string& pin) { return kernel.level(kernel.find_wire("c1." + pin)); }
-    /// Turns an encoder by `counts`, an edge every `period`.
+    /// Moves an encoder by `counts`, an edge every `period`.
     void turn(int axis, std::int64_t counts, Duration period = microseconds(1)) {
         const std::string number = std::to_string(axis);
         for (std::int64_t i = 0; i != counts; i += counts > 0 ? 1 : -1) {

@@ -1,4 +1,4 @@
-// A port that writes down the traffic and answers what a test says.
+// A port that records the traffic and answers from a script.
 #pragma once
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ class ScriptedPort final : public RegisterPort, public Interrupt {
             if (reg.offset == at && (reg.access == Access::write) == write) return std::string(reg.name);
         return fmt::format("{:X}h", at);
     }
-    /// A card that is there and in order.
+    /// A card that is present and in order.
     void good_card() {
         words[offset("SIGNATURE")] = signature;
         words[offset("SERIAL")] = 0x1234;

@@ -1,4 +1,4 @@
-// Speed from time stamps: the error that is stated is never exceeded, and is small where it should be.
+// Velocity from time stamps: the stated error bound always holds, and is small where possible.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace motionrack::ioflex02 {
 namespace {
 
-/// A card whose axis 0 goes with a constant speed; edges are driven where they are due, to the 100 ps.
+/// A card whose axis 0 moves at constant velocity; edges are driven at their exact instants, to 100 ps.
 struct Turning {
     explicit Turning(double counts_s, double phase = 0.3) : card(rig.port, rig.port), speed(counts_s), at_zero(phase) {
         rig.start();
@@ -101,7 +101,7 @@ TEST(SpeedMeter, GoesOnOverTheWrapOfTheTime) {
 }
 
 TEST(SpeedMeter, ReadingsFurtherApartThanTheWrapAreNoTrouble) {
-    Turning t(0.04);  // 25 s a count: the age of the last one cannot be told
+    Turning t(0.04);  // 25 s per count: the age of the last one is out of range
     t.measure();
     for (int i = 0; i < 12; ++i) {
         t.run(whole_seconds(i % 3 == 0 ? 90 : 7));
@@ -156,7 +156,7 @@ RC_GTEST_PROP(SpeedMeter, TheStatedErrorIsNeverExceededAtAnySpeedAndReadingPatte
 }
 
 RC_GTEST_PROP(SpeedMeter, ItHoldsForAnyMotionAsTheMeanOfItsStretch, ()) {
-    // Readings made from a true place that wanders: ticks and ages as the card would tell them.
+    // Readings of a wandering true position: ticks and ages as the card would give them.
     struct Edge {
         double seconds;
         std::int64_t count;
@@ -193,7 +193,7 @@ RC_GTEST_PROP(SpeedMeter, ItHoldsForAnyMotionAsTheMeanOfItsStretch, ()) {
         r.down = !edges.empty() && edges.back().down;
         if (!edges.empty()) RC_ASSERT(r.raw == edges.back().count);
         const Speed s = meter.update(r, tick(seconds));
-        // The stretch's ends are known to a tick; the mean over the true one is what the bound is for.
+        // The ends of the interval are known to a tick; the bound applies to the mean over the true interval.
         const auto holds = [](const SpeedEstimate& e, double true_mean) {
             return std::abs(e.counts_s - true_mean) <= e.error * (1 + 1e-9) + 1e-6;
         };

@@ -100,7 +100,7 @@ void Twin::sample(Axis& axis, int axis_number) {
         if (!axis.told) note(1, axis_number, now_ * 50);
         axis.told = true;
     } else if (a || b) {
-        // Where in its circle of four the line pair was and is.
+        // Previous and present phase of the line pair.
         constexpr int place[2][2] = {{0, 1}, {3, 2}};  // [B][A]
         const int from = place[before[1]][before[0]], to = place[axis.taken[1]][axis.taken[0]];
         const bool up = (from + 1) % 4 == to;
@@ -234,7 +234,7 @@ int Twin::status() const {
 }
 
 int Twin::captured(int at) const {
-    const int half = at / 2 % 2;  // which register of a pair, where pairs begin at multiples of 4
+    const int half = at / 2 % 2;  // register of a pair; pairs begin at multiples of 4
     const auto part = [](std::int64_t value, int which) {
         return static_cast<int>(which ? value >> 16 & 255 : value & 65535);
     };

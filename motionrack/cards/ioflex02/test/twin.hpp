@@ -1,8 +1,8 @@
-// The card as a slow loop: plain and obviously right, written from RULES.md alone. It is the oracle of the event-driven
-// model.
+// The card as a slow loop: simple and evidently correct, written from RULES.md alone. It is the oracle of the
+// event-driven model.
 //
-// Time goes in halves of a sample (50 ns); every second of them is a sample, at which every line of every axis is
-// looked at.
+// Time advances in halves of a sample (50 ns); every second half is a sample, at which every line of every axis is
+// read.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class Twin {
   public:
     Twin(bool loaded, int ident, int serial, std::int64_t configuration_halves);
 
-    /// Goes to that half; a sample at it is not taken yet.
+    /// Advances to that half; a sample at it is not taken yet.
     void run_to(std::int64_t half);
     void wire(int axis, int line, int level) { axes_[axis].wire[line] = level; }
     /// The same by the bit of IN.
@@ -37,7 +37,7 @@ class Twin {
     struct Axis {
         int wire[4] = {};
         int taken[4] = {};
-        std::deque<int> history[4];  // what the last samples saw, the newest in front
+        std::deque<int> history[4];  // the last samples, the newest first
         int mode = 0, image_mode = 0;
         std::int64_t position = 0, raw = 0, age = 0;
         bool counted = false, told = false;
@@ -64,7 +64,7 @@ class Twin {
     int chosen_ = 0;
     int serial_;
     std::int64_t now_ = 0;
-    bool sampled_ = false;  // the sample of this half is over
+    bool sampled_ = false;  // the sample of this half has been taken
     bool first_ = true;     // the next sample is the project's first
     std::int64_t began_ = 0, time_ = 0;
     Phase phase_ = empty;

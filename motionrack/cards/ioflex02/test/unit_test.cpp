@@ -1,5 +1,5 @@
-// The unit's object in front of the virtual card: its two steps of configuration, images of one's own, inputs, one axis
-// armed by itself, and how far 24 bits reach.
+// The unit's object with the virtual card: its two steps of configuration, user images, inputs, one axis armed alone,
+// and the range of 24 bits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,7 +88,8 @@ TEST(Flex2Pos, ArmsOneAxisWhileTheOthersKeepWhatTheyWaitFor) {
     EXPECT_EQ(r.card.ReadPosition2(), 12);
 }
 
-// 5.2.5: "2 mm a period and 4096 parts a period: about +-2 m". A part a count, 24 bits with sign reach twice as far.
+// 5.2.5: "2 mm a period and 4096 parts a period: about +-2 m". With one count per part, signed 24 bits reach twice as
+// far.
 TEST(Flex2Pos, AScaleOfTwoMetresEitherWayFitsIntoThePosition) {
     const Units scale = *Units::mm(4096 / 2.0);
     EXPECT_DOUBLE_EQ(scale.of_counts(signed24(0x800000)), -4096);
@@ -101,7 +102,7 @@ TEST(Flex2Pos, AScaleOfTwoMetresEitherWayFitsIntoThePosition) {
         advance(axis, 6);
         EXPECT_NEAR(scale.of_counts(signed24(axis.position)), 1000 * metres, 1e-3) << "has not wrapped";
     }
-    // Two counts a part would be what the sentence says.
+    // Two counts per part would match the sentence.
     EXPECT_NEAR(Units::mm(2 * 4096 / 2.0)->of_counts(signed24(0x7FFFFF)), 2048, 1e-3);
 }
 
