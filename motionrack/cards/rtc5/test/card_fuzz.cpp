@@ -1,4 +1,4 @@
-// Jobs out of any numbers.
+// Jobs from arbitrary numbers.
 #include <cstring>
 #include <limits>
 #include <motionrack/cards/rtc5/model/engine.hpp>
@@ -28,7 +28,7 @@ class Looker final : public Sink {
     bool last = false;
 };
 
-/// Any double: small whole numbers mostly, ends of ranges, any bits.
+/// Any double: mostly small whole numbers, ends of ranges, any bits.
 double number(Feed& feed) {
     switch (feed.below(8)) {
         case 0:

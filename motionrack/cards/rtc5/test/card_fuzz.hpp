@@ -1,10 +1,10 @@
-// Any number to any command, any word, any start, any file: a stream of numbers becomes a job on a card, and what must
-// always hold is checked after each run.
+// Fuzzer of the card: a stream of numbers becomes a job of commands, words, starts and files. The invariants are
+// checked after each run.
 //
-//   outputs are in the field   20 bits, whatever was asked for
+//   outputs are in the field   20 bits, for every request
 //   the gate is 0 .. 20        half-microseconds of a tick, and changes alternate
-//   looking is free            a card that nobody looks at has the same state as one whose samples are taken
-//   it stays alive             in the end it is reset and jumps to a place
+//   sampling is free           a card without a sink has the same state as one whose samples are taken
+//   it stays alive             in the end it is reset and jumps to a position
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace motionrack::rtc5::fuzz {
 using motionrack::fuzz::Feed;
 
 struct Verdict {
-    std::string problem;  ///< "" or what does not hold
+    std::string problem;  ///< "" or the violated invariant
     std::int64_t commands = 0, refused = 0, ticks = 0, files = 0;
 };
 
-/// A job of `steps` commands and runs on a card of its own, fewer if the feed is empty or something does not hold.
+/// A job of `steps` commands and runs on a new card, fewer if the feed is empty or an invariant is violated.
 void run(Feed& feed, std::int64_t steps, Verdict& verdict);
 
 }  // namespace motionrack::rtc5::fuzz

@@ -8,7 +8,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-/// Hears of wires and keeps what it heard.
+/// Records wire changes.
 class Listener final : public sim::Device {
   public:
     Listener(sim::Kernel& kernel, std::initializer_list<const char*> wires) {
@@ -56,7 +56,7 @@ TEST(Rtc5Card, TheLaserWireChangesAtHalfMicroseconds) {
                          *list_command(Op::mark_abs, {100, 0}), *list_command(Op::set_end_of_list, {})});
     ASSERT_TRUE(card.engine().execute_list(1));
     kernel.run_until(milliseconds(1));
-    // Tick 0 was over before the command; ticks 1 to 10 move.
+    // Tick 0 had ended before the command; ticks 1 to 10 move.
     const std::vector<Listener::Heard> expected = {{1, 1, microseconds(10)},
                                                    {0, 1, microseconds(10) + nanoseconds(3'500)},
                                                    {1, 0, microseconds(110)},

@@ -1,4 +1,4 @@
-// Correction files and the lens behind them.
+// Correction files and their lens.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
@@ -109,7 +109,7 @@ TEST(Rtc5Correction, ABitTurnedOverIsFoundWhereverItIsAndWhateverProgramTheFileI
         }
     }
     auto bytes = written_ct5(plain_file());
-    bytes[40] = 0, bytes[41] = 0;  // more than a bit: it says that it is of program 0
+    bytes[40] = 0, bytes[41] = 0;  // more than one bit: it claims program 0
     EXPECT_EQ(refusal_of(bytes),
               "x: its checksum would fit if its header named another program version: it is damaged. The file was not "
               "loaded");

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double fly_k = 5184;  // bits/mm
 
-/// Counts that grow by a rate, words from a list.
+/// Counts that grow at a rate, words from a list.
 class Belt final : public Inputs {
   public:
     double per_tick = 0;
@@ -231,7 +231,7 @@ TEST(Rtc5Fly, AMissedWaitLastsTwoToThe31Counts) {
 }
 
 TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
-    // 10 mm at 500 mm/s on a belt at 100 mm/s: corners as they are seen on the part.
+    // 10 mm at 500 mm/s on a belt at 100 mm/s: corners in the coordinates of the part.
     const double corners_off[5][2] = {{0, 0}, {8, 0}, {6, 10}, {-6, 10}, {-8, 0}},
                  corners_on[5][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
     for (const bool fly : {false, true}) {
@@ -244,7 +244,7 @@ TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
         EXPECT_EQ(rig.go(), 8002);
         for (int i = 0; i < 5; ++i) {
             const auto tick = static_cast<std::size_t>(i * 2000);
-            const double belt = static_cast<double>(tick) * 1e-5 * 100;  // the part has gone so far since tick 0
+            const double belt = static_cast<double>(tick) * 1e-5 * 100;  // travel of the part since tick 0
             EXPECT_NEAR(rig.x[tick] / fly_k - belt, (fly ? corners_on : corners_off)[i][0], 0.0011) << i;
             EXPECT_NEAR(rig.y[tick] / fly_k, (fly ? corners_on : corners_off)[i][1], 0.0011) << i;
         }

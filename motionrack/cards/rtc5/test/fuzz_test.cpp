@@ -1,6 +1,6 @@
-// Any number to any command, many times; what must always hold is in card_fuzz.hpp.
+// Random commands with arbitrary numbers; the invariants are in card_fuzz.hpp.
 //
-// MOTIONRACK_SEED and MOTIONRACK_JOBS in the environment choose another and a longer run.
+// MOTIONRACK_SEED and MOTIONRACK_JOBS in the environment select another and a longer run.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Random jobs for the card and its twin: list commands, and what somebody does between ticks.
+// Random jobs for the card and its twin: list commands, and actions between ticks.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ struct Job {
     std::vector<Act> acts;
     bool inputs = false;  ///< counts and words are functions of the tick
     bool steady = false;  ///< the table of the lens is used
-    double rate[2] = {};  ///< counts a tick
+    double rate[2] = {};  ///< counts per tick
     std::int64_t word_every = 1;
 };
 

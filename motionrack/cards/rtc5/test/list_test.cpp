@@ -235,7 +235,7 @@ TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
     rig.put(Op::long_delay, {20});
     rig.put(Op::set_end_of_list);
     rig.card.external_start();
-    rig.run(10);  // in tick 0: ten counts are there, 1010 after tick 100
+    rig.run(10);  // in tick 0: ten counts exist, 1010 after tick 100
     rig.card.external_start();
     rig.run(50);
     for (int i = 0; i < 7; ++i) rig.card.external_start();
@@ -254,7 +254,7 @@ TEST(Rtc5Starts, EquidistantPartsCountFromTheStartBefore) {
     rig.put(Op::set_end_of_list);
     rig.card.external_start();
     rig.run(110);
-    rig.card.external_start();  // in tick 110, ten ticks late: the part's place is counted from the first
+    rig.card.external_start();  // in tick 110, ten ticks late: the part's position is counted from the first
     rig.run(200);
     std::vector<std::size_t> at;
     for (std::size_t i = 1; i < rig.x.size(); ++i)

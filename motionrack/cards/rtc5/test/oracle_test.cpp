@@ -1,6 +1,6 @@
-// Random jobs look the same on the card that works in blocks and spans and on its slow twin.
+// Random jobs give the same result on the card, which works in blocks and spans, and on its slow twin.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more jobs.
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more jobs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ class Pair {
         if (job.inputs) card_.set_inputs(&inputs_);
     }
 
-    /// False: they differ, and why was said.
+    /// Returns false if they differ; the reason has been printed.
     bool run() {
         for (std::size_t i = 0; i < job_.acts.size(); ++i) {
             act(job_.acts[i]);
@@ -290,7 +290,7 @@ class Pair {
         }
     }
 
-    /// The commands about the one that the twin is at.
+    /// The commands around the twin's present one.
     std::string where() const {
         std::string out = "\n";
         for (std::int64_t i = std::max<std::int64_t>(0, twin_.current - 6); i < std::min(memory, twin_.current + 3);

@@ -1,4 +1,4 @@
-// Recording of signals, single values, words sent over McBSP, the laser disabled, and how lists are opened.
+// Recording of signals, single values, words sent over McBSP, the disabled laser, and the opening of lists.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/rtc5/test/rig.hpp>
@@ -23,7 +23,7 @@ TEST(Rtc5Recording, SetTrigger4TakesASampleAtOnceAndThenOneAPeriod) {
     rig.put(Op::set_trigger4, {3, 7, 20, 43, 8});
     micro_vectors(rig, 10);
     rig.go();
-    // set_fly_x has the tick before set_trigger4's: 10 counts a tick, 5 bits.
+    // set_fly_x uses the tick before set_trigger4's: 10 counts per tick, 5 bits.
     EXPECT_EQ(recorded(rig.card, 0), (std::vector<std::int32_t>{5, 30 + 20, 60 + 35, 90 + 50}));
     EXPECT_EQ(recorded(rig.card, 1), recorded(rig.card, 0));
     EXPECT_EQ(recorded(rig.card, 2), (std::vector<std::int32_t>{10, 40, 70, 100}));

@@ -1,4 +1,4 @@
-// A card in the tests' hands: short words for lists, and its samples.
+// A card for the tests: short functions for lists, and its samples.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ struct Rig final : Sink {
         const auto done = card.put(*made);
         ASSERT_TRUE(done) << done.error().message;
     }
-    /// Ends the list that was put, runs it, and says how many ticks it took.
+    /// Ends the loaded list, runs it, and returns its ticks.
     std::int64_t go(std::int64_t ticks = 1'000'000) {
         put(Op::set_end_of_list);
         EXPECT_TRUE(card.execute_list(1));

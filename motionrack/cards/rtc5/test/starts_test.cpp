@@ -1,12 +1,12 @@
-// A start that waits for its count, whatever became of the card's state meanwhile: after a rewind and after a reset the
-// card does what one does that never was elsewhere.
+// A start that waits for its count, independent of changes of the card's state: after a rewind and after a reset the
+// card behaves like one without that history.
 #include <algorithm>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
 namespace motionrack::rtc5 {
 namespace {
 
-/// Counts that stand, and jump to another value at some ticks.
+/// Counts that are constant, and jump to another value at some ticks.
 class Jumps final : public Inputs {
   public:
     struct Jump {
@@ -60,7 +60,7 @@ struct Station {
 };
 
 TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountAfterARewindToo) {
-    // 60 counts for ten ticks only: who asks later, or from another place, does not see them.
+    // 60 counts for ten ticks only: a later query, or one from another position, does not see them.
     const std::vector<Jumps::Jump> jumps = {{20, 60}, {30, 0}, {700, 60}};
     Station rewound(jumps), fresh(jumps);
     rewound.rig.run(10);

@@ -1,4 +1,4 @@
-// The card and the machine around it: what is on the part afterwards.
+// The card and the machine around it: the marks on the part.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr double station_k = 8656;  // bits/mm
 
-/// The card's eyes and hands in a marking machine.
+/// Connection of the card to a marking machine.
 class Machine final : public Sink, public Inputs {
   public:
     explicit Machine(const parts::StationSettings& settings) : station(*parts::MarkingStation::make(settings)) {
@@ -39,7 +39,7 @@ class Machine final : public Sink, public Inputs {
         EXPECT_TRUE(card.execute_list(1));
         EXPECT_TRUE(card.run_to_rest(1'000'000, this));
         station.workpiece().finish();
-        // The part's own coordinates begin where the correction begins: at the travel of the tick that zeroes the
+        // The part's coordinates begin at the start of the correction: at the travel of the tick that zeroes the
         // encoder, which is tick 0.
         const std::vector<parts::Segment> drawing = {
             {{-5, -5}, {5, -5}}, {{5, -5}, {5, 5}}, {{5, 5}, {-5, 5}}, {{-5, 5}, {-5, -5}}};

@@ -1,5 +1,5 @@
-// The slow RTC5: every rule of RULES.md, tick by tick, in the plainest words. It shares tables of commands and bits
-// with the model, nothing else.
+// The slow RTC5: every rule of RULES.md, tick by tick, in the simplest form. It shares only the tables of commands and
+// bits with the model.
 #pragma once
 
 #include <algorithm>
@@ -103,7 +103,7 @@ class Twin {
 
     std::uint32_t word = 0, word_before = 0;
     std::deque<std::uint32_t> words;
-    std::optional<std::int32_t> locations[4];  // empty: nothing was put there
+    std::optional<std::int32_t> locations[4];  // empty: no value yet
     std::int32_t typed[8] = {}, in_mode = 0, round = 0;
     bool to_zero = false, multi = false, heard = false;
     bool online[3] = {}, online_matrix = false;

@@ -44,7 +44,7 @@ void Twin::leave() {
     parked = false;
 }
 
-/// True: an empty tick goes first.
+/// Returns true if an empty tick comes first.
 bool Twin::zero(std::vector<int> which) {
     if (again) {
         again = false;

@@ -89,7 +89,7 @@ void Twin::set_online_matrix() {
 }
 
 void Twin::apply_online(int head, int at_once) {
-    const auto bits = [](std::int64_t v, int n) {  // the n low ones, signed
+    const auto bits = [](std::int64_t v, int n) {  // the n low bits, signed
         const std::int64_t range = std::int64_t{1} << n, low = ((v % range) + range) % range;
         return static_cast<double>(low >= range / 2 ? low - range : low);
     };

@@ -10,9 +10,9 @@ namespace {
 
 TEST(Rtc5Wobbel, GoesRoundAnEllipseAboutTheMarkAndNotAboutTheJump) {
     Rig rig;
-    rig.put(Op::set_mark_speed, {1000});  // 10 bits a tick
+    rig.put(Op::set_mark_speed, {1000});  // 10 bits per tick
     rig.put(Op::set_jump_speed, {1000});
-    rig.put(Op::set_wobbel, {100, 40, 2500});  // 40 ticks a turn
+    rig.put(Op::set_wobbel, {100, 40, 2500});  // 40 ticks per turn
     rig.put(Op::mark_abs, {800, 0});
     rig.put(Op::jump_abs, {1000, 0});
     rig.go();
