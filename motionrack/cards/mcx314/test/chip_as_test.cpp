@@ -91,7 +91,7 @@ TEST(ChipAs, TheEmergencyStopIsFilteredByXForAllAxes) {
     EXPECT_EQ(b.read(0) & U, 0u);
     EXPECT_NE(b.status(U, 2) & 0x20u, 0u);
     b.wire("emgn", 1);
-    b.extension(X, 0);  // unfiltered again: as the wire is
+    b.extension(X, 0);  // unfiltered again: level of the wire
     EXPECT_EQ(b.status(U, 2) & 0x20u, 0u);
 }
 
@@ -102,7 +102,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
         b.speeds(X, 16'000, 8000, 8000);
         b.data(X, cmd::P, 3);
         b.mode(X, 3, 0x0018);
-        const auto turn = [&b](int cycles, bool plus) {  // A leads B where it goes plus
+        const auto turn = [&b](int cycles, bool plus) {  // A leads B in plus direction
             for (int i = 0; i < cycles; ++i) {
                 for (const int level : {0, 1}) {
                     b.wire(plus ? "xexpm" : "xexpp", level);
@@ -118,7 +118,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
         EXPECT_EQ(b.lp(X), variant == Variant::mcx314as ? 9 : 0);
         b.wire("xexpp", 0);
         b.advance(microseconds(5));
-        b.wire("xexpp", 1);  // trembling at one edge of A, B High: nothing
+        b.wire("xexpp", 1);  // bounce at one edge of A, B High: no effect
         b.advance(microseconds(5));
         EXPECT_EQ(b.lp(X), variant == Variant::mcx314as ? 9 : 0);
     }
@@ -249,7 +249,7 @@ TEST(ChipAs, ThePulseOutputsCanBeExchanged) {
     EXPECT_EQ(b.lp(X), 3);
 }
 
-// The greatest speed (CV) of a fixed drive, and how many of its pulses came at that speed.
+// Maximum speed (CV) of a fixed drive, and the number of its pulses at that speed.
 struct Top {
     std::int32_t speed = 0;
     std::int64_t pulses = 0;
@@ -297,7 +297,7 @@ TEST(ChipAs, AfterATrianglePreventedTheNextDriveGoesToVAgain) {
     EXPECT_EQ(drive_and_watch(b, 40'000).speed, 3000);
 }
 
-// The speed with which a drive of 60,000 pulses and D other than A ends, and how long it crept at the start speed.
+// Final speed of a drive of 60,000 pulses with D other than A, and the duration of its creep at the start speed.
 struct End {
     std::int32_t speed = 0;
     std::int64_t creeping_us = 0;

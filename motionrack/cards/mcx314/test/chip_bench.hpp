@@ -1,5 +1,4 @@
-// A chip in a kernel of its own, as a host with wires sees it: write, read, advance, move a wire, look at the
-// interrupt.
+// A chip in its own kernel, as a host with wires sees it: write, read, advance, drive a wire, check the interrupt.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace motionrack::mcx314::outside {
 inline constexpr unsigned X = 1, Y = 2, Z = 4, U = 8;
 inline constexpr Duration tick = nanoseconds(125);
 
-/// Writes down the ticks of the edges of one axis.
+/// Records the ticks of the edges of one axis.
 class EdgeLog final : public sim::EdgeListener {
   public:
     struct Edge {
@@ -32,7 +31,7 @@ class EdgeLog final : public sim::EdgeListener {
     std::vector<Edge> list;
 };
 
-/// Writes down every change of some wires.
+/// Records every change of some wires.
 class WireLog final : public sim::Kernel::WireObserver {
   public:
     struct Change {
@@ -57,7 +56,7 @@ class WireLog final : public sim::Kernel::WireObserver {
     sim::Kernel& kernel_;
 };
 
-/// Wants the changes of wires, as a card that is wired to them would.
+/// Subscribes to changes of wires, as a connected card would.
 class Follower final : public sim::Device {
   public:
     explicit Follower(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, "follower")) {}
@@ -70,7 +69,7 @@ class Follower final : public sim::Device {
     sim::DeviceId id_;
 };
 
-/// A position that the test moves by hand: the encoder behind xeca and xecb.
+/// A position set by the test: the encoder connected to xeca and xecb.
 class HandWheel final : public sim::PositionFunction {
   public:
     std::int64_t count(Instant) const override { return count_; }
@@ -79,7 +78,7 @@ class HandWheel final : public sim::PositionFunction {
     int add_listener(sim::PositionListener& listener) override { return listener_ = &listener, 0; }
     void set_edge_listener(sim::EdgeListener*) override {}
     void deliver_edges() override {}
-    /// Moves count by count, telling of what is watched.
+    /// Moves count by count, and notifies watches.
     void turn(std::int64_t to, Instant now) {
         while (count_ != to) {
             count_ += to > count_ ? 1 : -1;
@@ -98,7 +97,7 @@ class HandWheel final : public sim::PositionFunction {
     sim::PositionListener* listener_ = nullptr;
 };
 
-/// Lets time pass, whoever breaks the run.
+/// Advances the time, regardless of breaks of the run.
 inline void advance(sim::Kernel& kernel, Duration time) {
     const Instant until = kernel.now() + time;
     while (kernel.run_until(until) == sim::RunEnd::broken) {
@@ -140,13 +139,13 @@ class Bench : public Commands<Bench> {
     // ---- time and wires
     void start() { kernel.start(); }
     void advance(Duration time) { outside::advance(kernel, time); }
-    /// Runs until the interrupt line is active or `time` has passed; true if it is active.
+    /// Runs until the interrupt line is active or `time` has passed; returns true if it is active.
     bool wait(Duration time) {
         const Instant until = kernel.now() + time;
         while (!interrupt() && kernel.now() < until) kernel.run_until(until);
         return interrupt();
     }
-    /// Runs until none of the axes drives, at most `most`; false if they still do.
+    /// Runs until none of the axes drives, at most `most`; returns false if any still drives.
     bool finish(unsigned axes, Duration most = whole_seconds(100)) {
         const Instant until = kernel.now() + most;
         while ((read(0) & axes) != 0 && kernel.now() < until) advance(microseconds(50));

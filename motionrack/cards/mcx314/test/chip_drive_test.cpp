@@ -23,12 +23,12 @@ TEST(ChipDrive, ATrapezoidHasTheMakersRampAndExactlyItsPulses) {
     EXPECT_EQ(b.lp(X), 80'000);
     EXPECT_EQ(b.count(0), 80'000);
     ASSERT_EQ(log.list.size(), 80'000u);
-    // 73,604 pulses at 40,000 pps lie between two ramps; ideally the drive takes 2.1521 s. Falling, every speed comes
-    // one step earlier than rising, which saves the last pulse and a half.
+    // 73,604 pulses at 40,000 pps lie between two ramps; ideally the drive takes 2.1521 s. During deceleration every
+    // speed comes one step earlier than during acceleration, which saves the last pulse and a half.
     EXPECT_NEAR(to_seconds(b.kernel.now() - from), 2.1521, 0.002);
     const auto period = [&](std::size_t i) { return log.list[i].tick - log.list[i - 1].tick; };
     const auto of_ramp = [&](std::size_t from_pulse,
-                             std::size_t to_pulse) {  // pulses that are not 200 ticks apart, but for the jitter of one
+                             std::size_t to_pulse) {  // pulses not 200 ticks apart, with a jitter of one
         std::size_t pulses = 0;
         for (std::size_t i = from_pulse; i < to_pulse; ++i) pulses += period(i) > 201;
         return static_cast<double>(pulses);
@@ -156,7 +156,7 @@ TEST(ChipDrive, ALimitStopsOnlyItsOwnDirectionAndIsRemembered) {
     b.wire("ulmtm", 0);
     b.advance(milliseconds(1));
     EXPECT_TRUE(b.read(0) & U);
-    EXPECT_TRUE(b.read(0) & U << 4);  // the limit shows as an error all the same
+    EXPECT_TRUE(b.read(0) & U << 4);  // the limit is shown as an error nevertheless
     b.wire("ulmtp", 0);
     b.advance(tick);
     EXPECT_FALSE(b.read(0) & U);
@@ -168,7 +168,7 @@ TEST(ChipDrive, ALimitStopsOnlyItsOwnDirectionAndIsRemembered) {
     b.advance(milliseconds(1));
     EXPECT_FALSE(b.read(0) & U);
     EXPECT_EQ(b.count(3), at);
-    // 25h clears what is remembered.
+    // 25h clears the stored state.
     b.wire("ulmtp", 1);
     b.wire("ulmtm", 1);
     EXPECT_TRUE(b.read(0) & U << 4);

@@ -19,7 +19,7 @@ class Sum final : public sim::EdgeListener {
     std::int64_t total = 0;
 };
 
-// A fixed drive that was begun by command, as far as its end is foreseen.
+// A fixed drive begun by command, with its expected end.
 struct Fixed {
     bool on = false, excused = false, rewritten = false;
     std::int64_t from = 0;
@@ -55,7 +55,7 @@ class Run {
     }
 
   private:
-    // ---- what is done
+    // ---- actions
     void something() {
         if (extended_ && feed_.below(12) == 0) return extension();
         const std::uint32_t roll = feed_.below(100);
@@ -80,7 +80,7 @@ class Run {
         else
             wire();
     }
-    // A fixed drive that is over soon.
+    // A short fixed drive.
     void drive() {
         const std::uint32_t axes = plausible_axes(), any = feed_.word();
         data_of(axes, 0, 16'000 + any % 8'000);
@@ -153,7 +153,7 @@ class Run {
         if (feed_.below(4) != 0) command(0, 0x37);
         if (feed_.below(2) != 0) command(0, 0x34 + feed_.below(2));
     }
-    // What only the MCX314As has; actions are rare, since they excuse every drive.
+    // MCX314As only; actions are rare, because they excuse every drive.
     void extension() {
         static constexpr std::uint32_t codes[] = {0x62, 0x62, 0x62, 0x63, 0x65, 0x14,
                                                   0x61, 0x61, 0x0E, 0x60, 0x60, 0x60};
@@ -168,13 +168,13 @@ class Run {
     void wire() {
         const std::uint32_t which = feed_.below(44);
         const sim::WireId id = which >= 40 ? common_[which % 2] : inputs_[which / 10][which % 10];
-        const bool asks = which < 40 ? which % 10 == 4 || which % 10 == 5 : which % 2 == 1;  // for a drive or a step
+        const bool asks = which < 40 ? which % 10 == 4 || which % 10 == 5 : which % 2 == 1;  // drive or step
         kernel_.force(id, feed_.below(asks ? 2 : 8) != 0);
         kernel_.settle();
     }
     void pass() {
         static constexpr std::uint32_t most[] = {1, 4, 1'250, 12'500, 125'000, 1'250'000, 12'500'000, 125'000'000};
-        const std::uint32_t roll = feed_.below(256);  // mostly a few microseconds, now and then milliseconds
+        const std::uint32_t roll = feed_.below(256);  // usually a few microseconds, sometimes milliseconds
         const std::uint32_t n = roll < 60 ? 0 : roll < 80 ? 1 : roll < 100 ? 2 : roll < 140 ? 3 : roll < 210 ? 4 : 5;
         const std::uint32_t length = most[roll == 255 ? 7 : roll >= 252 ? 6 : n];
         run_for(Duration{std::int64_t{feed_.word()} * length / 65'536});
@@ -225,20 +225,20 @@ class Run {
                              chip_.pulses(a).count(kernel_.now()), effect.fixed_direction};
         check();
     }
-    /// What the access about to be made changes for the fixed drives that run.
+    /// Records the effect of the next access on the running fixed drives.
     void foresee(const Effect& effect, unsigned drove) {
         for (int a = 0; a < axis_count; ++a) {
             Fixed& fixed = fixed_[a];
             if ((effect.stops | shadow_.software_limits | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u)
                 fixed.excused = true;
             if (effect.writes_p >> a & 1u) fixed.rewritten = true;
-            // A drive may be over and wait for its position: what follows may belong to it or not.
+            // A drive may have ended and wait for its position: what follows may belong to it or not.
             const bool may_follow = (shadow_.in_position & drove & (effect.begins ? 15u : effect.writes_p)) >> a & 1u;
             if (may_follow || (shadow_.external >> a & 1u)) fixed.on = false;
         }
     }
 
-    // ---- what must hold
+    // ---- invariants
     unsigned driving() const { return chip_.peek(0) & 0xFu; }
     std::uint32_t count_of(int a) { return static_cast<std::uint32_t>(chip_.pulses(a).count(kernel_.now())); }
 
@@ -279,7 +279,7 @@ class Run {
         require(false,
                 fmt::format("a fixed drive ended after {} pulses, not P = {}, with no stop latched", made, wanted), a);
     }
-    // The future is the same whether the status registers are read or not.
+    // The future does not depend on reads of the status registers.
     void look_twice() {
         const sim::Snapshot before = kernel_.snapshot();
         const std::array<Sum, 2> edges = edges_;
@@ -301,7 +301,7 @@ class Run {
         edges_ = edges;
         require(hash[0] == hash[1], "a read of a status register had an effect");
     }
-    // 27h with all inputs released: nothing drives, and nothing is left that 25h would begin.
+    // 27h with all inputs released: no axis drives, and 25h would begin no drive.
     void let_end() {
         for (const auto& axis : inputs_)
             for (const sim::WireId input : axis) kernel_.force(input, 1);
@@ -329,7 +329,7 @@ class Run {
     std::array<std::array<sim::WireId, 10>, axis_count> inputs_{};
     std::array<sim::WireId, 2> common_{};
     std::array<Sum, 2> edges_;
-    std::array<std::uint32_t, axis_count> base_{};  // LP less pulses
+    std::array<std::uint32_t, axis_count> base_{};  // LP minus pulses
     std::array<Fixed, axis_count> fixed_{};
 };
 

@@ -1,11 +1,11 @@
-// Any access at any time: a stream of numbers becomes register accesses, wires and passing time on a chip, and what
-// must always hold is checked after each.
+// Fuzzer of the chip: a stream of numbers becomes register accesses, wires and passing time. The invariants are checked
+// after each.
 //
-//   counts add up      LP = what was written to it + pulses since; edges = counts
-//   every state ends   after 27h with all inputs released nothing drives any more, and nothing waits for 25h
+//   counts add up      LP = value written to it + pulses since; edges = counts
+//   every state ends   after 27h with all inputs released no axis drives, and no drive waits for 25h
 //   exactly P          a fixed drive ends at P unless a stop was commanded or is latched, or P was lowered below it
 //                      (of an MCX314As: while no synchronous action is set up, which may stop drives and write P)
-//   reads are reads    reading RR0, RR1, RR2, RR4 .. RR7 changes nothing that can be seen, then or later
+//   reads are reads    reading RR0, RR1, RR2, RR4 .. RR7 has no visible effect, then or later
 #pragma once
 
 #include <array>
@@ -19,18 +19,18 @@ namespace motionrack::mcx314::fuzz {
 
 using motionrack::fuzz::Feed;
 
-/// What a run came to.
+/// Result of a run.
 struct Verdict {
-    std::string problem;  ///< "" or what does not hold
+    std::string problem;  ///< "" or the violated invariant
     std::uint64_t hash = fnv_start;
     std::int64_t accesses = 0;
     std::int64_t pulses = 0;
-    std::int64_t exact_drives = 0;  ///< fixed drives that were seen to end at P
+    std::int64_t exact_drives = 0;  ///< fixed drives observed to end at P
 
     void mix(std::uint64_t value) { hash = fnv_step(hash, value); }
 };
 
-/// Runs `accesses` accesses on a chip of its own, fewer if the feed is empty or something does not hold.
+/// Runs `accesses` accesses on a new chip, fewer if the feed is empty or an invariant is violated.
 void run(Feed& feed, std::int64_t accesses, Verdict& verdict, Variant variant = Variant::mcx314);
 
 }  // namespace motionrack::mcx314::fuzz

@@ -1,4 +1,4 @@
-// What a host can know of the chip from its own writes, and what each of them may change.
+// Knowledge of a host about the chip from its own writes, and the possible effects of each write.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ class Shadow {
     explicit Shadow(bool extended = false) : extended_(extended) {}
 
     std::array<std::int64_t, 4> pulses{};                         ///< P
-    unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes that have been given them by now
-    unsigned acts = 0;                                            ///< axes that synchronous actions are set up for
-    unsigned recounted = 0;  ///< axes whose LP may change otherwise than by pulses: rings, PCLR
+    unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes with these enabled so far
+    unsigned acts = 0;                                            ///< axes with synchronous actions
+    unsigned recounted = 0;  ///< axes whose LP may change without pulses: rings, PCLR
     unsigned unknown = 0;    ///< axes whose P synchronous actions may have written
 
     Effect write(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {

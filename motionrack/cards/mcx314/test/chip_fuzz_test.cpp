@@ -1,6 +1,6 @@
-// A million random accesses, twice: what must always hold does, and the same numbers give the same history.
+// A million random accesses, twice: the invariants hold, and the same numbers give the same history.
 //
-// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment choose other and more of them.
+// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment select other and more of them.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

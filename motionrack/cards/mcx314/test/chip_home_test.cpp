@@ -1,5 +1,5 @@
-// The automatic home search of the MCX314As: over a simulated axis with switches that bounce and an encoder's index,
-// and with switches moved by hand where the order of things matters.
+// The automatic home search of the MCX314As: on a simulated axis with bouncing switches and an encoder's index, and
+// with switches operated by the test where the order of events matters.
 //
 //   machine   0 mm ─────4──5────────20──────────────────100 mm        index each 5 mm from the start
 //   IN1       active ◄──┘           │                    start
@@ -34,7 +34,7 @@ parts::AxisMechanicsSettings machine_settings(double start_mm, double in1_mm) {
     return s;
 }
 
-// A machine of 640 pulses a mm on axis X.
+// A machine with 640 pulses per mm on axis X.
 struct Homing : Bench {
     Homing(double start_mm, double in1_mm, bool switch_is_limit = false)
         : Bench(Variant::mcx314as), machine(kernel, "m", machine_settings(start_mm, in1_mm)), junctions(kernel) {
@@ -44,14 +44,14 @@ struct Homing : Bench {
         if (!switch_is_limit) junctions.join(machine.home_wire(), kernel.find_wire("c.xin0"));
         junctions.join(machine.index_wire(), kernel.find_wire("c.xin2"));
         start();
-        speeds(X, 80'000, 20, 500, 200);  // 2,000 to 50,000 pulses a second
+        speeds(X, 80'000, 20, 500, 200);  // 2,000 to 50,000 pulses/s
         data(X, cmd::HV, 20);
         data(X, cmd::P, 640);
         mode(X, 1, 0x8010);  // IN2 is active High; D-END interrupt
         advance(milliseconds(1));
     }
     void extension(unsigned em6, unsigned em7) { data(X, cmd::EM, std::int64_t{em7} << 16 | em6); }
-    // The states on the way, each once.
+    // The states passed, each once.
     std::vector<unsigned> search() {
         std::vector<unsigned> states;
         command(X, cmd::HOME);
@@ -97,7 +97,7 @@ TEST(ChipHome, GoesBackOutOfTheSwitchWhereItBeginsWithinIt) {
 }
 
 TEST(ChipHome, AnIndexThatIsActiveAlreadyIsAnError) {
-    Homing b(100, 5);  // IN1 acts at the very place of an index
+    Homing b(100, 5);  // IN1 acts at the very position of an index
     b.extension(home_interrupt, steps_minus_minus_plus_plus | clear_counters);
     EXPECT_EQ(b.search(), (std::vector<unsigned>{3, 8}));
     EXPECT_DOUBLE_EQ(b.position(), 5.0);
@@ -130,7 +130,7 @@ TEST(ChipHome, TheIndexCountsOnlyWithinTheSwitchWhereBothAreAskedFor) {
     EXPECT_DOUBLE_EQ(c.position(), 0.0);
 }
 
-// ---- by hand
+// ---- operated by the test
 
 struct HomeByHand : Bench {
     explicit HomeByHand(unsigned em7, unsigned em6 = home_interrupt) : Bench(Variant::mcx314as) {

@@ -1,5 +1,5 @@
-// The declared state machines against the chip: looked at after every access and every tick, it goes only where their
-// tables lead, and takes every way that they name.
+// The declared state machines against the chip: checked after every access and every tick, it follows only transitions
+// of their tables, and takes every one of them.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -17,11 +17,11 @@ struct Machine {
     std::string_view name;     // in the map
     std::string_view value;    // of Chip::inspect
     int instances;             // axes
-    std::string_view passing;  // states that may last no time: "a b c"
+    std::string_view passing;  // states that may be passed at once: "a b c"
 };
-// A drive whose end is there at its first working tick is over at once, and in position at once where that is not
-// enabled; a queued segment without pulses takes over and ends in one tick; a step may be asked for just after its
-// segment's command.
+// A drive whose end is reached at its first working tick ends at once, and is in position at once if that is disabled.
+// A queued segment without pulses takes over and ends in one tick. A step may be requested just after its segment's
+// command.
 constexpr Machine machines[] = {
     {"drive", "DRIVE_STATE", 4, "driving final in_position"},
     {"continuous interpolation", "QUEUE_STATE", 1, "running"},
@@ -43,7 +43,7 @@ const MachineInfo& declared_machine(std::string_view name) {
     throw std::out_of_range(std::string(name));
 }
 
-// Whether the table leads from one state to another, through none but passing states.
+// True if the table leads from one state to another, through passing states only.
 bool leads(const MachineInfo& info, std::string_view passing, int from, int to) {
     std::set<int> reached = {from}, looked;
     while (reached.size() > looked.size())
@@ -139,7 +139,7 @@ void expect_every_way(const std::set<std::string>& taken, std::size_t from, std:
 TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
     std::set<std::string> taken;
     watch_programs(taken, 4'000'000, 500, Variant::mcx314);
-    for (int axis = 0; axis < 4; ++axis) {  // what lasts one tick only
+    for (int axis = 0; axis < 4; ++axis) {  // transitions that last one tick only
         using Kind = twin::Op::Kind;
         const auto select = static_cast<std::uint16_t>(0x010F << axis);
         const auto n = static_cast<std::int8_t>(axis);

@@ -69,7 +69,7 @@ TEST(ChipPattern, TheMakersFigureIsClosedAndEndsWithItsEndCode) {
 
 TEST(ChipPattern, ACircleStackedOnTheInterruptKeepsItsRadius) {
     Patterns b(0x8004);  // BPINT
-    // Steps of a circle of radius 100, from (100, 0) counter-clockwise, as an upper computer would make them.
+    // Steps of a circle of radius 100, from (100, 0) counter-clockwise, as a host computer would generate them.
     std::vector<std::array<int, 2>> steps;
     for (std::array<int, 2> at = {100, 0}, done = {0, 0}; steps.size() < 4 || at != std::array<int, 2>{100, 0};) {
         const double angle = std::atan2(at[1], at[0]) + 0.01;
@@ -192,13 +192,13 @@ TEST(ChipPattern, TheRegistersStandWhereTheModesWereOnlyWhileEnabled) {
     b.write(1, 0x8000);
     for (int n = 2; n <= 7; ++n) b.write(n, 0xFFFF);  // would be alarms, S-curves and outputs
     EXPECT_EQ(b.level("xout0"), 0);
-    b.command(X, cmd::V);  // WR6 is what it was before 36h: AO's 0
+    b.command(X, cmd::V);  // WR6 has its value from before 36h: AO's 0
     b.command(0, cmd::BP_DISABLE);
     EXPECT_EQ(b.status(X, 2), 0u);
     b.write(4, 0x0001);
     b.kernel.settle();
     EXPECT_EQ(b.level("xout0"), 1);
-    b.command(0, cmd::BP_STACK);  // the registers keep what was written
+    b.command(0, cmd::BP_STACK);  // the registers keep the written values
     EXPECT_EQ(b.stacked(), 1u);
     b.data(X, cmd::V, 2000);
     b.go();
@@ -234,8 +234,8 @@ TEST(ChipPattern, WithConstantVectorSpeedTheStepsOfTwoAxesAreRarer) {
     b.advance(tick * 400);
     std::vector<std::int64_t> at;
     for (const auto& edge : x.list) at.push_back(edge.tick);
-    // R after a basic pulse is that of the axes that it stepped: two with D0, D1 and D8.., one with D2..D5, none with
-    // D6, D7.
+    // R after a basic pulse depends on the number of axes it stepped: two with D0, D1 and D8.., one with D2..D5, none
+    // with D6, D7.
     EXPECT_EQ(at, (std::vector<std::int64_t>{12, 26, 40, 50, 100, 114, 128, 142}));
 }
 

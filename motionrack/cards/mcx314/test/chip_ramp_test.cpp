@@ -1,4 +1,4 @@
-// Ramps of which nobody hears each step are worked off as one: whoever looks sees the same as who hears every pulse.
+// Unobserved ramps are computed as one event: the result equals that of a run with a listener for every pulse.
 #include <gtest/gtest.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-// The settings of the chip for which the sources leave two readings, from outside; both must do as they say.
+// Chip options for which the sources allow two readings, from outside; both must behave as documented.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -67,7 +67,7 @@ TEST(ChipReadings, AoIsWhatTheSettingSaysUntilItIsWrittenAndAfterReset) {
         const Instant from = b.kernel.now();
         ASSERT_TRUE(b.finish(X));
         EXPECT_EQ(b.count(0), 20'000);
-        // 20,000 pulses with two ramps of 0.156 s; AO of them go at 1,000 a second instead of 40,000.
+        // 20,000 pulses with two ramps of 0.156 s; AO of them at 1,000/s instead of 40,000/s.
         const double seconds = 0.156 * 2 + (20'000 - 6'396) / 40'000.0 + offset * (1 / 1'000.0 - 1 / 40'000.0);
         EXPECT_NEAR(static_cast<double>((b.kernel.now() - from) / microseconds(1)) * 1e-6, seconds, 0.002);
     }

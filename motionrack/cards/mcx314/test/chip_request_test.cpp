@@ -1,5 +1,4 @@
-// Drives and steps that are asked for, from outside: single steps by command and by wire, nEXPP and nEXPM, the 8-bit
-// bus.
+// Drives and steps on request, from outside: single steps by command and by wire, nEXPP and nEXPM, the 8-bit bus.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -23,7 +22,7 @@ class Steps : public Bench {
         advance(tick * 100);
     }
     void step() { command(0, cmd::STEP); }
-    /// EXPLSN goes Low half a tick after a tick, for `ticks`.
+    /// Sets EXPLSN Low half a tick after a tick, for `ticks`.
     void pull(int ticks) {
         advance(tick / 2);
         wire("expls_n", 0);

@@ -1,5 +1,5 @@
-// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or moved at their very
-// instant.
+// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or changed at their
+// very instant.
 #include <array>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/chip_rig.hpp>
@@ -15,11 +15,11 @@ namespace {
 
 constexpr Duration one_tick = nanoseconds(125);
 
-// Moves wires at an instant, before the cards look at them.
+// Changes wires at an instant, before the cards read them.
 class Hand final : public sim::Device {
   public:
     explicit Hand(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::wires, "hand")) {}
-    /// Moves that have not been made yet must all be for the same instant.
+    /// All pending changes must be for the same instant.
     void move(sim::WireId wire, int level, Instant at) {
         moves_.emplace_back(wire, level);
         kernel_.schedule(id_, at);
@@ -36,7 +36,7 @@ class Hand final : public sim::Device {
     std::vector<std::pair<sim::WireId, int>> moves_;
 };
 
-// Writes down the edges of one axis.
+// Records the edges of one axis.
 class Edges final : public sim::EdgeListener {
   public:
     Edges(std::vector<Pulse>& pulses, int axis) : pulses_(pulses), axis_(axis) {}
@@ -53,7 +53,7 @@ class Edges final : public sim::EdgeListener {
     int axis_;
 };
 
-// Writes down the changes of the interrupt line.
+// Records the changes of the interrupt line.
 class Requests final : public sim::Kernel::WireObserver {
   public:
     void wire_changed(sim::WireId changed, int level, Instant now) override {
@@ -63,7 +63,7 @@ class Requests final : public sim::Kernel::WireObserver {
     std::vector<Request> list;
 };
 
-// Wants the changes of output pins, as a part that is wired to them does, and writes them down.
+// Subscribes to changes of output pins, as a connected part would, and records them.
 class Follower final : public sim::Device {
   public:
     Follower(sim::Kernel& kernel, std::vector<Change>& changes)
@@ -81,7 +81,7 @@ class Follower final : public sim::Device {
     std::vector<Change>& changes_;
 };
 
-// Watches range after range of one axis' count.
+// Watches consecutive ranges of one axis' count.
 class Watcher final : public sim::PositionListener {
   public:
     void begin(sim::PositionFunction& motion, int axis) {
@@ -107,7 +107,7 @@ class Watcher final : public sim::PositionListener {
     int slot_ = 0;
 };
 
-// A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
+// A kernel with one chip, its wires and, optionally, an edge listener.
 class Bench {
   public:
     Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
@@ -185,7 +185,7 @@ class Bench {
         }
     }
 
-    // `more`: the next op moves a wire at the same instant, so that the tick must not be worked off yet.
+    // `more`: the next op changes a wire at the same instant, so the tick must not be executed yet.
     Sight move_wire(const Op& op, bool more) {
         hand_.move(wire_of(op), op.value, instant_of(op));
         if (!more) run_to(instant_of(op));
@@ -213,13 +213,13 @@ class Bench {
         return sight;
     }
 
-    // A peek before the read must change nothing and show the same.
+    // A peek before the read must change nothing and return the same value.
     std::uint16_t read(std::uint8_t offset) {
         const std::uint16_t peeked = chip_.peek(offset), value = chip_.read(offset);
         return peeked == value ? value : static_cast<std::uint16_t>(~value);
     }
 
-    // Saves the world, runs something else in it, and restores it.
+    // Saves the state, runs other operations in it, and restores it.
     void disturb(const Op& op) {
         disturbed_ = true;
         const sim::Snapshot snapshot = kernel_.snapshot();

@@ -1,4 +1,4 @@
-// What stops a drive, from outside: the four stop inputs, alarm, limits with both styles, and what is latched of it.
+// Causes of stops, from outside: the four stop inputs, alarm, limits with both styles, and their latched flags.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>
@@ -34,7 +34,7 @@ TEST(ChipStops, EachStopInputHasItsLevelItsStyleAndItsBit) {
                 b.advance(tick);
                 EXPECT_EQ((b.read(0) & Y) != 0, ramp) << "decelerating where it accelerated, else at once; input " << n;
                 EXPECT_EQ(field("RR1", "DSND").test(b.status(Y, 1)), ramp);
-                b.wire(pin, 1 - active);  // too late to change anything
+                b.wire(pin, 1 - active);  // too late to have an effect
                 ASSERT_TRUE(b.finish(Y));
                 EXPECT_EQ(b.status(Y, 1) & 0xFF00u, 0x0100u << n);
             }

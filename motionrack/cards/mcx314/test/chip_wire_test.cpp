@@ -25,7 +25,7 @@ TEST(ChipWires, TwoPulseModeHasAWireForEachDirection) {
     b.advance(microseconds(10));
     short_drive(b, X, 1, 0x21);
     b.advance(microseconds(10));
-    // Started at tick 0 the generator works from tick 3 on: pulses at 18 and 34.
+    // Started at tick 0 the generator runs from tick 3 on: pulses at 18 and 34.
     EXPECT_EQ(log.of("c.xpp"),
               (std::vector<Change>{{"c.xpp", 1, 18}, {"c.xpp", 0, 26}, {"c.xpp", 1, 34}, {"c.xpp", 0, 42}}));
     EXPECT_EQ(log.of("c.xpm"), (std::vector<Change>{{"c.xpm", 1, 98}, {"c.xpm", 0, 106}}));
@@ -123,7 +123,7 @@ TEST(ChipWires, GeneralOutputsFollowWr4AndWr3OrTheDrivesStatus) {
 TEST(ChipEncoder, EveryDivisionCountsItsEdges) {
     const struct {
         unsigned wr2;
-        int up, back;  // EP after 9 counts, and after 5 of them back
+        int up, back;  // EP after 9 counts, and after 5 of them backwards
     } cases[] = {{0x0000, 9, 4}, {0x0400, 5, 2}, {0x0800, 3, 1}, {0x0200, 9, 4}};
     for (const auto& c : cases) {
         Bench b;
@@ -159,7 +159,7 @@ TEST(ChipEncoder, AComparisonWithEpInterruptsWhenTheEncoderPassesIt) {
     b.start();
     b.mode(X, 2, 0x0020);  // compare EP
     b.data(X, 0x0B, 100);
-    wheel.turn(150, b.kernel.now());  // not enabled yet: nothing is remembered
+    wheel.turn(150, b.kernel.now());  // not enabled yet: not latched
     b.mode(X, 1, 0x1800);             // P < C+ and P >= C+
     b.kernel.settle();
     EXPECT_FALSE(b.interrupt());

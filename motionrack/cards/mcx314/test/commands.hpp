@@ -1,4 +1,4 @@
-// Commands with their data as register traffic, for every host of the tests and benchmarks: of a chip, of its twin.
+// Commands with their data as register traffic, for all hosts of the tests and benchmarks: of a chip or its twin.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What the function library and a card owe each other, whatever the card is: run here on a virtual chip, elsewhere on a
-// live port. Only registers and the library are used, nothing is wired, and no duration is taken for exact.
+// Contract between the function library and any card: run here on a virtual chip, elsewhere on a live port. The tests
+// use only registers and the library, need no wiring, and assume no exact durations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -204,7 +204,7 @@ TEST_F(Contract, QuartersAndFullCirclesEndWhereTheyShould) {
     }
 }
 
-/// The maker's sample: straight lines and quarter circles around a rounded square, back to its start.
+/// The maker's sample: straight lines and quarter circles of a rounded square, back to its start.
 TEST_F(Contract, TheMakersContourIsClosed) {
     for (const std::int64_t acceleration : {0, 400}) {
         done(card().LPS(xyzu, 0));
@@ -226,7 +226,7 @@ TEST_F(Contract, TheMakersContourIsClosed) {
     }
 }
 
-/// A staircase of words: what is stacked ahead and what comes while it runs are one path.
+/// A sequence of words: those stacked ahead and those that arrive while it runs form one path.
 TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
     done(card().BP2D({0, 20, 0, 0}, 0x9));
     const BPWORD word{{0xFFFF, 0x00F0}, {0x0000, 0xFF00}};  // X 16 times +; U 4 times +, 8 times -
@@ -236,14 +236,14 @@ TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
     EXPECT_EQ(full.error().kind, ErrorKind::refused);
     done(card().BPStart());
     for (int i = 0; i < 9; ++i) done(card().BPStack(word, contract_patience));
-    done(card().SetOutput(axis_x, 0, true));  // does not disturb it
+    done(card().SetOutput(axis_x, 0, true));  // does not disturb the pattern
     done(
         card().BPStack({{0x0007, 0x0008}, {0x0000, 0x0008}}, contract_patience));  // X three times +, then the end code
     done(card().BPEnd(contract_patience));
     EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 3);
     EXPECT_EQ(card().ReadLPS(3), 12 * -4);
     EXPECT_EQ(card().ReadLPS(1), 0);
-    // The registers are themselves again.
+    // The registers have their own functions again.
     done(card().TCurve_F(axis_x, 10, 500, 400, 5));
     finish(axis_x);
     EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 8);
@@ -331,7 +331,7 @@ TEST_F(Contract, TheEndOfADriveInterruptsAndReadingClearsIt) {
     EXPECT_EQ(card().read_interrupts(1), cause::drive_end);
     EXPECT_EQ(card().read_interrupts(1), 0);
     EXPECT_FALSE(card().interrupt().wait(milliseconds(1)));
-    // A wait hands out what it had to read.
+    // A wait returns the interrupts that it had to read.
     done(card().TCurve_F(axis_y, 10, 500, 400, 200));
     finish(axis_y);
     EXPECT_EQ(card().read_interrupts(1), cause::drive_end);

@@ -1,5 +1,5 @@
-// The contract tests' card here: a virtual chip of its own for each test. MOTIONRACK_VARIANT=mcx314as in the
-// environment makes it the other variant, which must do all that the original does.
+// The card of the contract tests here: a new virtual chip for each test. MOTIONRACK_VARIANT=mcx314as in the environment
+// selects the other variant, which must do everything that the original does.
 #include <cstdlib>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/contract_port.hpp>

@@ -1,4 +1,4 @@
-// Plans against the virtual chip: every pulse at the tick that was planned.
+// Plans against the virtual chip: every pulse at its planned tick.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -24,7 +24,7 @@ std::vector<std::int64_t> planned_pulses(const CurveData& data, CurvePlan& plan)
     return out;
 }
 
-/// The same drive on the chip; a continuous one is stopped when it has its speed, as plan_drive() says.
+/// The same drive on the chip; a continuous one is stopped at its speed, as in plan_drive().
 std::vector<std::int64_t> made_pulses(const CurveData& data) {
     DriverRig rig(true, Duration{0});
     Driver& d = rig.driver;

@@ -1,4 +1,4 @@
-// What the tests of the function library ask of its answers and of the pulses.
+// Checks of the function library's results and of the pulses.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ inline void done(const Result<void>& result) {
     ASSERT_TRUE(result) << result.error().message;
 }
 
-/// Pulses a second between the last pulses of an axis.
+/// Pulses/s between the last pulses of an axis.
 inline double last_rate(const outside::EdgeLog& log, std::size_t pulses) {
     const auto& list = log.list;
     const std::int64_t ticks = list.back().tick - list[list.size() - 1 - pulses].tick;

@@ -1,4 +1,4 @@
-// Lines, arcs, chains and patterns of the function library on a virtual chip: ends, speeds, and what is refused.
+// Lines, arcs, chains and patterns of the function library on a virtual chip: ends, speeds, and refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ TEST(DriverPaths, AChainsLastSegmentThatIsTooShortLowersTheSpeedBefore) {
     EXPECT_EQ(outcome->end_speed, 20);
     rig.deliver_edges();
     EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 60);
-    // Where no segment has room for the fall, that is told.
+    // If no segment has room for the deceleration, it is reported.
     done(d.ContStart({20, 800, 800, 0}));
     done(d.ContLine(0x3, {3'000, 0}));
     done(d.ContLine(0x3, {3, 1}));

@@ -1,4 +1,4 @@
-// What the function library refuses: the range is in the sentence, and no register is written, whichever of several
+// Refusals of the function library: the message contains the range, and no register is written, whichever of several
 // axes is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class StillClock final : public Interrupt {
     Instant now_{};
 };
 
-/// A card that was set up; from then on nothing may be written.
+/// A card that is set up; later writes are errors.
 class Refused : public testing::Test {
   protected:
     void set_up() {
@@ -350,7 +350,7 @@ TEST_F(Refused, RealValuesThatTheChipDoesNotReach) {
     expect_refused(to_pulses({200}, 1e9), "at most 2147483647");
 }
 
-/// Any arguments at all: a call is carried out, or refused without a write.
+/// Arbitrary arguments: a call is executed, or refused without a write.
 TEST_F(Refused, WhateverTheArgumentsARefusalWritesNothing) {
     set_up();
     int writes = 0;

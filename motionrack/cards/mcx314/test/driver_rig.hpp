@@ -1,4 +1,4 @@
-// The function library on a virtual chip in a kernel of its own, with the pulses of every axis written down.
+// The function library on a virtual chip in its own kernel, with the pulses of every axis recorded.
 #pragma once
 
 #include <motionrack/cards/mcx314/chip/chip.hpp>
@@ -18,12 +18,12 @@ class DriverRig {
         kernel.start();
         driver.initialise();
     }
-    /// Moves a wire of the chip.
+    /// Changes a wire of the chip.
     void wire(const std::string& pin, int level) {
         kernel.force(kernel.find_wire("c." + pin), level);
         kernel.settle();
     }
-    /// Pulses of an axis since the start, whatever LP says.
+    /// Pulses of an axis since the start, independent of LP.
     std::int64_t count(int axis) { return chip.pulses(axis).count(kernel.now()); }
     void deliver_edges() {
         for (int i = 0; i < 4; ++i) chip.pulses(i).deliver_edges();

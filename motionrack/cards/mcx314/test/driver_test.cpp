@@ -1,4 +1,4 @@
-// The function library on a virtual chip with wires: what it says, and when the pulses come.
+// The function library on a virtual chip with wires: its messages, and the instants of the pulses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     done(d.wait_until_done(axis_x, patience));
     EXPECT_EQ(d.ReadLPS(0), 30'000);
 
-    // Where the counter was set meanwhile, the pulses made are not known.
+    // If the counter was set in the meantime, the pulses made are unknown.
     done(d.TCurve_F(axis_z, 10, 1'000, 1'000, 4'000));
     done(d.LPS(axis_z, 77));
     const Result<void> unknown = d.change_pulses(2, 5'000);

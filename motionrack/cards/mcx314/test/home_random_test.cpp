@@ -1,6 +1,6 @@
-// The source's four functions of homing on random machines: wherever the axis starts, wherever the switch is, with any
-// input as the origin, with and without an index. Each ends at home or with a sentence, and none runs past a limit.
-// MOTIONRACK_SEED=N picks the machines, MOTIONRACK_HOMINGS=N how many.
+// The source's four homing functions on random machines: with any start position, any switch position, any input as the
+// origin, with and without an index. Each ends at home or with a message, and none passes a limit. MOTIONRACK_SEED=N
+// selects the machines, MOTIONRACK_HOMINGS=N their number.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// How far the rotor was beyond a range, pulses.
+/// Distance of the rotor beyond a range, pulses.
 class Beyond final : sim::PositionListener {
   public:
     Beyond(sim::PositionFunction& rotor, std::int64_t low, std::int64_t high)
@@ -58,8 +58,8 @@ struct Homing {
     std::int64_t pulses_to(double mm) const {
         return static_cast<std::int64_t>(std::floor((mm - axis.start_mm) * pulses_per_mm + 1e-6));
     }
-    /// The switch is so far from the limit that the longest way beyond it ends before: braking, then a turn. Type 2
-    /// ends at the switch itself.
+    /// The switch is far enough from the limit that the longest distance beyond it (deceleration, then a revolution)
+    /// fits. Type 2 ends at the switch itself.
     bool must_succeed() const {
         const std::int64_t room = pulses_to(axis.home_mm) - pulses_to(axis.limit_minus_mm);
         if (type == 2) return room >= 0;
@@ -123,7 +123,7 @@ void expect_an_end(const Homing& homing) {
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
     if (!done) {
         EXPECT_THAT(done.error().message, AllOf(HasSubstr("Axis X is not homed: "), HasSubstr("again.")));
-        // Where an axis comes to rest right at an index, type 3 says so; where that is depends on the ramp.
+        // If an axis stops exactly at an index, type 3 reports it; that position depends on the ramp.
         const bool at_index =
             homing.type == 3 && done.error().message.find("is active where the switch acts") != std::string::npos;
         EXPECT_FALSE(homing.must_succeed() && !at_index) << done.error().message;
@@ -134,7 +134,7 @@ void expect_an_end(const Homing& homing) {
     EXPECT_EQ(rig.driver.ReadEPS(0), 0);
     const bool at_origin = homing.type == 2 || homing.type == 4;
     if (at_origin) {
-        // Where the switch is at a whole pulse, rounding decides whether that one acts.
+        // If the switch is at a whole pulse, rounding decides whether that pulse acts.
         EXPECT_NEAR(static_cast<double>(rig.rotor()), static_cast<double>(homing.pulses_to(homing.axis.home_mm)), 1);
     }
     if (homing.type == 3 && homing.index == Index::wired) {

@@ -1,4 +1,4 @@
-// A machine to be homed: the chip, its driver on a virtual bus, and for each axis motor, leadscrew, limit and home
+// A machine for homing: the chip, its driver on a virtual bus, and for each axis motor, leadscrew, limit and home
 // switches, encoder with index.
 //
 //   driver ──► VirtualPort ──► chip ──pulses──► axis machine ──home──► xin0, ──enc_z──► xin2, ──limits──► xlmtp, xlmtm
@@ -20,7 +20,7 @@ namespace motionrack::mcx314 {
 inline constexpr double pulses_per_mm = 640;
 inline constexpr std::int64_t pulses_per_turn = 3200;
 
-/// 5 mm a turn, 300 mm of travel; the home switch acts at and below 1 mm, limit switches at -8 and 302 mm.
+/// 5 mm per revolution, 300 mm of travel; the home switch acts at and below 1 mm, limit switches at -8 and 302 mm.
 struct RigAxis {
     double start_mm = 20;
     double home_mm = 1;
@@ -30,7 +30,7 @@ struct RigAxis {
     double limit_plus_mm = 302;
     bool wired_home = true;
     bool wired_index = true;
-    int home_level = 0;           ///< of the home switch's wire when it acts
+    int home_level = 0;           ///< level of the home switch's wire while active
     double start_stop_hz = 4000;  ///< jump of the pulse rate that the motor follows
 
     parts::AxisMechanicsSettings machine() const {
@@ -51,7 +51,7 @@ struct RigAxis {
     }
 };
 
-/// A switch that is active only between two places, so that an axis can stand beyond it. Mounted on a machine's table.
+/// A switch that is active only between two positions, so an axis can stop beyond it. Mounted on a machine's table.
 class Cam final : public sim::Device, private sim::PositionListener {
   public:
     /// From `low` to `high`, rotor pulses since the start. The wire `name` is 0 in between.
@@ -110,7 +110,7 @@ class HomeRig {
         }
     }
     void join(sim::WireId from, const std::string& to) { junctions_.join(from, kernel.find_wire(to)); }
-    /// Virtual time begins; the chip is reset, with pulse and direction and limit switches that slow down.
+    /// Starts virtual time; the chip is reset, with pulse and direction and decelerating limit switches.
     void start() {
         kernel.start();
         kernel.run_until(Instant{0});

@@ -1,4 +1,4 @@
-// The source's four functions of homing: their inputs, ways and speeds.
+// The source's four homing functions: their inputs, paths and speeds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 /// WR1Reg: IN0 active Low is the origin, IN2 active High the index.
 constexpr unsigned origin_in0 = 0x0012;
-/// Where the switch of the rig acts, pulses from its start at 20 mm.
+/// Position of the rig's switch, pulses from its start at 20 mm.
 constexpr std::int64_t origin = -19 * 640;
 
 const ChipHomingStateVisit& stay_in(const HomeReport& report, std::string_view state) {
@@ -22,7 +22,7 @@ const ChipHomingStateVisit& stay_in(const HomeReport& report, std::string_view s
     return report.stays.front();
 }
 
-/// Pulses a second of the chip's clock, in a state in which the speed is constant.
+/// Pulses/s of the chip's clock, in a state of constant speed.
 double speed_in(const HomeReport& report, std::string_view state) {
     const ChipHomingStateVisit& stay = stay_in(report, state);
     return std::fabs(static_cast<double>(way_between(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
@@ -102,7 +102,7 @@ TEST(HomingBySource, AnyInputMayBeTheOriginAtEitherLevel) {
 }
 
 TEST(HomingBySource, AnOriginAtTheLimitIsHomeWhereItIsApproachedSlowly) {
-    for (const double above : {0.0, 0.2}) {  // braking takes 400 pulses, 0.6 mm
+    for (const double above : {0.0, 0.2}) {  // decelerating takes 400 pulses, 0.6 mm
         for (const double start : {20.0, -8.0, -8.5}) {
             const RigAxis axis{.start_mm = start, .home_mm = -8 + above};
             HomeRig rig({axis});

@@ -1,4 +1,4 @@
-// Homing interrupted, several axes at once, random places: what is trusted afterwards, and that everything stands.
+// Interrupted homing, several axes at once, random positions: validity of the position afterwards, and standstill.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Looks every millisecond until `until` says so, or the homing has ended.
+/// Polls every millisecond until `until` returns true or the homing has ended.
 template <class Until>
 void step_until(HomeRig& rig, Home& one, Until until) {
     while (one.running() && !until()) {
@@ -180,12 +180,12 @@ TEST(HomingTogether, TheSourcesFunctionsHomeEveryAxisOfTheMask) {
     EXPECT_EQ(rig.rotor(), 0);
 }
 
-// ---- any place, any speed
+// ---- any position, any speed
 
 RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere, ()) {
     const int type = *rc::gen::inRange(1, 6);
     RigAxis axis;
-    axis.home_mm = 1 + *rc::gen::inRange(1, 7) * 0.5;  // never at the index, which is at whole turns of 5 mm
+    axis.home_mm = 1 + *rc::gen::inRange(1, 7) * 0.5;  // never at the index, which is at whole revolutions of 5 mm
     axis.hysteresis_mm = *rc::gen::element(0.0, 0.05, 0.4);
     axis.bounce = *rc::gen::element(Duration{0}, microseconds(300), milliseconds(2));
     HomeSettings s = rig_settings(type);
@@ -193,11 +193,11 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
     s.a = *rc::gen::inRange(50, 400);
     std::set<std::int64_t> ends;
     for (int i = 0; i < 2; ++i) {
-        // Starts on the same grid of turns, so that the index is at the same places of the table.
+        // Starts on the same grid of revolutions, so the index is at the same positions of the table.
         axis.start_mm = 5 * *rc::gen::inRange(-1, 12);
         HomeRig rig({axis});
         rig.start();
-        // Off the grid: where exactly it stands is random, too.
+        // Off the grid: the exact position is random, too.
         const std::int64_t off = *rc::gen::inRange(0, 1500);
         RC_ASSERT(bool(rig.driver.TCurve_F(1, 50, 500, 100, off)));
         RC_ASSERT(bool(rig.driver.wait_until_stopped(1, whole_seconds(10))));
@@ -206,7 +206,7 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         RC_ASSERT(rig.driver.ReadLPS(0) == 0);
         RC_ASSERT(rig.driver.ReadEPS(0) == 0);
         RC_ASSERT(rig.machines[0]->lost_steps() == 0);
-        // The search's edge was where the report says, although contacts bounce and looks are rare.
+        // The edge of the search was at the reported position, despite bounce and rare polls.
         const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) -
                                   static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
         for (const ChipHomingEdge& seen : report->edges) {

@@ -1,4 +1,4 @@
-// Homing on the whole simulated machine: every type from every place, with bounce, missing switches, stops.
+// Homing on the complete simulated machine: every type from every position, with bounce, missing switches, stops.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The states that were gone through, without those that stand.
+/// The states passed, without stationary ones.
 std::string states_of(const HomeReport& report) {
     std::string out;
     for (const ChipHomingStateVisit& stay : report.stays) {
@@ -20,7 +20,7 @@ std::string states_of(const HomeReport& report) {
     return out;
 }
 
-/// The first place at or below 1 mm, in pulses from `start_mm`.
+/// The first position at or below 1 mm, in pulses from `start_mm`.
 std::int64_t switch_pulses(double start_mm) {
     return static_cast<std::int64_t>(640 * (1 - start_mm));
 }
@@ -121,7 +121,7 @@ TEST_P(EachType, EndsAtTheSamePulseFromBesideOnAndAtTheLimit) {
         const Result<HomeReport> done = home(rig.driver, 0, rig_settings(GetParam()));
         ASSERT_TRUE(done) << start << ": " << done.error().message;
         ends.push_back(rig.position());
-        // The index is where the rotor's turns are whole, counted from the start.
+        // The index is at whole revolutions of the rotor, counted from the start.
         if (GetParam() == 3 || GetParam() == 4) {
             EXPECT_EQ(rig.rotor() % pulses_per_turn, 0) << start;
         } else {
@@ -259,7 +259,7 @@ TEST(Homing, RefusesToTrustAnIndexAtTheSwitchItself) {
 
 // ---- starting conditions
 
-/// A cam of 8 mm, its edges in pulses from where the axis starts.
+/// A cam of 8 mm, its edges in pulses from the start of the axis.
 struct CamRig : HomeRig {
     explicit CamRig(std::int64_t low, std::int64_t high)
         : HomeRig({RigAxis{.wired_home = false}}), cam(kernel, "cam", *machines[0], low, high) {
@@ -269,7 +269,7 @@ struct CamRig : HomeRig {
 };
 
 TEST(Homing, BeyondAShortSwitchItTurnsAtTheLimitAndFindsTheSameEdge) {
-    CamRig before(-8000, -7000), beyond(3000, 4000);  // the axis stands 7,000 above it, and 3,000 below it
+    CamRig before(-8000, -7000), beyond(3000, 4000);  // the axis is 7,000 above it, and 3,000 below it
     before.start(), beyond.start();
     for (CamRig* rig : {&before, &beyond}) {
         const Result<HomeReport> done = home(rig->driver, 0, rig_settings(2));
@@ -280,7 +280,7 @@ TEST(Homing, BeyondAShortSwitchItTurnsAtTheLimitAndFindsTheSameEdge) {
 }
 
 TEST(Homing, ASwitchThatIsShorterThanTheBrakingWayIsFoundOnTheWayBack) {
-    CamRig rig(-7060, -7000);  // 60 pulses wide, braking takes 400
+    CamRig rig(-7060, -7000);  // 60 pulses wide, decelerating takes 400
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(2));
     ASSERT_TRUE(done) << done.error().message;

@@ -1,5 +1,5 @@
-// The library as it is declared for forms: the same functions as the C header, ranges that the chip's driver takes too,
-// results in words, and stops that end functions that wait.
+// The library's declaration for forms: the same functions as the C header, ranges accepted by the chip's driver,
+// results as text, and stops that end waiting functions.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -30,7 +30,7 @@ struct LibraryRig : DriverRig {
     Library library{port, port};
 };
 
-/// What a form begins with.
+/// Initial values of a form.
 Arguments starts_of(const FunctionInfo& function) {
     Arguments out;
     for (const ArgumentInfo& one : function.arguments) out[std::string(one.name)] = one.start;
@@ -183,7 +183,7 @@ TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
         if (rig.kernel.now() > Instant{} + milliseconds(500) && !stop.exchange(true)) asked = rig.kernel.now();
     });
     ASSERT_TRUE(rig.call("SetRange", {{"data", 16'000}}));
-    // A ramp of minutes: a stop that decelerated would take as long.
+    // A ramp of minutes: a decelerating stop would take as long.
     ASSERT_TRUE(rig.call("TCurve_C", {{"axis", 5}, {"m_SV", 1}, {"m_V", 8000}, {"m_A", 1}}));
     const Result<CallAnswer> answer = rig.call("wait", {{"axis", 15}, {"milliseconds", 60'000}});
     ASSERT_FALSE(answer);
@@ -192,7 +192,7 @@ TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     EXPECT_FALSE(rig.library.moving());
 }
 
-/// A stop is asked for at the nth access.
+/// A stop is requested at the nth access.
 class StoppedAt final : public RegisterPort {
   public:
     StoppedAt(RegisterPort& port, std::atomic<bool>& stop) : port_(port), stop_(stop) {}
@@ -208,7 +208,7 @@ class StoppedAt final : public RegisterPort {
         return port_.read(offset);
     }
     std::int64_t left = 1'000'000;  ///< accesses before it
-    bool drove_late = false;        ///< a drive was ordered after it
+    bool drove_late = false;        ///< a drive was started after it
 
   private:
     void count() {

@@ -1,4 +1,4 @@
-// Manual operation on the simulated machine, with the time given in.
+// Manual operation on the simulated machine, with the time as an argument.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 struct ManualRig : HomeRig {
     explicit ManualRig(const RigAxis& axis = {}) : HomeRig({axis}), manual(driver, 0) { start(); }
     Instant now() { return port.now(); }
-    /// Lets time pass with a look every millisecond, renewing the jog at `v` unless it is 0.
+    /// Advances the time with a poll every millisecond, renewing the jog at `v` unless it is 0.
     void run(Duration time, std::int64_t v = 0) {
         for (const Instant end = now() + time; now() < end;) {
             if (v != 0) last = manual.jog(v, now());

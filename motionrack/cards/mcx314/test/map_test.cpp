@@ -1,5 +1,4 @@
-// The card's map: constants follow from the tables, the virtual chip is what the map says, and so is the reference
-// page.
+// The card's map: constants follow from the tables, and the virtual chip and the reference page match the map.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -46,7 +45,7 @@ TEST(Mcx314Map, TheStatesOfTheHomeSearchAreThoseThatHmstShows) {
     FAIL() << "the map has no home search";
 }
 
-// Whether a fresh chip takes a command code, or reports that it does not know it.
+// True if a new chip accepts a command code; false if it reports the code as unknown.
 bool chip_knows(std::uint32_t code, Variant variant) {
     sim::Kernel kernel;
     Chip chip(kernel, "c", {variant});

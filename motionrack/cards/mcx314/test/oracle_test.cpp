@@ -1,7 +1,7 @@
-// The event-driven chip against the tick-by-tick twin: random register programs must look the same to the host (every
-// read, the interrupt line), to a motor (the tick and direction of every pulse) and to whoever only asks for counts.
+// The event-driven chip against the tick-by-tick twin: random register programs must give the same result for the host
+// (every read, the interrupt line), for a motor (tick and direction of every pulse) and for listeners of counts only.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr ChipOptions as{Variant::mcx314as};
 
-// How much was compared.
+// Number of compared items.
 struct Compared {
     std::int64_t ticks = 0, pulses = 0, ops = 0, requests = 0, changes = 0;
 };
@@ -33,7 +33,7 @@ std::string fault(const Program& program, const Way& way, Compared* compared = n
     return difference(program, twin, run_on_chip(program, way), way);
 }
 
-// Runs `count` programs from number `first` on, the way that `way_of(number)` says; stops at the first difference.
+// Runs `count` programs from number `first` on, in the mode given by `way_of(number)`; stops at the first difference.
 template <class WayOf>
 void compare(std::uint64_t first, std::uint64_t count, const ChipOptions& options, const WayOf& way_of) {
     const std::uint64_t seed = seed_from_environment();

@@ -1,4 +1,4 @@
-// Makes random register programs.
+// Generation of random register programs.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/program_extension.hpp>
 
@@ -78,7 +78,7 @@ class Maker : private ExtensionActions {
     // ------------------------------------------------------------------------------------------------------------
     void action(std::int64_t theme) {
         if (program_.extended() && random_.one_in(4)) return extension();
-        const bool calm = busy_ < 10;  // drives are mostly left to run
+        const bool calm = busy_ < 10;  // drives are usually not disturbed
         const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
         const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
         if (roll < 26) {
@@ -114,7 +114,7 @@ class Maker : private ExtensionActions {
         if (random_.one_in(3)) data(some, 0x07, pulses());
         command(some, static_cast<int>(random_.one_in(4) ? random_.between(0x22, 0x23) : random_.between(0x20, 0x21)));
     }
-    // One drive whose speed, pulses and offset are rewritten again and again while it runs, with little else.
+    // One drive whose speed, pulses and offset are rewritten repeatedly while it runs, with few other accesses.
     void retarget() {
         const unsigned axis = 1u << random_.between(0, 3);
         const std::int64_t start = start_speed(), r = range();
@@ -195,7 +195,7 @@ class Maker : private ExtensionActions {
         const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
         pull(axis, pin, random_.one_in(3) ? program_.ticks / 8 : 20);
     }
-    // EP moves, perhaps across what it is compared with.
+    // EP moves, sometimes across its comparison value.
     void encoder(int axis) {
         if (random_.one_in(3)) {
             mode(1u << axis, 2, 0x20 | random_.between(0, 7) << 9 | (random_.one_in(2) ? random_.between(0, 3) : 0));
@@ -238,7 +238,7 @@ class Maker : private ExtensionActions {
             case 0:
                 read(0);
                 break;
-            case 6:  // as an interrupt handler does
+            case 6:  // as in an interrupt handler
                 for (unsigned a = 0; a < 4; ++a) {
                     command(1u << a, 0x0F);
                     read(6);

@@ -1,4 +1,4 @@
-// Random register programs for the oracle test: what a host does to the chip and when, sensible and nasty.
+// Random register programs for the oracle test: valid and invalid actions of a host on the chip, with their times.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace motionrack::mcx314::twin {
 
-/// One thing that happens to the chip. An access with `between` = false is at the very instant of `tick` (and so comes
-/// after it), else half a tick later. A wire that changes at the very instant counts for that tick.
+/// One action on the chip. An access with `between` = false is at the very instant of `tick` (and so comes after it),
+/// otherwise half a tick later. A wire that changes at the very instant belongs to that tick.
 struct Op {
     enum class Kind : std::uint8_t { write, read, write_byte, read_byte, input, emergency, step, encoder };
     std::int64_t tick = 0;
     bool between = false;
     Kind kind = Kind::read;
     std::uint8_t offset = 0;  ///< register or port, for accesses; encoder line, 0 A, 1 B
-    std::uint16_t value = 0;  ///< what is written, or the level of the input
-    std::int8_t axis = 0;     ///< of the input
+    std::uint16_t value = 0;  ///< the value written, or the level of the input
+    std::int8_t axis = 0;     ///< axis of the input
     Pin pin = Pin::in0;
 
-    /// Things in the order in which they happen: two halves a tick, wires first.
+    /// Order of actions: two halves per tick, wires first.
     std::int64_t order() const { return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1); }
     bool is_wire() const {
         return kind == Kind::input || kind == Kind::emergency || kind == Kind::step || kind == Kind::encoder;
@@ -31,7 +31,7 @@ struct Op {
 struct Program {
     std::uint64_t seed = 0;
     std::uint64_t number = 0;
-    ChipOptions options;     ///< of the chip that it is for
+    ChipOptions options;     ///< options of its chip
     std::int64_t ticks = 0;  ///< runs to this tick after the last op
     std::vector<Op> ops;
     bool extended() const { return options.variant == Variant::mcx314as; }
@@ -40,10 +40,10 @@ struct Program {
 /// Program `number` of `seed`: always the same.
 Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options = {});
 
-/// The register traffic as text, one line an op.
+/// The register traffic as text, one line per op.
 std::string to_text(const Program& program);
 
-/// splitmix64: small, and the same everywhere.
+/// splitmix64: small, and the same on every machine.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

@@ -1,5 +1,4 @@
-// What random register programs do to an MCX314As besides: extension modes, home searches, synchronous actions,
-// bounces.
+// Random register programs, MCX314As part: extension modes, home searches, synchronous actions, bounce.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/program_paths.hpp>
@@ -108,7 +107,7 @@ class ExtensionActions : protected Paths {
         op.tick = now_, op.between = between_, op.kind = Op::Kind::emergency, op.value = high;
         program_.ops.push_back(op);
     }
-    // A hand wheel of lines A and B at nEXPP and nEXPM; sometimes it trembles.
+    // A hand wheel with lines A and B at nEXPP and nEXPM; sometimes it bounces.
     void turn_wheel() {
         const int axis = static_cast<int>(random_.between(0, 3));
         mode(1u << axis, 3, 0x18 | random_.between(0, 3));
@@ -148,7 +147,7 @@ class ExtensionActions : protected Paths {
         input(axis, Pin::in3, true);
         now_ = back;
     }
-    // A home search with switches that come and go.
+    // A home search with switches that act temporarily.
     void search() {
         const int axis = static_cast<int>(random_.between(0, 3));
         if (random_.one_in(2)) data(1u << axis, 0x60, extension_mode());

@@ -1,4 +1,4 @@
-// Prints register programs as a person would write them down.
+// Prints register programs in readable form.
 #include <cstdio>
 #include <motionrack/cards/mcx314/test/program.hpp>
 

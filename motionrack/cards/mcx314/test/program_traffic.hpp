@@ -1,4 +1,4 @@
-// Random register programs: accesses, 16 bits or 8 bits wide, wires, and time that passes between them.
+// Random register programs: accesses of 16 or 8 bits, wires, and the time between them.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/program_values.hpp>
@@ -21,7 +21,7 @@ class Traffic : protected Values {
         add(Op::Kind::write, offset, value);
         if (random_.one_in(60)) gap();
     }
-    // High, then low, as WR0 needs it; sometimes the other way or one only.
+    // High, then low, as WR0 requires; sometimes reversed or one only.
     void write_bytes(int offset, std::int64_t value) {
         const int first = random_.one_in(12) ? 0 : 1;
         for (const int half : {first, 1 - first}) {
@@ -63,7 +63,7 @@ class Traffic : protected Values {
     unsigned axes() {
         return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15));
     }
-    // The encoder of an axis goes a few edges one way, or a line flickers.
+    // The encoder of an axis makes a few edges in one direction, or a line bounces.
     void turn(int axis) {
         const std::int64_t pause = random_.one_in(3) ? program_.ticks / 100 : 2;
         const int direction = random_.one_in(2) ? 1 : -1;
@@ -79,7 +79,7 @@ class Traffic : protected Values {
         }
     }
 
-    // Low for a while, sometimes for ever.
+    // Low for a while, sometimes permanently.
     void pull(int axis, Pin pin, std::int64_t most) {
         input(axis, pin, false);
         const std::int64_t from = now_;

@@ -1,4 +1,4 @@
-// The numbers that random register programs write: mostly in range and of a size that matters, sometimes anything.
+// Values written by random register programs: mostly in range and of a relevant size, sometimes arbitrary.
 #pragma once
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class Values {
     std::int64_t speed(std::int64_t start) {
         if (nasty_ && random_.one_in(8)) return random_.between(0, 65'535);
         if (random_.one_in(8)) return random_.between(1, 8000);
-        // What a ramp can do within the program, so that it also ends.
+        // Limits a ramp so that it ends within the program.
         const std::int64_t most = s_curve_ ? program_.ticks * program_.ticks / 4'000'000 + 2 : program_.ticks / 12;
         return std::max<std::int64_t>(1, start + random_.between(-most / 8 - 2, std::min<std::int64_t>(most, 2000)));
     }

@@ -14,7 +14,7 @@ void sort_pulses(std::vector<Pulse>& pulses) {
     });
 }
 
-// Wires that move more than once at an instant may move an output along with them; only where that ends counts. A pulse
+// Wires that change more than once at an instant may change an output with them; only the final level counts. A pulse
 // that begins with a change to rest does count.
 void sort_changes(std::vector<Change>& changes) {
     const auto place = [](const Change& c) { return std::tuple(c.half_tick, c.axis, c.pin); };
@@ -32,14 +32,14 @@ void sort_changes(std::vector<Change>& changes) {
 
 namespace {
 
-// Writes down the changes of the twin's output pins.
+// Records the changes of the twin's output pins.
 class Pins {
   public:
     Pins(const Twin& twin, std::vector<Change>& changes) : twin_(twin), changes_(changes) {}
     void look(std::int64_t half_tick) {
         for (int a = 0; a < axis_count; ++a) {
             const unsigned now = twin_.outputs(a), before = std::exchange(levels_[a], now);
-            // A pulse that comes while the one before still lasts begins with a change to rest.
+            // A pulse that comes during the previous one begins with a change to rest.
             const bool pulse = std::exchange(made_[a], twin_.made(a)) != twin_.made(a);
             const unsigned rest = twin_.outputs_at_rest(a);
             for (int pin = 0; pin < output_count; ++pin) {
@@ -59,7 +59,7 @@ class Pins {
     std::array<std::int64_t, axis_count> made_{};
 };
 
-// Where watched ranges are left, from the pulses.
+// Instants at which watched ranges are left, from the pulses.
 void find_crossings(Outcome& out) {
     std::array<std::int64_t, axis_count> count{}, middle{};
     for (const Pulse& pulse : out.pulses) {
@@ -95,7 +95,7 @@ Outcome run_on_twin(const Program& program, bool follow) {
     for (const Op& op : program.ops) {
         const bool wire = op.is_wire();
         const std::int64_t before =
-            op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick counts for it
+            op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick belongs to it
         run_to(before);
         Sight sight;
         switch (op.kind) {

@@ -1,4 +1,4 @@
-// Runs a register program on a chip and writes down all that a host and a motor could see.
+// Runs a register program on a chip and records everything that a host and a motor could observe.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace motionrack::mcx314::twin {
 
-/// Output pins of an axis, and those of them that pulses come on.
+/// Output pins of an axis, and its pulse pins.
 inline constexpr int output_count = 11, pulse_pins = 2;
 
-/// What is seen right after an op (for a read: with its value).
+/// State right after an op (for a read: with its value).
 struct Sight {
     std::uint16_t value = 0;
     bool interrupt = false;
@@ -28,7 +28,7 @@ struct Request {
     friend bool operator==(const Request&, const Request&) = default;
 };
 
-/// Somebody watched a range of an axis' count and was told that it was left.
+/// A notification that a watched range of an axis' count was left.
 struct Crossing {
     std::int64_t tick = 0;
     int axis = 0;
@@ -36,7 +36,7 @@ struct Crossing {
     friend bool operator==(const Crossing&, const Crossing&) = default;
 };
 
-/// A change of an output pin that somebody follows.
+/// A change of a followed output pin.
 struct Change {
     std::int64_t half_tick = 0;
     int axis = 0;
@@ -45,26 +45,26 @@ struct Change {
     friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// How far the watched range number `n` of an axis reaches to both sides of the count at which it is set.
+/// Half width of the watched range number `n` of an axis around its count.
 constexpr std::int64_t reach(int axis, std::size_t n) {
     return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61);
 }
 
 struct Outcome {
-    std::vector<Sight> sights;  ///< one an op
-    std::vector<Pulse> pulses;  ///< by tick, then axis; only if they were listened to
+    std::vector<Sight> sights;  ///< one per op
+    std::vector<Pulse> pulses;  ///< by tick, then axis; only with a listener
     std::vector<Request> requests;
-    std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
-    std::vector<Change> changes;                              ///< by instant, axis, pin; only if somebody followed
+    std::array<std::vector<Crossing>, axis_count> crossings;  ///< only with a watch
+    std::vector<Change> changes;                              ///< by instant, axis, pin; only with a follower
     std::uint64_t conditions = 0;                             ///< reported since the start
 };
 
-/// How a program is run: all ways must give the same outcome.
+/// Run modes of a program; all must give the same outcome.
 struct Way {
-    bool listen = true;           ///< somebody listens to the edges
-    bool watch = false;           ///< somebody watches ranges of the counts
-    bool follow = false;          ///< somebody follows the output pins
-    std::uint64_t slices = 0;     ///< seed of random cuts of the run between ops; 0: none
+    bool listen = true;           ///< with an edge listener
+    bool watch = false;           ///< with watches of the counts
+    bool follow = false;          ///< with followers of the output pins
+    std::uint64_t slices = 0;     ///< seed of random divisions of the run between ops; 0: none
     std::size_t snapshot_at = 0;  ///< after this op the chip is saved, disturbed and restored; 0: never
 };
 
@@ -76,7 +76,7 @@ Outcome run_on_twin(const Program& program, bool follow = false);
 /// By instant, axis, pin.
 void sort_changes(std::vector<Change>& changes);
 
-/// The first difference in words, or "" if there is none; of pulses and crossings only if they were listened to.
+/// The first difference as text, or "" if there is none; of pulses and crossings only with listeners.
 std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way);
 
 }  // namespace motionrack::mcx314::twin

@@ -1,5 +1,5 @@
-// Laws of S-shaped ramps that no writing of their rules feeds: how fast a ramp ends, how long it takes, that it falls
-// as it rose, and that no acceleration is left at its end. The formulas are the maker's; the ramps are the chip's.
+// Laws of S-shaped ramps, independent of the rules: maximum end speed, duration, symmetry of acceleration and
+// deceleration, and zero acceleration at the end. The formulas are the maker's; the ramps are the chip's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace motionrack::mcx314 {
 namespace {
 
-/// With AO as it is after a reset.
+/// With AO at its reset value.
 CurveData s_shaped(std::int64_t range, std::int64_t start, std::int64_t top, std::int64_t accel, std::int64_t k,
                    std::int64_t pulses) {
     CurveData data{range, start, top, accel, accel, k, 8};
@@ -27,7 +27,7 @@ std::int64_t step_of(const CurveData& data) {
     return 16 * data.K;
 }
 
-/// Ticks of a ramp: J = 4 (V - SV) / ta^2 where the acceleration stays below A, else with a straight middle at A.
+/// Ticks of a ramp: J = 4 (V - SV) / ta^2 if the acceleration stays below A, otherwise with a straight middle at A.
 double ticks_by_the_formula(const CurveData& data) {
     const auto gained = static_cast<double>(data.V - data.SV), accel = static_cast<double>(data.A);
     const double jerk = 1.0 / 64'000 / static_cast<double>(step_of(data));  // speed units a tick, a tick
@@ -71,7 +71,7 @@ TEST(SCurveLaw, AMotorThatStartsAtAFifthMoreThanTheStartSpeedLosesNothing) {
     }
 }
 
-/// Ramps of at least ten rates, as a curve of two rates has no shape.
+/// Ramps of at least ten rates, because a curve of two rates has no shape.
 CurveData any_ramp() {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     const auto from = [&](std::int64_t least, std::int64_t most) {
@@ -92,7 +92,7 @@ RC_GTEST_PROP(SCurveLaw, ARampTakesTheTimeOfTheFormulaAndFallsAsItRose, ()) {
     RC_ASSERT(std::fabs(static_cast<double>(rise.ticks) - formula) <= 0.01 * formula + step);
     RC_ASSERT(std::fabs(static_cast<double>(fall.ticks) - formula) <= 0.01 * formula + step);
     RC_ASSERT(std::fabs(static_cast<double>(rise.ticks - fall.ticks)) <= step);
-    // What is run through is the mean of the speeds times the time.
+    // The distance is the mean of the speeds times the time.
     const double mean = 0.5 * static_cast<double>(data.V + data.SV);
     RC_ASSERT(std::fabs(static_cast<double>(rise.phase) - mean * formula) <= 0.02 * mean * formula + mean * step);
     RC_ASSERT(std::fabs(static_cast<double>(fall.phase) - mean * formula) <= 0.02 * mean * formula + mean * step);

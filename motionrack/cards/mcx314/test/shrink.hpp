@@ -1,4 +1,4 @@
-// Makes a failing program small: drops ops while it still fails.
+// Shrinks a failing program: drops ops while it still fails.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace motionrack::mcx314::twin {
 
-/// `fails(program)`: true while the fault shows. Tries at most `most` programs.
+/// `fails(program)`: true while the fault occurs. Tries at most `most` programs.
 template <class Fails>
 Program shrink(Program program, const Fails& fails, int most = 3000) {
     for (std::size_t piece = std::max<std::size_t>(program.ops.size() / 2, 1); most > 0;) {

@@ -1,4 +1,4 @@
-// The twin's tick: inputs, pulse and what a pulse may end.
+// The twin's tick: inputs, pulse and the consequences of a pulse.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -51,13 +51,13 @@ void Twin::work(int a) {
 
 // ---- step 1
 
-// Does generator `a` step axis `other` in the present segment (or is it its own)?
+// True if generator `a` steps axis `other` in the present segment (or is its own).
 bool Twin::moves_with(int a, int other) const {
     if (axes_[a].gen.kind != Generator::Kind::path) return a == other;
     return (path_.segment().mask() >> other & 1) != 0;
 }
 
-// The stop causes of one axis as bits of RR1, and what they ask for.
+// Stop causes of one axis as bits of RR1, and the stop that they request.
 std::uint16_t Twin::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i) {
@@ -89,7 +89,7 @@ bool Twin::beyond_software_limit(const Axis& axis) const {
     return bit(axis.wr2, 1) && counter < axis.comp_minus;
 }
 
-// True if the drive ended.
+// Returns true if the drive ended.
 bool Twin::inputs(int a) {
     Generator& gen = axes_[a].gen;
     bool decelerating = gen.ask_decelerating;
@@ -104,7 +104,7 @@ bool Twin::inputs(int a) {
     return stop(a, decelerating, immediate);
 }
 
-// A stop is accepted; true if it ended the drive.
+// Accepts a stop; returns true if it ended the drive.
 bool Twin::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = axes_[a].gen;
     if (!decelerating && !immediate) return false;
@@ -137,7 +137,7 @@ void Twin::end(int a) {
 
 // ---- step 2
 
-// A pulse of the generator; true if the drive ended with it.
+// Executes a pulse of the generator; returns true if the drive ended with it.
 bool Twin::pulse(int a) {
     Generator& gen = axes_[a].gen;
     ++gen.n;
@@ -170,7 +170,7 @@ void Twin::show_pulse(int a) {
             axes_[i].pulse_end = now_ + std::max<std::int64_t>(1, gen.range_now / gen.speed / 2);
 }
 
-// Moves the axes of one pulse; returns how many moved.
+// Moves the axes of one pulse; returns the number of axes moved.
 int Twin::step_axes(int a) {
     if (axes_[a].gen.kind != Generator::Kind::path) return move(a, axes_[a].direction), 1;
     if (path_.is_pattern()) return step_pattern();
@@ -188,7 +188,7 @@ int Twin::step_axes(int a) {
     return moved;
 }
 
-// The next step of the running word; returns how many axes moved, at least one.
+// Executes the next step of the running word; returns the number of axes moved, at least one.
 int Twin::step_pattern() {
     const Pattern::Step step = pattern_.pop();
     const Segment& segment = path_.segment();
@@ -236,7 +236,7 @@ void Twin::move(int a, int direction) {
     compare(a);
 }
 
-// The running segment is done: the queued one takes over, or the drive ends (true).
+// Ends the running segment: the queued one takes over, or the drive ends (returns true).
 bool Twin::segment_end(int a) {
     if (!queued_) return end(a), true;
     queued_ = false;
@@ -266,7 +266,7 @@ void Twin::begin_segment(const Segment& segment) {
         if (path_.direction(i) != 0) axes_[segment.axis[i]].direction = path_.direction(i);
 }
 
-// ---- when the final deceleration begins
+// ---- start of the final deceleration
 
 void Twin::check_final(int a) {
     const Axis& axis = axes_[a];

@@ -1,4 +1,4 @@
-// The MCX314 tick by tick: plain, slow and obviously right, written from RULES.md alone. It is the oracle of the
+// The MCX314 tick by tick: simple, slow and evidently correct, written from RULES.md alone. It is the oracle of the
 // event-driven model's tests and the baseline of the benchmarks.
 //
 //     write / read            tick n: 1 inputs ─► 2 pulse ─► 3 speed, for every driving generator
@@ -31,13 +31,13 @@ struct Pulse {
     friend bool operator==(const Pulse&, const Pulse&) = default;
 };
 
-/// The parameter registers, as written (cut to their width, not to their range).
+/// The parameter registers, as written (truncated to their width, not limited to their range).
 struct Parameters {
     std::uint32_t range = 0, jerk = 0, decel_jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0;
     std::uint32_t pulses = 0, decel_point = 0, centre = 0, offset = 8;
 };
 
-/// One generator at work.
+/// A running generator.
 struct Generator {
     enum class Kind : std::uint8_t { idle, fixed, continuous, path };
     enum class Phase : std::uint8_t { increasing, constant, decreasing };
@@ -52,7 +52,7 @@ struct Generator {
     Phase phase = Phase::increasing;
     bool final = false, final_seen = false, stopping = false, constant = false;
     bool no_triangle = false;
-    bool ask_decelerating = false, ask_immediate = false;  ///< commands 26h and 27h, taken at the next working tick
+    bool ask_decelerating = false, ask_immediate = false;  ///< commands 26h and 27h, applied at the next working tick
 };
 
 /// One axis: its registers, counters, inputs and generator.
@@ -64,11 +64,11 @@ struct Axis {
     std::uint16_t causes = 0;    ///< stop causes of the running drive, RR1 D8-D15
     std::uint16_t finished = 0;  ///< RR1 D8-D15
     std::uint16_t flags = 0;     ///< RR3
-    unsigned compared = 0;       ///< the four comparisons as they were, in the bits of RR3
+    unsigned compared = 0;       ///< previous results of the four comparisons, in the bits of RR3
     bool waits_position = false;
-    std::array<bool, 2> lines{true, true}, heard{true, true};  ///< encoder lines A and B, and as they were counted
+    std::array<bool, 2> lines{true, true}, heard{true, true};  ///< encoder lines A and B, and their counted levels
     std::array<int, 2> low{3, 3};                              ///< ticks, up to 3, since nEXPP, nEXPM were seen High
-    std::int64_t pulse_end = 0;                                ///< the tick at which the last pulse on its wire is over
+    std::int64_t pulse_end = 0;                                ///< tick at which the last pulse on its wire ends
     int pulse_direction = +1;
     int external = -1;  ///< 0, 1: nEXPP, nEXPM drives until it is High
     bool hold = false;
@@ -78,7 +78,7 @@ struct Axis {
     Generator gen;
     Extension as;
 
-    /// What the chip sees of an input.
+    /// Level of an input as the chip sees it.
     bool level(Pin which) const {
         const auto i = static_cast<std::size_t>(which);
         return as.filters(which) ? as.filter[i].out : pin[i];
@@ -96,7 +96,7 @@ class Twin {
     std::uint16_t read(std::uint32_t offset);
     std::uint16_t peek(std::uint32_t offset) const;
 
-    /// Levels count from the next tick on (and in the status registers at once).
+    /// Levels apply from the next tick on (and at once in the status registers).
     void set_input(int axis, Pin pin, bool level) { axes_[axis].pin[static_cast<int>(pin)] = level; }
     void set_emergency(bool level) { emgn_ = level; }
     void set_step(bool level) { expls_ = level; }
@@ -129,7 +129,7 @@ class Twin {
     unsigned outputs(int a) const { return outputs(a, now_ < axes_[a].pulse_end); }
     /// The same without a pulse.
     unsigned outputs_at_rest(int a) const { return outputs(a, false); }
-    /// Conditions since the start: commands that were ignored, and patterns whose data ran out.
+    /// Conditions since the start: ignored commands, and patterns whose data ran out.
     std::uint64_t conditions() const { return conditions_; }
 
     /// Pulses are recorded unless switched off.
@@ -159,7 +159,7 @@ class Twin {
     bool moves_with(int a, int other) const;
     void begin_segment(const Segment& segment);
 
-    // twin_wires.cpp: wires that ask for drives and steps
+    // twin_wires.cpp: wires that request drives and steps
     void look_at_wires();
     void look_at_external(int a);
     void look_at_wheel(int a);
@@ -168,7 +168,7 @@ class Twin {
     bool by_steps(int a) const;
     bool halted(int a) const { return by_steps(a) && !step_under_way_; }
 
-    // What only the MCX314As has. twin_extension.cpp
+    // MCX314As only. twin_extension.cpp
     bool extended_command(int code, unsigned axes);
     void extended_write(int code, int a);
     void sample();
@@ -237,7 +237,7 @@ class Twin {
     Filter emergency_filter_, step_filter_;
     unsigned selected_ = 1;
     std::uint16_t wr4_ = 0, wr5_ = 0, wr6_ = 0, wr7_ = 0, rr6_ = 0, rr7_ = 0;
-    // The interpolation: the axes of its chain (0: none runs), whose generator, the running segment and the queued one.
+    // The interpolation: axes of its chain (0: none), generator, running and queued segment.
     unsigned chain_ = 0;
     int master_ = 0;
     Path path_;
@@ -257,7 +257,7 @@ class Twin {
     std::vector<Pulse> pulses_;
 };
 
-/// A register as the generator uses it: held inside its documented range.
+/// A register as the generator uses it: limited to its documented range.
 constexpr std::int64_t used(std::uint32_t written, std::int64_t low, std::int64_t high) {
     return written < low ? low : written > high ? high : written;
 }

@@ -1,4 +1,4 @@
-// The twin's register bus: what a write does.
+// The twin's register bus: effects of writes.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 

@@ -1,4 +1,4 @@
-// What only an MCX314As's twin does: its commands, samples of the inputs, counters in rings, its decelerations, the
+// The MCX314As part of the twin: its commands, samples of the inputs, counters in rings, its decelerations, the
 // deviation counter clear pulse.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
@@ -95,12 +95,12 @@ void Twin::set_ep(Axis& axis, std::uint32_t value) {
 
 // ---- drives
 
-// Does the automatic deceleration reckon with D?
+// True if the automatic deceleration uses D.
 bool Twin::weighs(const Axis& axis) const {
     return extended_ && axis.gen.own_decel && !axis.gen.s_curve;
 }
 
-// The pulses that a deceleration is reckoned to take.
+// Estimated pulses of a deceleration.
 std::int64_t Twin::final_pulses(const Axis& axis) const {
     const std::int64_t pulses = axis.gen.accel_pulses;
     if (!weighs(axis)) return pulses;

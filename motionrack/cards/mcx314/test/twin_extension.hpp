@@ -1,4 +1,4 @@
-// What an axis of the twin has besides when it is one of an MCX314As.
+// Additional state of an MCX314As axis of the twin.
 #pragma once
 
 #include <array>
@@ -6,11 +6,11 @@
 
 namespace motionrack::mcx314::twin {
 
-/// The input pins of one axis, by name; all rest High.
+/// The input pins of one axis, by name; all High at rest.
 enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
 inline constexpr int pin_count = 10;
 
-/// An input behind a filter: what the chip sees, and how many samples in a row were different.
+/// An input with a filter: the level in the chip, and the number of consecutive different samples.
 struct Filter {
     bool out = true;
     std::int64_t different = 0;
@@ -29,9 +29,9 @@ struct Extension {
     std::array<Filter, pin_count> filter;
     bool in2_before = true, in3_before = true;  ///< at the last sample
     bool wheel_before = true;                   ///< nEXPP at the last tick, or at the write of WR3
-    std::int64_t clear_until = 0;               ///< the tick at which the deviation counter clear pulse is over
-    std::int64_t cap = 0;                       ///< a drive without triangle goes no faster; 0: it may
-    bool acts = false;                          ///< a condition of SM6 has come
+    std::int64_t clear_until = 0;               ///< tick at which the deviation counter clear pulse ends
+    std::int64_t cap = 0;                       ///< speed cap of a drive without triangle; 0: none
+    bool acts = false;                          ///< a condition of SM6 has occurred
     int hmst = 0;                               ///< state of the home search, 0: none
     bool found = false, seen = false, cancelled = false, cleared = false, error = false;
 

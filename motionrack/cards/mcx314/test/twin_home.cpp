@@ -1,4 +1,4 @@
-// The twin's automatic home search, state by state as RULES.md tells it.
+// The twin's automatic home search, state by state as in RULES.md.
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
 namespace motionrack::mcx314::twin {
@@ -12,7 +12,7 @@ bool Twin::at_limit(const Axis& axis, int direction) const {
     return axis.level(Pin::limit_minus) == ((axis.wr2 >> 4 & 1) != 0);
 }
 
-// Is what this step waits for there?
+// True if the event that this step waits for has occurred.
 bool Twin::home_input(const Axis& axis, int step) const {
     const bool in0 = axis.level(Pin::in0) == ((axis.wr1 >> 0 & 1) != 0);
     const bool in1 = axis.level(Pin::in1) == ((axis.wr1 >> 2 & 1) != 0);
@@ -22,7 +22,7 @@ bool Twin::home_input(const Axis& axis, int step) const {
     return step == 1 ? in0 : in1;
 }
 
-// Does the search stop its drive in this tick?
+// True if the search stops its drive in this tick.
 bool Twin::home_stops(Axis& axis) {
     Extension& as = axis.as;
     if (as.hmst == 0 || as.hmst == step_4) return false;
@@ -46,7 +46,7 @@ void Twin::start_home(int a) {
     begin_home_step(a, 1);
 }
 
-// Goes on with the first step from this one on that is to be done.
+// Continues with the first enabled step from this one on.
 void Twin::begin_home_step(int a, int step) {
     Axis& axis = axes_[a];
     Extension& as = axis.as;

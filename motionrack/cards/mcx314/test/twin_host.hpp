@@ -1,4 +1,4 @@
-// A little host for the twin: the register traffic of a command in one call.
+// A small host for the twin: the register traffic of a command in one call.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/commands.hpp>
@@ -22,7 +22,7 @@ class Host : public Commands<Host> {
         data(axes, 0x01, k);
         data(axes, 0x0D, ao);
     }
-    /// Ticks until nothing drives, at most `most`; returns the ticks it took.
+    /// Runs until no axis drives, at most `most` ticks; returns the ticks needed.
     std::int64_t until_idle(std::int64_t most) {
         const std::int64_t from = twin.now();
         while (twin.any_driving() && twin.now() - from < most) twin.tick();

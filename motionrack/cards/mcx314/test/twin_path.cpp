@@ -7,15 +7,15 @@ namespace motionrack::mcx314::twin {
 
 namespace {
 
-// In octant k: which coordinate (0: x, 1: y) steps at every pulse, which way, and on which side of zero the other one
-// is.
+// In octant k: the coordinate (0: x, 1: y) that steps at every pulse, its direction, and the sign of the other
+// coordinate.
 struct Octant {
     int short_axis, short_step, long_side;
 };
 constexpr std::array<Octant, 8> octants{
     {{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1}, {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
 
-// Counter-clockwise, x falls in the upper half and y falls in the left half.
+// Counter-clockwise, x decreases in the upper half and y decreases in the left half.
 constexpr int direction_in(int octant, int coordinate) {
     if (coordinate == 0) return octant < 4 ? -1 : +1;
     return octant >= 2 && octant < 6 ? -1 : +1;

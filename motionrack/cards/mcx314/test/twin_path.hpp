@@ -13,7 +13,7 @@
 
 namespace motionrack::mcx314::twin {
 
-/// What an interpolation command captures: the axes, their finish points and the centre, all in pulses from the start
+/// Parameters of an interpolation command: the axes, their finish points and the centre, all in pulses from the start
 /// point.
 struct Segment {
     enum class Kind : std::uint8_t { line, arc_cw, arc_ccw, pattern };
@@ -30,24 +30,23 @@ struct Segment {
     bool names_an_axis_twice() const;
 };
 
-/// One segment being drawn.
+/// State of one segment.
 class Path {
   public:
     void begin(const Segment& segment);
-    /// One basic pulse of a line or an arc; sets `step[i]` to -1, 0 or +1 for AX(i+1).
+    /// Executes one basic pulse of a line or an arc; sets `step[i]` to -1, 0 or +1 for AX(i+1).
     void step(std::array<int, 3>& step);
     bool finished() const { return finished_; }
-    /// Basic pulses a line has left.
+    /// Remaining basic pulses of a line.
     std::int64_t left() const { return longest_ - n_; }
     std::int64_t done() const { return n_; }
     bool is_line() const { return segment_.kind == Segment::Kind::line; }
     bool is_pattern() const { return segment_.kind == Segment::Kind::pattern; }
     bool is_arc() const { return !is_line() && !is_pattern(); }
     const Segment& segment() const { return segment_; }
-    /// What RR0.ZONE shows, 0..7.
+    /// Value of RR0.ZONE, 0..7.
     int zone() const;
-    /// The direction in which AX(i+1) goes: the sign of its finish point, in an arc that of the present octant; 0: it
-    /// does not move.
+    /// Direction of AX(i+1): the sign of its finish point, in an arc that of the present octant; 0: it is stationary.
     int direction(int i) const;
 
   private:

@@ -1,4 +1,4 @@
-// The twin's bit pattern: registers, a stack of three words and the steps that are left of the running one.
+// The twin's bit pattern: registers, a stack of three words and the remaining steps of the running word.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class Pattern {
 
     /// BPSC.
     int counter() const { return static_cast<int>(stack_.size()); }
-    /// 38h; false: it is full.
+    /// 38h; returns false if the stack is full.
     bool stack() {
         if (counter() >= 3) return false;
         stack_.push_back(registers);
@@ -39,7 +39,7 @@ class Pattern {
         running_.clear();
     }
     bool running() const { return !running_.empty(); }
-    /// The oldest stacked word becomes the running one; false: there is none.
+    /// Makes the oldest stacked word the running one; returns false if there is none.
     bool take() {
         running_.clear();
         if (stack_.empty()) return false;
@@ -54,7 +54,7 @@ class Pattern {
         stack_.pop_front();
         return true;
     }
-    /// The next step is made.
+    /// Executes the next step.
     Step pop() {
         const Step step = running_.front();
         running_.pop_front();

@@ -1,4 +1,4 @@
-// The twin's third step: the speed moves towards its target, by a straight or an S-shaped ramp.
+// The twin's third step: the speed approaches its target on a straight or an S-shaped ramp.
 #include <cstdlib>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -10,7 +10,7 @@ constexpr std::uint16_t flag_constant_end = 1u << 5;
 constexpr std::uint16_t flag_constant_start = 1u << 6;
 }  // namespace
 
-// True if the drive ended.
+// Returns true if the drive ended.
 bool Twin::speed_step(int a) {
     Axis& axis = axes_[a];
     Generator& gen = axis.gen;
@@ -25,7 +25,7 @@ bool Twin::speed_step(int a) {
     return false;
 }
 
-// V, or what stands for it: HV in slow drives of a home search, no more than the cap where a triangle is avoided.
+// V, or its replacement: HV in slow drives of a home search, at most the cap if a triangle is avoided.
 std::int64_t Twin::drive_speed(const Axis& axis) const {
     std::int64_t v = axis.as.slow() ? used(axis.as.hv, 1, 8'000) : used_speed(axis.reg);
     if (!axis.as.slow() && axis.as.cap != 0 && axis.as.cap < v) v = axis.as.cap;
@@ -85,10 +85,10 @@ std::int64_t s_jerk(const Axis& axis, bool extended) {
     return 16 * used_jerk(own_jerk ? axis.reg.decel_jerk : axis.reg.jerk);
 }
 
-// The third step of the rules; true where the aim is reached.
+// The third step of the rules; returns true if the target is reached.
 bool s_tick(Generator& gen, std::int64_t limit, std::int64_t jerk_ticks) {
     using Phase = Generator::Phase;
-    // What the speed has still to change by, in parts of which 64,000 are a step.
+    // Remaining change of the speed, in parts of 1/64,000 of a step.
     const auto left = [&gen] { return std::abs(gen.aim - gen.speed) * speed_carry - gen.speed_part; };
     if (gen.phase == Phase::increasing) {
         ++gen.rate_part;
@@ -133,7 +133,7 @@ void Twin::s_curve(int a) {
     if (gen.ramp != 0) s_advance(a);
 }
 
-// The final deceleration begins in this tick: a rising ramp is dropped, a falling one gets a new aim.
+// The final deceleration begins in this tick: an accelerating ramp is dropped, a decelerating one gets a new target.
 void Twin::s_turn_final(int a) {
     Generator& gen = axes_[a].gen;
     const std::int64_t to = target(a);

@@ -1,4 +1,4 @@
-// The twin's registers as a read shows them, and its output pins.
+// The twin's register reads, and its output pins.
 #include <motionrack/cards/mcx314/test/twin.hpp>
 #include <utility>
 

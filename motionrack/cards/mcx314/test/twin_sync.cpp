@@ -3,7 +3,7 @@
 
 namespace motionrack::mcx314::twin {
 
-// A condition, as a bit of SM6, has come.
+// A condition, as a bit of SM6, has occurred.
 void Twin::note(int a, unsigned condition) {
     if (axes_[a].as.sm6 & condition) axes_[a].as.acts = true;
 }

@@ -1,4 +1,4 @@
-// The twin against what the maker's documents say: formulas, accuracy classes and the sample program's closed contour.
+// The twin against the maker's documents: formulas, accuracy classes and the sample program's closed contour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned x = 1, y = 2, z = 4;
 constexpr double second = 8e6;
 
-// Where some axes were after each tick with a pulse.
+// Positions of some axes after each tick with a pulse.
 std::vector<std::array<std::int64_t, 4>> places(const std::vector<Pulse>& pulses) {
     std::vector<std::array<std::int64_t, 4>> out(1);
     std::int64_t tick = -1;
@@ -30,7 +30,7 @@ std::vector<std::array<std::int64_t, 4>> places(const std::vector<Pulse>& pulses
 
 TEST(Mcx314Twin, DrivesTheMakersTrapezoidInTheTimeOfTheFormula) {
     // R 800,000 (M = 10), A = 200: 250,000 pps/s from 1,000 to 40,000 pps in 0.156 s and 3,198 pulses; 80,000 pulses
-    // in 2.1521 s. Fewer leave out a part of the time at 40,000 pps.
+    // in 2.1521 s. Fewer pulses shorten the time at 40,000 pps.
     const std::int64_t pulses = thorough() ? 80'000 : 10'000;
     Host host;
     host.speeds(x, 800'000, 4000, 100, 200, 200, 1010, 0);
@@ -176,7 +176,7 @@ TEST(Mcx314Twin, KeepsACircleWithinHalfAPulseAndComesBack) {
 }
 
 TEST(Mcx314Twin, StretchesThePulsePeriodWhenAxesStepTogether) {
-    // 45 degrees: both axes at every basic pulse, so the constant vector speed takes R2 = 1.41421 R1 from the second
+    // 45 degrees: both axes at every basic pulse, so the constant vector speed uses R2 = 1.41421 R1 from the second
     // pulse on.
     Host host;
     host.data(x | y, 0x00, 800'000);

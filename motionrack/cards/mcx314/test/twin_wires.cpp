@@ -1,4 +1,4 @@
-// The twin's wires that ask for something (nEXPP, nEXPM, EXPLSN), and the pulses and outputs that it shows.
+// The twin's request wires (nEXPP, nEXPM, EXPLSN), and its pulses and outputs.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -10,7 +10,7 @@ constexpr bool twin_drives_by_wire(const Axis& axis) {
 }
 }  // namespace
 
-// The end of a tick: inputs that ask for a drive, then EXPLSN.
+// The end of a tick: inputs that request a drive, then EXPLSN.
 void Twin::look_at_wires() {
     for (int a = 0; a < axis_count; ++a)
         if (twin_drives_by_wire(axes_[a]))
@@ -54,7 +54,7 @@ void Twin::write_wr3(Axis& axis, std::uint16_t value) {
     if (axis.external >= 0 && (value & 0x18) != 0x08) axis.gen.ask_decelerating = true;
 }
 
-// What the encoder lines that have changed count.
+// Counts the changes of the encoder lines.
 void Twin::hear_encoders() {
     for (int a = 0; a < axis_count; ++a) {
         Axis& axis = axes_[a];
@@ -77,7 +77,7 @@ void Twin::hear_encoders() {
     }
 }
 
-// Asked by 3Ah or by EXPLSN; false: nothing waits for it.
+// Requested by 3Ah or by EXPLSN; returns false if no segment waits for it.
 bool Twin::ask_step(Segment::Steps by) {
     if (chain_ == 0 || step_under_way_ || (path_.segment().steps & by) == 0) return false;
     step_under_way_ = true;

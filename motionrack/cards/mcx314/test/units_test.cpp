@@ -1,4 +1,4 @@
-// Real units: what is asked comes out as near as the registers allow, and the rounding is told truly.
+// Physical units: results are as near to the request as the registers allow, and the stated rounding is true.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -14,7 +14,7 @@ double any(double least, double greatest) {
     return least + (greatest - least) * part;
 }
 
-/// What a register can hold is at most half a unit away, unless it is at the end of its range.
+/// A register value is at most half a unit off, unless it is at the end of its range.
 void near(const Rounded& value, double unit, std::int64_t least, std::int64_t greatest) {
     RC_ASSERT(value.value >= least);
     RC_ASSERT(value.value <= greatest);
@@ -43,14 +43,14 @@ TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
         near(set->acceleration, 125 * unit, 1, 8'000);
         near(set->deceleration, 125 * unit, 1, 8'000);
         if (set->s_curve) RC_ASSERT(set->jerk.value >= 1 && set->jerk.value <= 65'535);
-        // The speed is reached, and missed by no more than one part of R (but where even V = 1 is too fast).
+        // The speed is reached, with an excess of at most one step of R (unless even V = 1 is too fast).
         RC_ASSERT(set->speed.error() >= -1e-9);
         if (set->speed.value > 1) RC_ASSERT(set->speed.error() <= 1.0 / 15'999);
-        // Nothing asked for is out of reach.
+        // Every requested value is within reach.
         for (const Rounded* value : {&set->start_speed, &set->acceleration, &set->deceleration})
             RC_ASSERT(value->value < 8'000 || value->error() > -1e-4);
-        // A multiple finer by 1/4,000 would not do: V, or another value, would be above its range, or the range is at
-        // its end.
+        // A multiple finer by 1/4,000 would not suffice: V, or another value, would exceed its range, or the range is
+        // at its end.
         const double least = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
                                        drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
                                        drive.jerk * pulses / 62.5e6});
@@ -72,7 +72,7 @@ TEST(Units, RegistersGoBackToTheValuesThatWereTold) {
         RC_ASSERT(same(back.acceleration, set->acceleration.real));
         if (set->asymmetric) RC_ASSERT(same(back.deceleration, set->deceleration.real));
         RC_ASSERT(same(back.jerk, set->jerk.real));
-        // What the registers hold is found again with the same range.
+        // The register values are found again with the same range.
         const auto again = real_setting_at(scale, back, set->R);
         RC_ASSERT(again.has_value());
         RC_ASSERT(again->speed.value == set->speed.value);
@@ -82,7 +82,7 @@ TEST(Units, RegistersGoBackToTheValuesThatWereTold) {
     }));
 }
 
-/// The scaling table: R, M, and what 1 and the greatest value of each register are.
+/// The scaling table: R, M, and the meaning of 1 and of the maximum of each register.
 TEST(Units, TheScalingTable) {
     struct Row {
         std::int64_t r;
@@ -149,7 +149,7 @@ TEST(Units, AnAxisMovesInMillimetresAsPlanned) {
         ASSERT_TRUE(rig.driver.stop(axis_y, StopKind::slow));
         ASSERT_TRUE(rig.driver.wait_until_done(axis_y, whole_seconds(10)));
         EXPECT_LT(axis.position(), 80);
-        // Another end on the way, counted from where the move began.
+        // A new end during the move, relative to its start.
         const double from = axis.position();
         ASSERT_TRUE(axis.move(50));
         while (!rig.driver.axis_status(1).constant()) rig.port.pass(milliseconds(1));

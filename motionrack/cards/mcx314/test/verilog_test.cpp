@@ -1,5 +1,5 @@
-// The axis generator written in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the
-// event-driven chip: a third writing of the rules.
+// The axis generator in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the event-driven
+// chip: a third implementation of the rules.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 namespace motionrack::mcx314::twin {
 namespace {
 
-// Parameters as the testbench's command line names them.
+// Parameters as on the testbench's command line.
 struct VerilogDrive {
     std::int64_t r, v, sv, a, d, k, ao, p, dp;
     unsigned mode = 0;  // WR3: 1 manual, 2 own deceleration, 4 S-curve
@@ -48,7 +48,7 @@ Course run_twin(const VerilogDrive& drive) {
     return out;
 }
 
-// The same traffic on the event-driven chip; `end`: how long to run.
+// The same traffic on the event-driven chip; `end`: last tick.
 std::vector<std::int64_t> pulses_of_chip(const VerilogDrive& drive, std::int64_t end) {
     Program program;
     const auto write = [&](std::int64_t tick, int offset, std::int64_t value) {
@@ -114,18 +114,18 @@ TEST(Mcx314Verilog, MakesTheSamePulsesInTheSameTicksAsTheTwinAndTheChip) {
     const std::vector<VerilogDrive> drives{
         {16'000, 8000, 1000, 8000, 8000, 1, 0, 20'000, 0, 0},  // T, trapezoid
         {16'000, 8000, 1000, 8000, 8000, 1, 8, 3001, 0, 0},    // T, triangle
-        {20'000, 5000, 400, 3000, 700, 1, 3, 5000, 0, 2},      // own deceleration, creeping or cut short
+        {20'000, 5000, 400, 3000, 700, 1, 3, 5000, 0, 2},      // own deceleration, with creep or truncated
         {20'000, 5000, 400, 3000, 7000, 1, 0, 5000, 4000, 3},  // manual
         {160'000, 3000, 5000, 100, 100, 1, 0, 50, 0, 0},       // V <= SV: constant
         {16'000, 6000, 200, 8000, 8000, 1, 0, 20'000, 0, 4},   // complete S
         {16'000, 6000, 200, 1500, 8000, 1, 0, 20'000, 0, 4},   // partial S
         {16'000, 6000, 200, 1500, 900, 3, 5, 30'000, 0, 6},    // S with its own deceleration
-        {16'000, 6000, 200, 8000, 8000, 1, 0, 4000, 0, 4},     // S cut short
+        {16'000, 6000, 200, 8000, 8000, 1, 0, 4000, 0, 4},     // truncated S
         {32'000, 4000, 500, 2000, 2000, 1, 0, 9000, 0, 0, false, 20'000, 2500},    // V lowered while driving
         {16'000, 4000, 500, 4000, 4000, 1, 0, 20'000, 0, 4, false, 30'000, 7000},  // V raised in an S ramp
-        {16'000, 8000, 500, 3000, 3000, 1, 0, 0, 0, 0, true, -1, 1, 60'000},       // continuous, stopped while rising
-        {16'000, 4000, 500, 3000, 3000, 2, 0, 0, 0, 4, true, -1, 1, 50'000},       // S, stopped while rising
-        {16'000, 5000, 500, 2000, 2000, 1, 0, 0, 0, 4, true, 90'000, 1000, 130'000},  // S, stopped while falling
+        {16'000, 8000, 500, 3000, 3000, 1, 0, 0, 0, 0, true, -1, 1, 60'000},  // continuous, stopped while accelerating
+        {16'000, 4000, 500, 3000, 3000, 2, 0, 0, 0, 4, true, -1, 1, 50'000},  // S, stopped while accelerating
+        {16'000, 5000, 500, 2000, 2000, 1, 0, 0, 0, 4, true, 90'000, 1000, 130'000},  // S, stopped while decelerating
         {16'000, 8000, 8000, 1, 1, 1, 0, 0, 0, 0},                                    // no pulses
     };
     for (std::size_t i = 0; i < drives.size(); i += thorough() ? 1 : 4) {
