@@ -24,8 +24,8 @@ struct PositionAxisSettings {
     std::string_view unit = "mm";
     control::AxisLimits
         limits;  ///< max_accel applies to both ramps, max_velocity_step is the creep velocity at their ends
-    double counts_per_unit = 100;  ///< of the card's counter, > 0
-    SpeedScale scale;              ///< counts a second at a rate
+    double counts_per_unit = 100;  ///< scale of the card's counter, > 0
+    SpeedScale scale;              ///< counts/s at a rate
     double lag_s = 0;              ///< the motor's time constant, with its load
     std::optional<double>
         hold_window;  ///< mm or degrees: in-position window of the card's position lock after a move; absent: no lock

@@ -23,7 +23,7 @@ struct SpeedScale {
     double counts_per_volt = 0;   ///< > 0, counts/s, if the motor follows the voltage
     Trim trim = default_trim;
 
-    /// Counts a second at a rate 0 .. 16383.
+    /// Counts/s at a rate 0 .. 16383.
     double speed(int rate) const;
     /// The highest rate whose speed does not exceed the value; 0 if rate 1 is already faster.
     int rate_for(double counts_s) const;
@@ -40,8 +40,9 @@ struct SlopeDemand {
                        ///< and the last step lasts four time constants longer
 };
 
-/// Errors: refused, with the number and its limit, if a value is not positive or not finite, is faster than the card's
-/// rates, the creep speed is not below the top speed, or a ramp is longer than 8,388,607 counts.
+/// Designs a slope table. Errors: refused, with the number and its limit, if a value is not positive or not finite, or
+/// is faster than the card's rates. Also refused: a creep speed not below the top speed, and a ramp longer than
+/// 8,388,607 counts.
 Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& scale);
 
 /// A leg at one rate.

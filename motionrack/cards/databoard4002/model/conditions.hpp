@@ -19,7 +19,7 @@ enum class CardCondition : std::uint16_t {
     move_aborted = 8,       ///< a: the position, b: the target
     table_flawed = 9,       ///< a: SlopeFlaw, b: the interval
     position_wrapped = 10,  ///< a: the counter
-    rate_exceeded = 11,     ///< a: counts a second
+    rate_exceeded = 11,     ///< a: counts/s
     counts_lost = 12,       ///< a: number of counts, signed
     line_too_quick = 13,    ///< a: 1 or 2 (O1, O2)
     watchdog_reset = 14     ///< the firmware hung

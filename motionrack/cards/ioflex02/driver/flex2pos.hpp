@@ -3,9 +3,9 @@
 //
 //   tIOFlex02 (Flex02) ◄── tIOFlexPos (Flex2Pos)
 //
-// Time and counts of the card have 24 bits. The object extends them to 64 bits while it sees every clearing of the time
-// (so a card must not be shared between two objects), and while an axis moves less than 8,388,607 counts between two
-// readings.
+// Time and counts of the card have 24 bits. The object extends them to 64 bits. It requires that it sees every clearing
+// of the time, so a card must not be shared between two objects, and that an axis moves less than 8,388,607 counts
+// between two readings.
 #pragma once
 
 #include <array>

@@ -15,7 +15,7 @@ enum class ArrayState : std::uint32_t { empty, loading, starting, running, faile
 /// The programmable array and the image that is being received.
 struct Configuration {
     ArrayState array = ArrayState::empty;
-    std::uint32_t crc = 0;  ///< of the bytes received
+    std::uint32_t crc = 0;  ///< CRC of the bytes received
     std::uint32_t received = 0;
     CfgError error = CfgError::none;
     std::uint16_t known = 0;  ///< the model supports the project

@@ -95,11 +95,11 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::int32_t current_line_ = 0;
     std::int32_t written_speed_ = 0;
     std::int32_t written_acceleration_ = 0;
-    std::int32_t braking_acceleration_ = 1;  ///< of the running segment
+    std::int32_t braking_acceleration_ = 1;  ///< A of the running segment for a requested stop
     int generator_ = 0;
-    std::int32_t rest_speed_ = 1;  ///< of the running segment
-    bool s_curve_ = false;         ///< of the running chain
-    bool even_ = false;            ///< of the running chain
+    std::int32_t rest_speed_ = 1;  ///< V from which the running segment may stop at once
+    bool s_curve_ = false;         ///< the running chain is an S-curve
+    bool even_ = false;            ///< the running chain changes its speed linearly
     bool braking_ = false;         ///< stop requested
     bool chain_running_ = false;
     std::int64_t segments_ = 0;

@@ -114,8 +114,8 @@ Pulses4 Segmenter::pulses_at(const PendingMove& work, double s) const {
     return s >= work.path.length ? work.to : map_.pulses(control::position_at(work.path, s));
 }
 
-/// Length at the end of a move for the deceleration from `top` to `exit` (V units), including the pulses for the chip's
-/// whole steps, the host's register accesses and the rounding to pulses.
+/// Length at the end of a move for the deceleration from `top` to `exit` (V units). It includes the pulses for the
+/// chip's whole steps, the host's register accesses and the rounding to pulses.
 double Segmenter::fall_length(double units, const Speeds& speeds) const {
     if (speeds.top <= speeds.exit) return 0;
     const double top = speeds.top, exit = speeds.exit;

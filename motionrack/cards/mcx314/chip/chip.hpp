@@ -102,7 +102,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         sim::Listeners listeners;
         sim::EdgeListener* edge_listener = nullptr;
         sim::EdgeBatch batch;
-        std::int64_t batch_tick = 0;  ///< of its origin
+        std::int64_t batch_tick = 0;  ///< tick of its origin
     };
     /// Pulses at one speed and range: the first at tick `at`, the others at intervals of `quotient` ticks, or one more
     /// when `slack` runs out.

@@ -14,7 +14,7 @@
 
 namespace motionrack::mcx314 {
 
-/// Speeds are in V units (8,000,000 / range pulses a second), distances in pulses.
+/// Speeds are in V units (8,000,000 / range pulses/s), distances in pulses.
 struct HomeSettings {
     /// 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index; 5 as 1, on
     /// to the index, then back and slowly to the switch again: the source's HomeType4.

@@ -37,7 +37,7 @@ struct ChipHomingEdge {
     std::int32_t ep = 0;
     std::int64_t within =
         0;  ///< the edge was at `lp` or up to this number of pulses before; 0: the chip stopped on it at once
-    double speed_hz = 0;  ///< of the drive at that instant
+    double speed_hz = 0;  ///< drive speed at that instant
     Instant at{};
 };
 

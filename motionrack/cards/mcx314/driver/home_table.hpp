@@ -23,7 +23,7 @@ enum class HomingAction : std::uint8_t {
     wait_stop,    ///< until standstill after a failure
     end
 };
-enum class SearchDirection : std::uint8_t { towards, away };  ///< of the switch, by the search direction
+enum class SearchDirection : std::uint8_t { towards, away };  ///< relative to the switch
 enum class HomingSpeed : std::uint8_t { fast, back, slow };   ///< fast has ramps; back and slow are constant speeds
 enum class HomingStopInput : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
 

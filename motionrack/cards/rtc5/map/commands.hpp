@@ -58,7 +58,7 @@ struct ListCommandInfo {
     std::string_view name;
     Op op = Op::none;
     Timing timing = Timing::normal;
-    int positions = 1;  ///< of the list memory
+    int positions = 1;  ///< positions in the list memory
     std::array<ParamInfo, max_params> params{};
     std::string_view meaning;
 

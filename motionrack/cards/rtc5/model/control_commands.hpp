@@ -22,7 +22,7 @@ struct ControlParam {
 /// The card's reason for rejecting a command.
 enum class Refusal : std::uint8_t {
     parameter,  ///< a parameter is wrong
-    busy,       ///< a list is running or the card is moving, if the command forbids it; otherwise a parameter is wrong
+    busy,       ///< a list is running or the card is moving; if neither, a parameter is wrong
     rejected,   ///< no free memory, or no data to read
 };
 /// Bits of get_last_error for a rejected command.

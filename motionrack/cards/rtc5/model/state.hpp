@@ -155,7 +155,7 @@ struct Lists {
 struct Wobbel {
     double transversal = 0, longitudinal = 0, turns = 0;  ///< bits; turns a tick
     std::int64_t step = 0;                                ///< ticks since the start of the polyline
-    Point direction{1, 0}, offset;                        ///< of the last tick
+    Point direction{1, 0}, offset;                        ///< values in the last tick
     bool on() const { return turns != 0 && (transversal != 0 || longitudinal != 0); }
 };
 
