@@ -25,7 +25,7 @@ struct ConveyorSettings {
     double direction_deg = 0;  ///< belt: direction of motion, from +X counter-clockwise
     sim::Spot centre_mm{};     ///< rotary: centre; counter-clockwise for a positive speed
     std::vector<SpeedPoint> profile{{0, 100}};
-    double deceleration = 2000;     ///< of stop(), units/s2, 1 .. 1e7
+    double deceleration = 2000;     ///< deceleration of stop(), units/s2, 1 .. 1e7
     double counts_per_unit = 1000;  ///< counts (x4) per mm or degree, +-1e-6 .. 1e9; negative: opposite direction
     double slip = 0;                ///< slip of the encoder's wheel, -0.5 .. 0.5: it measures 1 - slip of the travel
     double jitter_counts = 0;  ///< 0 .. 1000: maximum error of a reading, uniformly distributed, the same in every run

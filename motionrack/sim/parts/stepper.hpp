@@ -32,7 +32,7 @@ struct StepperSettings {
 enum class RotorHold : std::int32_t { in_step, stalled, blocked_plus, blocked_minus };
 
 struct StepperState {
-    double rate_hz = 0;      ///< of the pulses
+    double rate_hz = 0;      ///< rate of the pulses
     std::int64_t lost = 0;   ///< pulses - rotor while in step
     std::int64_t stand = 0;  ///< position of the rotor while not in step
     RotorHold hold = RotorHold::in_step;

@@ -21,7 +21,7 @@ struct WorkpieceSettings {
 /// A point of a stroke, with the mark up to it.
 struct MarkedPoint {
     sim::Spot at;         ///< mm
-    double j_per_mm = 0;  ///< of the segment that ends here; 0 at a stroke's first point
+    double j_per_mm = 0;  ///< energy density of the segment that ends here; 0 at a stroke's first point
     double dwell_j = 0;   ///< energy at this very position while the spot was stationary
     double begun_s = 0;   ///< start of the segment; at a first point: of the stroke
     bool first = false;
