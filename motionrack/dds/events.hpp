@@ -35,7 +35,7 @@ struct Event {
     Source source, other;      ///< the owner of the bus, and the other source of a conflict, restart or takeover
     std::uint64_t number = 0;  ///< value in the message: frames lost, N seen, sequence
     std::uint64_t limit = 0;   ///< N expected, previous sequence
-    std::uint64_t total = 0;   ///< of this kind in total
+    std::uint64_t total = 0;   ///< total of this kind
 };
 
 /// The event, its consequence and the remedy.

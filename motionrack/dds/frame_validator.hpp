@@ -22,7 +22,7 @@ enum class Validation : std::uint8_t {
     late,          ///< older than the last used frame
     jump,          ///< sequence and time do not continue the last used frame
     wrong_crc,     ///< the frame's CRC or the sample's check does not match
-    foreign,       ///< of another format
+    foreign,       ///< another format
     malformed,     ///< values that no publisher sends
     wrong_words,   ///< N differs from the expected one
     other_source,  ///< another source owns the bus
