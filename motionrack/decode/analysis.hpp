@@ -48,7 +48,7 @@ struct ChannelResult {
     std::optional<Peak> peak;  ///< absent if the capture is shorter than a window
     std::vector<IllegalAt> first_illegal;
     std::vector<IndexAt> first_indexes;
-    std::vector<LineNote> notes;  ///< of lines without a level at some time
+    std::vector<LineNote> notes;  ///< lines without a level at some time
 };
 
 struct Analysis {
