@@ -5,7 +5,7 @@
 
 namespace motionrack::live {
 
-/// Time functions of a live port. A test in virtual time provides a clock of that time.
+/// Time functions of a live port. A card in virtual time needs a clock of that time.
 class Clock {
   public:
     virtual ~Clock() = default;
