@@ -1,4 +1,4 @@
-// Finding and telling what must not happen.
+// Detects and reports breaches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace motionrack::rack {
 
 namespace {
 
-// A window is so long that the start speed makes some pulses in it.
+// A window is long enough for some pulses at the velocity step limit.
 constexpr double min_window = 1e-3, pulses_of_start = 2;
 constexpr Duration max_period = milliseconds(2);
-// Pulses by which the counts at three instants may be off together: they are whole, and so are the ends of pieces.
+// Common error of the counts at three instants, in pulses: counts and segment ends are whole.
 constexpr double count_rounding = 3;
-// The start speed is kept but for whole speed units and whole pulses: by so much where arcs are drawn with short lines.
+// Factor on the velocity step limit for whole velocity units and whole pulses, and for arcs drawn as chords.
 constexpr double start_reserve = 1.6;
 
 std::string position_text(const Breach& breach) {

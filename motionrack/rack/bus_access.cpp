@@ -1,4 +1,4 @@
-// What a card's bus takes: its widths, its registers, its windows.
+// Checks accesses against a card's bus: its widths, its registers, its windows.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Rows of the table of card types that are in files of their own.
+// Rows of the card type table that have files of their own.
 #pragma once
 
 #include <motionrack/rack/card_types.hpp>

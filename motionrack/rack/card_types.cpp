@@ -1,4 +1,4 @@
-// The table of card types. Those that move axes are in card_types_axes.cpp.
+// Table of card types. Those that move axes are in card_types_axes.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using enum PinDirection;
 
-/// The card's own list of pins; `volts`: of those whose names begin with "vout".
+/// Copies the card's own list of pins; `volts` applies to pins whose names begin with "vout".
 template <std::size_t n>
 constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
     std::array<PinType, n> out{};
@@ -57,7 +57,7 @@ void* ioflex02_of(RackCard& card) {
     return &card.ioflex02;
 }
 
-/// What its image says of itself, if it is one.
+/// Returns the header data of its image, if valid.
 Result<ioflex02::ImageInfo> ioflex02_image(const Ioflex02Settings& settings) {
     MOTIONRACK_TRY(const auto file, ioflex02::bytes_of_hex(settings.image));
     MOTIONRACK_TRY(const auto raw, ioflex02::unpacked(file));

@@ -1,4 +1,4 @@
-// The table of card types that move axes.
+// Table of the card types that move axes.
 #include <fmt/format.h>
 
 #include <array>
@@ -88,7 +88,7 @@ constexpr std::array<Field, 8> mcx314_settings = {
         "from an interrupt of the card to the host's first access; pieces of a path are made long enough for it"),
 };
 
-// One pulse at most every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
+// At most one pulse every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
 double mcx314_pulse_hz(const RackCard& card) {
     return static_cast<double>(card.mcx314.clock_hz) / 4;
 }
@@ -98,7 +98,7 @@ double mcx314_accel_hz_s(const RackCard&) {
     return 8000.0 * 125 * 500;
 }
 
-// The inputs are sampled at every second clock; a state that is shorter is not seen.
+// The inputs are sampled at every second clock; shorter states are missed.
 double mcx314_encoder_hz(const RackCard& card) {
     return static_cast<double>(card.mcx314.clock_hz) / 2;
 }
@@ -130,7 +130,8 @@ constexpr std::array<PinType, 4> databoard4002_pins = {{
     {"csb", output, "high while the card is chosen, as its LED"},
 }};
 
-// Only those whose parts the axis has: a servo amplifier at the analog output, or a stepping motor at the frequency.
+// Only wires to existing parts of the axis apply: a servo amplifier at the analog output, or a stepping motor at the
+// frequency.
 constexpr std::array<DefaultWire, 10> databoard4002_wires = {{
     {"vout", "drive"},
     {"fout", "step"},
@@ -189,7 +190,7 @@ constexpr std::array<Field, 11> databoard4002_settings = {
                                                  "time that one access of the host takes"),
 };
 
-// The highest rate that the card's program can set: rate 16383.
+// Highest rate of the card's program: rate 16383.
 double databoard4002_pulse_hz(const RackCard&) {
     return 400'000;
 }
@@ -198,7 +199,7 @@ double any_accel(const RackCard&) {
     return std::numeric_limits<double>::infinity();
 }
 
-// Counts of all edges; a count of up and down pulses is one pulse.
+// Counts all edges; an up or down pulse counts as one pulse.
 double databoard4002_encoder_hz(const RackCard& card) {
     const Databoard4002Settings& own = card.databoard4002;
     return (own.single_ended ? 50'000.0 : 100'000.0) * (own.counting == Databoard4002Counting::up_down ? 1 : 4);

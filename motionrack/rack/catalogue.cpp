@@ -1,4 +1,4 @@
-// The kinds of card a rack can hold: one line a card.
+// The card kinds of a rack: one line per kind.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -142,7 +142,7 @@ class Mcx314Card final : public MotionCard {
     }
     double accel_reserve() const override { return mcx314::ChipAxisGroup::accel_reserve; }
     double jump_hz(const RackConfig& config) const override {
-        // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.
+        // A ramp changes the rate by one velocity unit at a time, of the long axis or of two axes stepping together.
         return 1.5 * 8e6 / mcx314::Segmenter::best_range(axis_map(config));
     }
     std::int64_t segments() const override { return axes_ ? axes_->segments() : 0; }
@@ -169,7 +169,7 @@ class Mcx314Card final : public MotionCard {
         return map;
     }
 
-    /// The channels whose IN3 is wired to the rack's probe, a bit each.
+    /// Channels whose IN3 is wired to the rack's probe, one bit each.
     unsigned probe_channels(const RackConfig& config) const {
         unsigned out = 0;
         for (const RackWire& wire : config.wires) {
@@ -182,13 +182,13 @@ class Mcx314Card final : public MotionCard {
         return out;
     }
 
-    /// Where the channels stand, and whether that means a place of the machine.
+    /// Counters of the channels, and whether they are valid positions.
     struct Stand {
         std::array<std::int64_t, mcx314::channel_count> pulses = {}, counts = {};
         std::array<bool, mcx314::channel_count> position_valid = {};
     };
     Stand stand_now() {
-        // Channels that nobody took by themselves since the group had the card stand where it left them.
+        // Channels not used singly since the group lost the card are still where it left them.
         Stand out = before_singles_;
         const auto read = [&](std::size_t c, bool trusted) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
@@ -200,7 +200,7 @@ class Mcx314Card final : public MotionCard {
             if (one) read(static_cast<std::size_t>(one->channel()), one->position_valid());
         return out;
     }
-    /// The chip's reset has cleared those of all channels, and the others stand where they stood.
+    /// Restores the counters after the chip's reset, which has cleared those of all channels.
     Result<void> restore_counters(const Stand& stand) {
         for (std::size_t c = 0; c < stand.pulses.size(); ++c) {
             if (stand.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, stand.pulses[c]));
@@ -225,9 +225,9 @@ class Mcx314Card final : public MotionCard {
 
     std::string name_;
     sim::Kernel& kernel_;
-    bool narrow_;           // an 8-bit bus
-    Duration byte_access_;  // time of an access of the host
-    Duration access_;       // to a whole register
+    bool narrow_;           // 8-bit bus
+    Duration byte_access_;  // duration of one host access
+    Duration access_;       // access time of a whole register
     mcx314::Chip chip_;
     mcx314::ByteBus byte_bus_{chip_};
     sim::VirtualPort port_;
@@ -236,7 +236,7 @@ class Mcx314Card final : public MotionCard {
     std::optional<mcx314::ChipAxisGroup> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
-    Stand before_singles_;  // when the group lost the card
+    Stand before_singles_;  // state when the group lost the card
     std::array<bool, mcx314::channel_count> group_trusted_ = {};
 };
 

@@ -1,4 +1,4 @@
-// Reading orders and carrying them out.
+// Parses and executes scheduled commands.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// Orders to a running job, each at its instant: planned ones, and a stop that somebody asks for on the way.
+// Schedule of commands to a running job: planned ones, each at its instant, and stop requests during the run.
 //
-//   kernel ──act at the instant──► break_run ──► between runs: apply_due() ──► stop flag, Stream
+//   kernel ──on_scheduled at the instant──► break_run ──► between runs: apply_due() ──► stop flag, StreamExecutor
 //
-// A stop that is asked for takes effect a microsecond later, at an instant that a recording has: planned there, it does
-// the same again.
+// A stop request takes effect a microsecond later, at an instant that a recording stores. Planned at that instant, it
+// has the same effect again.
 #pragma once
 
 #include <atomic>
@@ -20,35 +20,34 @@ namespace motionrack::rack {
 
 class CommandSchedule final : public sim::Device {
   public:
-    /// Before the rack is started. Orders: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 .. 1).
-    /// Errors: invalid_input for the first that is none of these; refused, a hold after which neither resume nor stop
-    /// is planned.
+    /// Call before the rack starts. Commands: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 ..
+    /// 1). Errors: invalid_input for the first unknown command; refused for a hold without a later resume or stop.
     static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& orders);
-    /// Whether there is an order of that name; its value may be wrong.
+    /// Returns true if a command of that name exists; its value may be invalid.
     static bool knows(std::string_view action);
 
-    /// After the rack was started.
+    /// Call after the rack has started.
     void begin();
-    /// Whether a Stream must drive: there are others than stops.
+    /// Returns true if a StreamExecutor must drive: some commands are not stops.
     bool needs_stream() const { return needs_stream_; }
-    /// Who drives; nullptr: nobody who could hold.
+    /// Sets the executor; nullptr: a feed hold is not possible.
     void attach(control::StreamExecutor* stream) { stream_ = stream; }
-    /// For those who drive without a Stream.
+    /// Stop flag for executors other than StreamExecutor.
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
 
     // ---- between runs
-    /// Comes to rest soon; once. Gives the instant at which it takes effect.
+    /// Requests a stop, once. Returns the instant at which it takes effect.
     std::optional<Instant> ask_stop();
     void apply_due();
-    /// The stop latch has stopped the machine: whoever drives comes to rest and forgets the program.
+    /// Reports that the stop latch has stopped the machine: the executor decelerates to standstill and drops the
+    /// program.
     void halt();
     bool stopped() const { return stop_flag_; }
-    /// The last of holds and resumes was a hold. A resume that comes before the axes stand lets them go on as soon as
-    /// they do.
+    /// Returns true if the last hold or resume was a hold. A resume before standstill takes effect at standstill.
     bool holds() const { return holds_; }
-    /// An order is still to come.
+    /// Returns true while a command is pending.
     bool pending() const;
-    /// Sentences about what was not done because the run ended before.
+    /// Sentences about commands that were not executed because the run ended before them.
     std::vector<std::string> not_done() const;
 
     void on_scheduled(Instant now) override;
@@ -70,7 +69,7 @@ class CommandSchedule final : public sim::Device {
 
     Rack& rack_;
     sim::DeviceId id_{};
-    std::vector<Order> orders_;  // in the order of time
+    std::vector<Order> orders_;  // by time
     control::StreamExecutor* stream_ = nullptr;
     std::atomic<bool> stop_flag_{false};
     bool needs_stream_ = false, asked_ = false, holds_ = false;

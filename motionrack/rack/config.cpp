@@ -1,4 +1,4 @@
-// What follows from a rack's plain numbers: pulses and counts for a unit, the planner's limits, names of wire ends.
+// Values derived from a rack's numbers: pulses and counts per unit, the planner's limits, names of wire ends.
 #include <algorithm>
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
@@ -12,7 +12,7 @@ int RackAxis::index() const {
 
 namespace {
 
-/// `per_rev` of something for a motor turn, as so many for a mm or degree; few roundings, in this order on purpose.
+/// Converts `per_rev` of a motor revolution to a value per mm or degree. The order keeps rounding errors small.
 double for_one_unit(std::int64_t per_rev, const RackAxis& axis) {
     const auto exact = static_cast<double>(per_rev);
     return axis.kind == AxisKind::linear ? exact / axis.lead_mm : exact * axis.gear_ratio / 360;
@@ -29,10 +29,10 @@ double RackAxis::counts_per_unit() const {
 }
 
 double RackAxis::following_alarm() const {
-    constexpr double usual = 1, min_counts = 4;  // a coarse encoder is off by a count while all is well
+    constexpr double usual = 1, min_counts = 4;  // a coarse encoder deviates by a count in normal operation
     if (following_error_alarm) return *following_error_alarm;
     const double counts = counts_per_unit();
-    const double of_servo = servo ? 0.1 * max_velocity : 0;  // it lags, and its model is as good as the file
+    const double of_servo = servo ? 0.1 * max_velocity : 0;  // a servo lags; its model is as good as the file
     return counts > 0 ? std::max({usual, min_counts / counts, of_servo}) : 0;
 }
 

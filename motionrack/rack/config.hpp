@@ -1,9 +1,9 @@
-// What a rack file says, as plain structs with units: cards in slots, axes of the machine, wires, the controller's
+// Contents of a rack file as plain structs with units: cards in slots, axes of the machine, wires, the controller's
 // settings.
 //
 //   rack file (TOML) --read_rack--> RackConfig --(rack)--> running cards, wires and parts
 //                        |
-//                        +--> every mistake with its place, and warnings
+//                        +--> every error with its location, and warnings
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ namespace motionrack::rack {
 
 // ---- Cards
 
-/// How wide a card's bus is.
+/// Width of a card's bus.
 enum class BusWidth : std::uint8_t { bits16, bits8 };
-/// The two chips that a card of type mcx314 may have.
+/// Chip variants of a card of type mcx314.
 enum class Mcx314Variant : std::uint8_t { mcx314, mcx314as };
-/// Where the sources do not agree: the speed of a drive with V <= SV, where + software limits begin.
+/// Points on which the sources disagree: the velocity of a drive with V <= SV, the start of + software limits.
 enum class Mcx314SlowDrives : std::uint8_t { at_v, at_sv };
 enum class Mcx314SoftwareLimits : std::uint8_t { beyond, at };
 
@@ -34,25 +34,25 @@ struct Mcx314Settings {
     Mcx314SlowDrives slow_drives = Mcx314SlowDrives::at_v;
     Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
     std::int64_t ao_after_reset = 8;     ///< 0 .. 65,535 pulses
-    std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
-    BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
-    std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access
+    std::int64_t clock_hz = 16'000'000;  ///< this value only: the model's tick is 125 ns
+    BusWidth bus = BusWidth::bits16;     ///< with 8 bits a register takes two accesses
+    std::int64_t bus_access_ns = 250;    ///< duration of an access, 0 .. 100,000 ns
     std::int64_t host_latency_us = 50;   ///< 0 .. 10,000 us from an interrupt to the host's first access
 };
 
-/// How O1 and O2 of a DataBoard 4002 are counted, and how often in a period of the encoder.
+/// How O1 and O2 of a DataBoard 4002 are counted: edges per period of the encoder.
 enum class Databoard4002Counting : std::uint8_t { quadrature_4, quadrature_2, quadrature_1, up_down };
 
-/// Settings of a card of type databoard4002: straps, the version of its program, its place on the bus.
+/// Settings of a card of type databoard4002: straps, firmware version, bus address.
 struct Databoard4002Settings {
-    std::int64_t select = 13;  ///< 0 .. 31: its number on the bus of all such cards
+    std::int64_t select = 13;  ///< card number on the common bus, 0 .. 31
     Databoard4002Counting counting = Databoard4002Counting::quadrature_4;
     std::int64_t first_pair = 0;          ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
     bool single_ended = false;            ///< encoder lines up to 50 kHz instead of 100 kHz
     bool zeroing = true;                  ///< enabling the zero or reference event arms the zeroing
     bool quit_zeroes = true;              ///< the command Q zeroes what P and N have set
     std::string trim;                     ///< see databoard4002::trim_from_text
-    std::int64_t version = 32;            ///< 0 .. 255: what the command V answers
+    std::int64_t version = 32;            ///< answer to the command V, 0 .. 255
     std::int64_t pass_ticks = 1;          ///< 1 .. 4,000 ticks of 2.5 us
     std::int64_t byte_time_ns = 100'000;  ///< 2,500 .. 100,000,000 ns
     std::int64_t bus_access_ns = 1'000;   ///< 0 .. 100,000 ns
@@ -60,28 +60,28 @@ struct Databoard4002Settings {
 
 /// Settings of a card of type ioflex02.
 struct Ioflex02Settings {
-    std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: its place on the bus of such cards
+    std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: address on the common bus
     std::int64_t serial = 1;             ///< 0 .. 65,535
     double configuration_ms = 2'000;     ///< 0 .. 60,000 ms from the image's last byte to the running project
-    bool loaded = true;                  ///< a project runs from power-up, without the host loading it
-    std::string image;                 ///< its compressed image in hexadecimal digits; empty: the one that is built in
-    std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
+    bool loaded = true;                  ///< a project runs from power-up, without a download by the host
+    std::string image;                   ///< compressed image in hexadecimal digits; empty: the built-in image
+    std::int64_t bus_access_ns = 500;    ///< 0 .. 100,000 ns
 };
 
-/// What a card of a grating bus is: the first one of a rack is the host unless it is said.
+/// Role of a grating-bus card; by default the first card of a rack is the host.
 enum class GratingRole : std::uint8_t { first_is_host, host, slave, remote };
-/// Which way a level shifter of such a card works.
+/// Direction of a level shifter of such a card.
 enum class GratingShifter : std::uint8_t { as_role, out, in };
 
 /// Settings of a card of type grating_bus; the model's are in cards/grating_bus/model/settings.hpp.
 struct GratingBusSettings {
     GratingRole role = GratingRole::first_is_host;
-    std::int64_t scales = 4;                                   ///< 1 .. 128 scales of a frame
-    std::int64_t first = 0;                                    ///< 0 .. 127: address of the first one
-    std::string addresses;                                     ///< the list of addresses, see addresses_from_text
+    std::int64_t scales = 4;                                   ///< scales in a frame, 1 .. 128
+    std::int64_t first = 0;                                    ///< address of the first scale, 0 .. 127
+    std::string addresses;                                     ///< list of addresses, see addresses_from_text
     double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
     double period_us = 200;                                    ///< 1 .. 100,000 us
-    double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most a period
+    double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most one period
     GratingShifter clock_shifter = GratingShifter::as_role;
     GratingShifter address_shifter = GratingShifter::as_role;
     bool checks = true;
@@ -102,11 +102,11 @@ struct Rtc5Settings {
     std::int64_t list_memory = 1 << 20;  ///< 16 .. 1,048,576 positions
 };
 
-/// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
+/// A card. Only the settings of its own type apply. Default values of the members are the rack file's defaults.
 struct RackCard {
-    std::string name;             ///< as the wires call it: letters, digits, '_'
+    std::string name;             ///< name in wires: letters, digits, '_'
     std::string type = "mcx314";  ///< a name in card_types()
-    std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file says none)
+    std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file gives none)
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;
     Ioflex02Settings ioflex02;
@@ -122,106 +122,106 @@ enum class AxisKind : std::uint8_t {
     rotary   ///< A B C: positions in degrees
 };
 
-/// The stepping motor of an axis; rates are pulses (microsteps) a second.
+/// Stepping motor of an axis; rates are pulses (microsteps) a second.
 struct RackMotor {
-    double start_stop_hz = 2000;   ///< it starts and stops at up to this rate without losing steps
-    double pull_out_hz = 200'000;  ///< above this rate it loses steps
+    double start_stop_hz = 2000;   ///< highest rate at which it starts and stops without step loss
+    double pull_out_hz = 200'000;  ///< step loss above this rate
 };
 
-/// A servo amplifier with a DC motor and its tacho, in place of a stepping motor: the axis follows a voltage.
+/// A servo amplifier with a DC motor and tachometer instead of a stepping motor: the axis follows a voltage.
 struct RackServo {
-    double speed_per_volt = 100;        ///< mm/s or degrees/s for a volt
-    std::optional<double> top_speed;    ///< saturation of the amplifier; absent: the speed at 10 V
-    double top_accel = 5000;            ///< at the amplifier's current limit, without a load
-    double friction = 50;               ///< per second squared: how fast it comes to rest without current
-    double lag_ms = 10;                 ///< time constant of the speed
-    double dead_band_v = 0.005;         ///< V below which the amplifier does nothing
-    double load = 0;                    ///< the load's inertia in units of the motor's own
-    std::optional<double> hold_within;  ///< after a move the card keeps the axis within; absent: it lets go
+    double speed_per_volt = 100;        ///< mm/s or degrees/s per volt
+    std::optional<double> top_speed;    ///< saturation of the amplifier; absent: the velocity at 10 V
+    double top_accel = 5000;            ///< acceleration at the amplifier's current limit, without a load
+    double friction = 50;               ///< deceleration without current, per second squared
+    double lag_ms = 10;                 ///< time constant of the velocity
+    double dead_band_v = 0.005;         ///< amplifier output is 0 below this voltage, V
+    double load = 0;                    ///< load inertia in units of the motor's own inertia
+    std::optional<double> hold_within;  ///< position window that the card holds after a move; absent: no position hold
 
-    /// The greatest speed that it reaches.
+    /// Maximum velocity.
     double fastest() const { return top_speed.value_or(10 * speed_per_volt); }
 };
 
-/// Switches of an axis by the machine position (mm or degrees) where they act; absent: there is no such switch.
+/// Switches of an axis by the machine position (mm or degrees) at which they act; absent: not fitted.
 struct RackSwitches {
     std::optional<double> limit_minus;  ///< active at and below
     std::optional<double> limit_plus;   ///< active at and above
     std::optional<double> home;         ///< active at and below
-    std::optional<double> cam_from;     ///< a reference cam: active from here
-    std::optional<double> cam_to;       ///< to here
-    double hysteresis = 0.05;           ///< mm or degrees to go back before a switch is released
-    double bounce_ms = 1.0;             ///< ms that contacts bounce at each change; 0: clean edges
+    std::optional<double> cam_from;     ///< start of the reference cam
+    std::optional<double> cam_to;       ///< end of the reference cam
+    double hysteresis = 0.05;           ///< switch hysteresis, mm or degrees
+    double bounce_ms = 1.0;             ///< contact bounce at each change, ms; 0: clean edges
 
     bool has_cam() const { return cam_from && cam_to; }
 };
 
 enum class HomingDirection : std::uint8_t { minus, plus };
 
-/// How an axis is homed; see control/homing.hpp.
+/// Homing of an axis; see control/homing.hpp.
 struct RackHoming {
-    std::int64_t type = 2;                               ///< 1 .. 4: control::HomeType
-    HomingDirection direction = HomingDirection::minus;  ///< in which the home switch is searched
-    std::optional<double> speed;                         ///< of the search; absent: a quarter of max_speed
-    std::optional<double> slow_speed;                    ///< of the last approach; absent: a quarter of start_speed
-    std::optional<double> position;                      ///< what home is called; absent: where the switch's edge is
-    std::optional<double> index_after;  ///< how far behind the switch the index is; absent: wherever it is first
-    double clearance = 0.1;             ///< mm or degrees driven on after the switch is released
-    std::int64_t order = 0;             ///< axes of the lowest order are homed first, those of the same together
+    std::int64_t type = 2;                               ///< homing method, 1 .. 4: control::HomingMethod
+    HomingDirection direction = HomingDirection::minus;  ///< search direction of the home switch
+    std::optional<double> speed;                         ///< search velocity; absent: a quarter of max_velocity
+    std::optional<double> slow_speed;                    ///< latch velocity; absent: a quarter of max_velocity_step
+    std::optional<double> position;                      ///< position of home; absent: position of the switch's edge
+    std::optional<double> index_after;  ///< distance from the switch to the index; absent: as found by the first homing
+    double clearance = 0.1;             ///< further travel after the switch is released, mm or degrees
+    std::int64_t order = 0;  ///< axes with the lowest number are homed first, axes with equal numbers together
 };
 
-/// One axis of the machine. Positions and speeds are in mm (linear) or degrees (rotary), the axis' "unit", and seconds.
+/// One axis of the machine. Positions are in mm (linear) or degrees (rotary), the axis' "unit"; time is in seconds.
 struct RackAxis {
     char letter = 'X';  ///< X Y Z A B C
     AxisKind kind = AxisKind::linear;
-    std::string card;     ///< the card's name
-    std::string channel;  ///< one letter of the card's channels; empty on a card that has but one
+    std::string card;     ///< name of the card
+    std::string channel;  ///< one letter of the card's channels; empty on a card with a single channel
     std::int64_t motor_steps_per_rev = 200;
-    std::int64_t microsteps = 16;  ///< pulses for one full step
-    double lead_mm = 5;            ///< linear: travel for one motor turn
-    double gear_ratio = 90;        ///< rotary: motor turns for one turn of the axis
+    std::int64_t microsteps = 16;  ///< pulses per full step
+    double lead_mm = 5;            ///< linear: travel per motor revolution
+    double gear_ratio = 90;        ///< rotary: motor revolutions per revolution of the axis
     double max_velocity = 100;
     double max_accel = 1000;
-    double max_jerk = 20'000;  ///< 0: trapezoids
+    double max_jerk = 20'000;  ///< 0: trapezoidal profile
     double max_velocity_step = 2;
     double min_position = 0;
     double max_position = 300;
-    double start_position = 0;                   ///< where the machine stands when the rack starts
-    std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 a line) for one motor turn; 0: no encoder
-    bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
+    double start_position = 0;                   ///< machine position when the rack starts
+    std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 per line) per motor revolution; 0: no encoder
+    bool reversed = false;  ///< the motor is mounted in reverse; the direction signal is inverted to match
     std::optional<double> following_error_warning, following_error_alarm;  ///< see following_warning(); 0: none
-    RackMotor motor;                                                       ///< without a servo
+    RackMotor motor;                                                       ///< without a servo only
     std::optional<RackServo> servo;
     RackSwitches switches;
     RackHoming homing;
 
-    /// 0 .. 5: the index in control::axis_letters.
+    /// Index in control::axis_letters, 0 .. 5.
     int index() const;
     /// "mm" or "deg".
     std::string_view unit() const { return kind == AxisKind::linear ? "mm" : "deg"; }
-    /// Pulses for one motor turn, exact; of a servo the counts of its encoder.
+    /// Pulses per motor revolution, exact; for a servo, encoder counts.
     std::int64_t pulses_per_rev() const { return servo ? encoder_counts_per_rev : motor_steps_per_rev * microsteps; }
-    /// Motor turns for one mm or degree.
+    /// Motor revolutions per mm or degree.
     double revs_per_unit() const { return kind == AxisKind::linear ? 1 / lead_mm : gear_ratio / 360; }
-    /// Pulses for one mm or degree, correctly rounded for linear axes, within 1 unit of the last place for rotary ones.
+    /// Pulses per mm or degree: correctly rounded for linear axes, within 1 unit of the last place for rotary ones.
     double pulses_per_unit() const;
-    /// Encoder counts for one mm or degree; 0 without an encoder.
+    /// Encoder counts per mm or degree; 0 without an encoder.
     double counts_per_unit() const;
-    /// The pulse rate at max_speed.
+    /// Pulse rate at max_velocity.
     double max_pulse_hz() const { return max_velocity * pulses_per_unit(); }
-    /// By how much the encoder may be off from what drives the axis before the machine is stopped, and before it is
-    /// told: mm or degrees; 0: by anything.
+    /// Following-error limits in mm or degrees. Above following_alarm() the machine stops; above following_warning() it
+    /// reports a warning. 0: no limit.
     double following_alarm() const;
     double following_warning() const;
 };
 
-/// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
+/// Returns an axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
 RackAxis default_axis(char letter);
 
 // ---- Probe
 
-/// A touch probe and the block that it touches, machine coordinates in mm; along an axis without both bounds the block
-/// goes on for ever.
+/// A touch probe and the block that it touches, in machine coordinates, mm. An axis without both bounds does not limit
+/// the block.
 struct RackProbe {
     std::optional<double> x_from, x_to, y_from, y_to, z_from, z_to;
 
@@ -234,61 +234,61 @@ struct RackProbe {
 /// The grating scale of a stage; see parts::LinearScaleSettings.
 struct RackScale {
     double pitch_um = 20;               ///< 0.001 .. 1000 um, whole pm
-    std::int64_t interpolation = 4096;  ///< 4 .. 65,536, a multiple of 4: counts of a pitch
-    bool reversed = false;              ///< counts down where the stage goes up
-    double zero_mm = 0;                 ///< where it shows 0
-    double max_count_rate_mhz = 20;     ///< 0.001 .. 1000 million counts a second
-    std::optional<double> index_mm;     ///< where the reference mark is
-    double dirt_at_mm = 0;              ///< where the dirt of the fault scale.dirt begins
+    std::int64_t interpolation = 4096;  ///< counts per pitch: 4 .. 65,536, a multiple of 4
+    bool reversed = false;              ///< counts down while the stage moves up
+    double zero_mm = 0;                 ///< position of count 0
+    double max_count_rate_mhz = 20;     ///< million counts per second: 0.001 .. 1000
+    std::optional<double> index_mm;     ///< position of the reference mark
+    double dirt_at_mm = 0;              ///< start of the dirt of the fault scale.dirt
 };
 
-/// Where a stage's servo brings it.
+/// Motion of a stage's servo.
 enum class StageProfile : std::uint8_t { hold, scan, steps };
 
-/// The loop that the processor of a stage's card closes, and where it goes.
+/// Control loop on the processor of a stage's card, and its motion.
 struct RackStageServo {
-    double bandwidth_hz = 250;     ///< 1 .. 10,000 Hz: the open loop crosses 1
-    std::optional<double> p_v_um;  ///< gains; absent: they follow from the bandwidth
+    double bandwidth_hz = 250;     ///< 1 .. 10,000 Hz: crossover of the open loop
+    std::optional<double> p_v_um;  ///< gains; absent: derived from the bandwidth
     std::optional<double> i_v_um_s;
     std::optional<double> d_v_s_um;
-    double limit_um = 100;   ///< 0 .. 1e6 um: a greater following error opens the loop; 0: none
-    double compute_us = 20;  ///< 0 .. 100,000 us from the frame to the voltage
+    double limit_um = 100;   ///< 0 .. 1e6 um: a greater following error opens the loop; 0: no limit
+    double compute_us = 20;  ///< delay from the frame to the voltage, 0 .. 100,000 us
     StageProfile profile = StageProfile::hold;
-    double from_mm = 0, to_mm = 10;  ///< scan: it is at constant speed between
+    double from_mm = 0, to_mm = 10;  ///< scan: range of constant velocity
     double step_mm = 1;              ///< steps: not 0
-    std::int64_t steps = 4;          ///< steps: so many up, then as many down
-    double every_ms = 100;           ///< steps: at least as long as one takes
+    std::int64_t steps = 4;          ///< steps: number of steps up, and of steps down after them
+    double every_ms = 100;           ///< steps: step period, at least the duration of one step
     double speed_mm_s = 80;
     double accel_mm_s2 = 8'000;
     double jerk_mm_s3 = 1e6;
-    double delay_ms = 0;  ///< the profile begins then
+    double delay_ms = 0;  ///< start of the profile
 };
 
 /// A linear motor stage with its scale, driven by a motion card's analog output; see parts::LinearStageSettings.
 struct RackStage {
     std::string name;
-    std::string card;         ///< of type grating_bus
-    std::int64_t output = 0;  ///< 0 .. 3: the card's analog output
-    std::int64_t input = 0;   ///< 0 .. 127: number of its scale at the decoder
+    std::string card;         ///< a grating_bus card
+    std::int64_t output = 0;  ///< analog output of the card, 0 .. 3
+    std::int64_t input = 0;   ///< number of the stage's scale at the decoder, 0 .. 127
     double accel_per_volt_m_s2 = 5;
     double top_accel_m_s2 = 50;
     double top_speed_m_s = 2;
     double viscous_per_s = 0;
     double coulomb_m_s2 = 0;
     double load = 0;
-    std::optional<double> start_mm;  ///< absent: where its servo's profile begins
+    std::optional<double> start_mm;  ///< absent: start of the servo's profile
     double end_minus_mm = -1000;
     double end_plus_mm = 1000;
     RackScale scale;
-    std::optional<RackStageServo> servo;  ///< absent: nobody drives it
+    std::optional<RackStageServo> servo;  ///< absent: the stage is not driven
 };
 
 // ---- Wires
 
 enum class EndOwner : std::uint8_t { card, axis, track, estop, probe };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()) or tracks[index]
-/// (see track_ends()), or the emergency stop or the probe (pin empty).
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), signal `pin` of axes[index] (see axis_ends()) or tracks[index]
+/// (see track_ends()). With an empty pin: the emergency stop or the probe.
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -296,17 +296,17 @@ struct WireEnd {
     friend bool operator==(const WireEnd&, const WireEnd&) = default;
 };
 
-/// `from` (an output) drives `to` (an input). An output may drive many inputs; an input has one wire at most, and
-/// without one it is open.
+/// `from` (an output) drives `to` (an input). An output may drive several inputs. An input has at most one wire;
+/// without a wire it is open.
 struct RackWire {
     WireEnd from;
     WireEnd to;
     bool by_default = true;  ///< from the default rule, not from the file
-    bool link = false;       ///< it is a part of a PulseLink or an EncoderLink, not switched edge by edge
+    bool link = false;       ///< part of a PulseLink or an EncoderLink, not switched edge by edge
 };
 
-/// Pulses and encoder tracks of the wires, joined into what they carry: a position as a function of time.
-/// The pulses of that channel of cards[card] turn the motor of axes[axis].
+/// Wires of pulses and of encoder tracks, joined into links that carry a position as a function of time. The pulses of
+/// that channel of cards[card] turn the motor of axes[axis].
 struct PulseLink {
     int axis = 0;
     int card = 0;
@@ -314,8 +314,8 @@ struct PulseLink {
     friend bool operator==(const PulseLink&, const PulseLink&) = default;
 };
 
-/// The encoder of axes[axis] is at the encoder inputs of that channel; `swapped`: track A at input B, so that it counts
-/// backwards.
+/// The encoder of axes[axis] is connected to the encoder inputs of that channel. `swapped`: track A at input B, so that
+/// it counts backwards.
 struct EncoderLink {
     int axis = 0;
     int card = 0;
@@ -326,75 +326,75 @@ struct EncoderLink {
 
 // ---- The rack
 
-/// How the controller drives paths where the part program does not say.
+/// Path settings of the controller where the part program does not set them.
 struct RackController {
     double default_path_tolerance_mm = 0.01;  ///< for G64 without P
-    std::string profile = "trapezoid";        ///< of the speed along paths: trapezoid or jerk_limited
-    double arc_tolerance_mm = 0.002;          ///< greatest distance of an arc from the short lines that stand for it
+    std::string profile = "trapezoid";        ///< velocity profile along paths: trapezoid or jerk_limited
+    double arc_tolerance_mm = 0.002;          ///< maximum distance between an arc and its chords
 };
 
-/// The contacts for people; see safety_contacts.hpp.
+/// Operator safety contacts; see safety_contacts.hpp.
 struct RackSafety {
     std::int64_t estop_channels = 1;    ///< 2: the emergency stop has the wires estop1 and estop2
-    double estop_discrepancy_ms = 500;  ///< so long they may be unlike
-    bool door = false;                  ///< there is a door, with the wire door
+    double estop_discrepancy_ms = 500;  ///< longest permitted difference of the two channels
+    bool door = false;                  ///< the machine has a door, with the wire door
 };
 
-/// A whole rack, checked: every name is known, every wire has its two ends.
+/// A complete, checked rack: every name is known, every wire has two ends.
 struct RackConfig {
     std::string name = "rack";
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::optional<RackProbe> probe;
-    std::vector<RackStage> stages;      ///< in the order of the file
-    std::vector<RackConveyor> tracks;   ///< belts, then tables, each in the order of the file
-    std::vector<RackScanner> scanners;  ///< in the order of the file
-    std::vector<RackWire> wires;        ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
-    std::vector<WireEnd> open;          ///< inputs of cards that the file leaves open; a contact's input is active then
-    std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
-    std::vector<EncoderLink> encoder_links;  ///< follow from `wires`; one at most for each channel
+    std::vector<RackStage> stages;       ///< in the order of the file
+    std::vector<RackConveyor> tracks;    ///< belts, then tables, each in the order of the file
+    std::vector<RackScanner> scanners;   ///< in the order of the file
+    std::vector<RackWire> wires;         ///< default rule with the file's changes; sorted by `to`: cards, axes, pins
+    std::vector<WireEnd> open;           ///< card inputs that the file leaves open; an open contact input is active
+    std::vector<PulseLink> pulse_links;  ///< derived from `wires`; the motor of an axis without one is not driven
+    std::vector<EncoderLink> encoder_links;  ///< derived from `wires`; at most one per channel
     RackController controller;
     RackSafety safety;
 
-    /// The axis of that letter, or nullptr.
+    /// Returns the axis of that letter, or nullptr.
     const RackAxis* axis(char letter) const;
-    /// The card of that name, or nullptr.
+    /// Returns the card of that name, or nullptr.
     const RackCard* card(std::string_view card_name) const;
-    /// The belt or table of that name, or nullptr.
+    /// Returns the belt or table of that name, or nullptr.
     const RackConveyor* track(std::string_view track_name) const;
-    /// Whether the axis is on a card that positions it by itself.
+    /// Returns true if the axis' card positions it by itself.
     bool positions_alone(const RackAxis& axis) const;
-    /// Whether the axis has the switch that homing on its card needs.
+    /// Returns true if the axis has the switch that homing on its card needs.
     bool can_home(const RackAxis& axis) const {
         return axis.switches.home || (axis.switches.has_cam() && positions_alone(axis));
     }
-    /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
+    /// Returns true if every axis' card positions it by itself, so that axes cannot follow a path together.
     bool point_to_point() const;
-    /// Paths are driven with limited jerk.
+    /// Returns true if paths are planned with limited jerk.
     bool jerk_limited() const { return controller.profile == "jerk_limited" && !point_to_point(); }
-    /// What each axis may do, for the planner; axes that the rack has not are not present.
+    /// Axis limits for the planner; axes missing from the rack are not present.
     control::MachineLimits limits() const;
     /// "motion.xpp", "X.step", "estop", "probe".
     std::string end_name(const WireEnd& end) const;
 };
 
-/// What reading a rack file gave: a config exactly if there are no errors. Both lists are sorted by place.
+/// Result of reading a rack file: a config if and only if `errors` is empty. Both lists are sorted by location.
 struct RackReading {
     std::optional<RackConfig> config;
     std::vector<Error> errors;
     std::vector<Error> warnings;
 };
 
-/// Reads a rack file, or the text of one: what has a line end or '=' in it is text, anything else the path of a file.
+/// Reads a rack file or its text. A string with a line end or '=' is a text; any other string is a path.
 RackReading read_rack(std::string_view path_or_text);
 
-/// Reads the text of a rack file. `file` stands in the errors. Never throws; any text gives a config or errors.
+/// Reads the text of a rack file. `file` is used in errors. Never throws; any text gives a config or errors.
 RackReading read_rack_text(std::string_view text, std::string_view file = {});
 
-/// Reads a rack file of at most 1 MB. Errors: io if it cannot be read, then those of the text.
+/// Reads a rack file of at most 1 MB. Errors: io if it cannot be read, then the errors of the text.
 RackReading read_rack_file(const std::filesystem::path& path);
 
-/// The reference page of the rack file (Markdown): sections, keys, units, ranges, defaults, card types and their pins.
+/// Reference page of the rack file (Markdown): sections, keys, units, ranges, defaults, card types and their pins.
 std::string rack_file_reference();
 
 }  // namespace motionrack::rack

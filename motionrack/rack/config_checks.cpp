@@ -1,4 +1,4 @@
-// Checks between keys: axes against cards and channels, positions against each other, speeds against chip and motor.
+// Checks between keys: axes against cards and channels, positions with each other, velocities against chip and motor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ int channel_index(const RackConfig& config, const RackAxis& axis) {
 
 namespace {
 
-/// The checks of one axis; each looks only at keys that were read well, so that one mistake gives one error.
+/// Checks of one axis. Each uses only keys that were read without an error, so that one mistake gives one error.
 class AxisCheck {
   public:
     AxisCheck(const RackConfig& config, const RackAxis& axis, const AxisSource& source, Problems& problems)
@@ -80,7 +80,7 @@ class AxisCheck {
             return;
         }
         for (const RackAxis& other : config_.axes) {
-            if (&other == &axis_) return;  // each pair is told once, at the later letter
+            if (&other == &axis_) return;  // each pair is reported once, at the later letter
             if (other.card == axis_.card && other.channel == axis_.channel) {
                 error(axis_.channel.empty() ? "card" : "channel", {},
                       fmt::format("Axes {} and {} are both on {}card {}; each channel drives one axis.", other.letter,
@@ -113,7 +113,7 @@ class AxisCheck {
         const std::string_view u = axis_.unit();
         const RackSwitches& s = axis_.switches;
         if (!source_.sound({"min_limit_{u}", "max_limit_{u}", "limit_minus_{u}", "limit_plus_{u}", "home_{u}"})) return;
-        if (axis_.min_position >= axis_.max_position) return;  // told already
+        if (axis_.min_position >= axis_.max_position) return;  // already reported
         const double low = s.limit_minus.value_or(axis_.min_position);
         const double high = s.limit_plus.value_or(axis_.max_position);
         if (low >= high) {
@@ -159,7 +159,7 @@ class AxisCheck {
                  number_text(travel_end)));
     }
 
-    /// Moves do not depend on it, so what `motionrack home` will refuse is a warning here.
+    /// Moves do not depend on homing, so settings that `motionrack home` will refuse are warnings here.
     void homing() {
         const RackHoming& h = axis_.homing;
         const auto above = [&](std::string_view key, const std::optional<double>& value, double most,
@@ -215,7 +215,7 @@ class AxisCheck {
         }
     }
 
-    /// Limits that a healthy axis keeps, of an axis that has what is compared.
+    /// Checks the following-error limits against the normal operation of an axis with an encoder.
     void following() {
         constexpr std::string_view warning = "following_error_warning_{u}", alarm = "following_error_alarm_{u}";
         const std::string_view u = axis_.unit();
@@ -328,7 +328,7 @@ class AxisCheck {
                           short_text(limit / axis_.pulses_per_unit())));
     }
 
-    /// Positions must fit the card's counters.
+    /// Checks that positions fit the card's counters.
     void counter_range(const CardType& type) {
         if (!source_.sound({"min_limit_{u}", "max_limit_{u}"})) return;
         const auto most = static_cast<double>(type.max_position);
@@ -367,7 +367,7 @@ class AxisCheck {
                axis_.pulses_per_rev() > 0;
     }
     static bool inside(double value, double low, double high) { return value >= low && value <= high; }
-    /// Six digits are enough for a number that was computed.
+    /// Formats a computed number with six digits.
     static std::string short_text(double value) {
         const std::string text = fmt::format("{:.6g}", value);
         double rounded = value;
@@ -382,7 +382,7 @@ class AxisCheck {
         problems_.warn(source_.place(with_unit(key, axis_.unit()), sub), std::move(what));
     }
 
-    /// A limit that is met exactly in decimal may be exceeded by a rounding in binary.
+    /// A limit that is met exactly in decimal may be exceeded by rounding in binary.
     static constexpr double rounding = 1 + 1e-12;
 
     const RackConfig& config_;

@@ -1,5 +1,4 @@
-// The keys of a rack file, each declared once: name, range, unit, meaning. Defaults are those of the structs in
-// config.hpp.
+// Keys of a rack file, each declared once: name, range, unit, meaning. Defaults are those of the structs in config.hpp.
 #include <algorithm>
 #include <motionrack/rack/config_parts.hpp>
 

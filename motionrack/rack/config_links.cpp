@@ -1,10 +1,10 @@
-// Pulses and encoder tracks among the wires. They are not switched edge by edge but joined as motions, so step and
-// direction, and the two tracks of an encoder, must be a pair:
+// Links of pulses and encoder tracks among the wires. They are not switched edge by edge but joined as position
+// functions. So step and direction must be a pair, as must the two tracks of an encoder:
 //
 //   m.xpp -> X.step,  m.xpm -> X.dir      the pulses of channel x turn the motor of X
 //   X.enc_a -> m.xeca, X.enc_b -> m.xecb  the encoder of X at channel x; crossed over: it counts backwards
 //
-// A card without channels has no pairs: its inputs are wires, on which the encoder makes every edge.
+// A card without channels has no pairs: its inputs are wires with every edge of the encoder.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace motionrack::rack {
 namespace {
 
-/// The pin of a card type that the default rule joins with that end of an axis; empty if it has none.
+/// Returns the pin of a card type that the default rule joins with that signal of an axis; empty if it has none.
 std::string_view pin_for(const CardType& type, std::string_view end) {
     for (const DefaultWire& wire : type.default_wires)
         if (wire.end == end) return wire.pin;
@@ -62,13 +62,13 @@ class LinkResolver {
         return *find_card_type(config_.cards[static_cast<std::size_t>(card)].type);
     }
 
-    /// The pin of that channel which the default rule joins with `end`.
+    /// Returns the pin of that channel which the default rule joins with `end`.
     WireEnd pin_of(int card, int channel, std::string_view end) const {
         const CardType& type = type_of(card);
         return {EndOwner::card, card, std::string(type.channel_name(channel)).append(pin_for(type, end))};
     }
 
-    /// The channel whose pin for `end` this is, or -1.
+    /// Returns the channel whose pin for `end` this is, or -1.
     int channel_with(const WireEnd& pin, std::string_view end) const {
         if (pin.owner != EndOwner::card || pin_for(type_of(pin.index), end).empty()) return -1;
         for (int channel = 0; channel < type_of(pin.index).channel_count(); ++channel)
@@ -81,7 +81,7 @@ class LinkResolver {
     void pulses_of(int axis) {
         const WireEnd step_end{EndOwner::axis, axis, "step"}, dir_end{EndOwner::axis, axis, "dir"};
         const RackWire* step = wire_to(step_end);
-        if (step == nullptr) return;  // open: the motor stands
+        if (step == nullptr) return;  // open: the motor does not turn
         const std::string step_name = name(step_end), dir_name = name(dir_end);
         const int channel = channel_with(step->from, "step");
         if (channel < 0) {
@@ -113,7 +113,7 @@ class LinkResolver {
         config_.pulse_links.push_back(link);
     }
 
-    /// An example: the pin of the axis' own channel, of the first one if the file names none that there is.
+    /// Returns an example: the pin of the axis' own channel, or of the first channel if the file names no existing one.
     std::string own_pin(int axis, std::string_view end) const {
         const RackAxis& own = config_.axes[static_cast<std::size_t>(axis)];
         for (std::size_t i = 0; i < config_.cards.size(); ++i)
@@ -124,7 +124,8 @@ class LinkResolver {
 
     // ---- Encoder tracks
 
-    /// `wire` begins at a track: it must end at an encoder input, and the other input must have the other track.
+    /// Checks a `wire` that begins at an encoder track: it must end at an encoder input, and the other input must have
+    /// the other track.
     void encoder_at(const RackWire& wire) {
         int channel = channel_with(wire.to, "enc_a");
         const bool at_a = channel >= 0;
@@ -140,7 +141,7 @@ class LinkResolver {
         const WireEnd track{EndOwner::axis, wire.from.index, wire.from.pin == "enc_a" ? "enc_b" : "enc_a"};
         const RackWire* partner = wire_to(other);
         if (partner == nullptr || partner->from != track) {
-            if (!at_a && partner != nullptr && is_track(partner->from)) return;  // told at input A
+            if (!at_a && partner != nullptr && is_track(partner->from)) return;  // reported at input A
             const std::string there = partner == nullptr ? "is open" : "is driven by " + name(partner->from);
             error({name(other), name(wire.to)},
                   fmt::format("{} is driven by {} but {} {}; an encoder is wired with both tracks or not at all: write "
@@ -156,7 +157,7 @@ class LinkResolver {
             const bool lines = std::any_of(config_.wires.begin(), config_.wires.end(), [&](const RackWire& wire) {
                 return wire.from.index == static_cast<int>(axis) && is_track(wire.from) && !wire.link;
             });
-            int readers = lines;  // its edges as wires take one
+            int readers = lines;  // the edges as wires take one listener
             for (const EncoderLink& link : config_.encoder_links) {
                 if (link.axis != static_cast<int>(axis) || ++readers != sim::PositionFunction::max_listeners + 1)
                     continue;
@@ -169,17 +170,17 @@ class LinkResolver {
         }
     }
 
-    // ---- Telling
+    // ---- Reporting
 
     std::string name(const WireEnd& end) const { return config_.end_name(end); }
 
-    /// At the first of these inputs that the file names.
+    /// Reports an error at the first of these inputs that the file names.
     void error(std::initializer_list<std::string> inputs, std::string message) {
         for (const std::string& input : inputs) {
             const Place place = place_of_(input);
             if (place != Place{}) return problems_.error(place, std::move(message));
         }
-        // Wires of the default rule alone: two axes on one channel, which was told already.
+        // Only wires of the default rule: two axes on one channel, already reported.
         if (!problems_.any_errors()) problems_.error({}, std::move(message));
     }
 

@@ -1,5 +1,5 @@
-// The sections [belt.NAME], [table.NAME] and [scanner.NAME] of a rack file: their keys, and what does not fit between
-// them and the cards.
+// Sections [belt.NAME], [table.NAME] and [scanner.NAME] of a rack file: their keys, and conflicts between them and the
+// cards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -159,7 +159,7 @@ class MarkingReader {
         problems_.error(table.place_of(key), fmt::format("{}: {}", what_, text));
     }
 
-    /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
+    /// Reads profile = [[0, 50], [0.5, 120]]: seconds and velocities.
     bool read_profile(const TomlNode& profile, RackConveyor& track) {
         const auto number = [](const TomlNode& node) {
             return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
@@ -185,7 +185,7 @@ class MarkingReader {
         return true;
     }
 
-    /// Whether there is such a card.
+    /// Reports a card that does not exist; returns true if it exists.
     bool check_card(const std::string& name) {
         const RackCard* card = config_.card(name);
         if (card == nullptr) return refuse(*node_, "card", fmt::format("there is no card {}.", in_quotes(name))), false;
@@ -214,7 +214,7 @@ class MarkingReader {
                                number_text(fastest), unit_, track.max_velocity(), max_track_counts, max_parts));
     }
 
-    /// Two tracks at one pin would drive against each other.
+    /// Two conveyors at one pin would drive against each other.
     void check_pins(const RackConveyor& track) {
         for (const RackConveyor& other : config_.tracks) {
             if (other.card != track.card) continue;

@@ -1,4 +1,4 @@
-// What the files of the rack-file reader share: the tables of keys, the ends of an axis, and the steps of reading.
+// Shared parts of the rack file reader: tables of keys, signals of an axis, and the steps of reading.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace motionrack::rack {
 
-// ---- The tables: one row a key
+// ---- Tables: one row per key
 
 std::span<const Field> rack_fields();         ///< [rack] into RackConfig
-std::span<const Field> card_fields();         ///< [card.NAME] into RackCard, without the settings of its type
+std::span<const Field> card_fields();         ///< [card.NAME] into RackCard, without type-specific settings
 std::span<const Field> axis_fields();         ///< [axis.X] into RackAxis
 std::span<const Field> motor_fields();        ///< [axis.X.motor] into RackMotor
 std::span<const Field> servo_fields();        ///< [axis.X.servo] into RackServo
@@ -33,20 +33,20 @@ std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScann
 std::span<const Field> controller_fields();   ///< [controller] into RackController
 std::span<const Field> safety_fields();       ///< [safety] into RackSafety
 
-/// An end of a wire at an axis' parts.
+/// A signal of an axis' parts, as an end of a wire.
 struct AxisSignal {
     std::string_view name;
     PinDirection direction;
     std::string_view doc;
     bool (*present)(const RackAxis& axis);
-    std::string_view needs;  ///< what the rack file must say for the end to be there
-    double volts = 0;        ///< of an analog end: see PinType
+    std::string_view needs;  ///< rack file entry that the signal requires
+    double volts = 0;        ///< volts per level unit (analog signals): see PinType
 };
 std::span<const AxisSignal> axis_ends();
 const AxisSignal* find_axis_end(std::string_view name);
 
-/// An end of a wire at a track, an output; without a card's word the default rule leads it to `pin` of its card, "#"
-/// for the encoder's number.
+/// An output signal of a conveyor, as an end of a wire. If the card does not override it, the default rule connects it
+/// to `pin` of its card, with "#" for the encoder's number.
 struct ConveyorSignal {
     std::string_view name;
     std::string_view pin;
@@ -64,18 +64,19 @@ inline constexpr int slot_count = 21;
 
 // ---- Steps of reading
 
-/// Where an axis was read from and what of it was refused.
+/// Source of an axis in the file, and its rejected keys.
 struct AxisSource {
-    const TomlNode* table = nullptr;  ///< nullptr: the axis was not in the file (ideal axes of a card alone)
+    const TomlNode* table = nullptr;  ///< nullptr: the axis is not in the file (ideal axes of a card alone)
     std::vector<std::string_view> refused = {};
 
     bool sound(std::initializer_list<std::string_view> keys) const;
-    /// The place of the key, in the axis' own table or its table `sub` ("motor", "servo", "switches", "homing").
+    /// Returns the location of the key, in the axis' own table or its table `sub` ("motor", "servo", "switches",
+    /// "homing").
     Place place(std::string_view key, std::string_view sub = {}) const;
 };
 
-/// Checks what no single key can tell: axes against cards, positions against each other, speeds against chip and motor.
-/// `sources` goes with config.axes.
+/// Checks that involve several keys: axes against cards, positions against each other, velocities against chip and
+/// motor. `sources` has one entry per axis of config.axes.
 void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems);
 
 /// Reads the section [probe] into config.probe and checks it against the axes and their cards.
@@ -84,23 +85,24 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems);
 /// Reads the sections [stage.NAME] into config.stages and checks them against the cards.
 void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems);
 
-/// Reads the sections [belt.NAME] and [table.NAME] into config.tracks and [scanner.NAME] into config.scanners; each may
+/// Reads the sections [belt.NAME] and [table.NAME] into config.tracks and [scanner.NAME] into config.scanners. Each may
 /// be nullptr. Checks them against the cards and each other.
 void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config,
                   Problems& problems);
 
-/// Whether wires, faults and reports can call something so: 1 to 32 letters, digits and '_', not beginning with a
+/// Returns true for a valid name of wires, faults and reports: 1 to 32 letters, digits and '_', not beginning with a
 /// digit.
 bool is_name(std::string_view name);
 
-/// Sets the wires of `config`: the default rule, changed by the file's [wires] (may be nullptr); and their links.
+/// Sets the wires of `config` and their links: the default rule, changed by the file's [wires] (may be nullptr).
 void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems);
 
-/// Sets the links that follow from config.wires. `place_of` tells where the file names an input, if it does.
+/// Sets the links that follow from config.wires. `place_of` returns the location at which the file names an input, if
+/// it does.
 void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
                    Problems& problems);
 
-/// The index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
+/// Returns the index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
 int channel_index(const RackConfig& config, const RackAxis& axis);
 
 }  // namespace motionrack::rack

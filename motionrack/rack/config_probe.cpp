@@ -1,4 +1,4 @@
-// The section [probe]: a touch probe and the block that it touches.
+// Section [probe]: a touch probe and the block that it touches.
 #include <fmt/format.h>
 
 #include <motionrack/rack/config_parts.hpp>
@@ -27,7 +27,7 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     }
     for (const RackAxis& axis : config.axes) {
         const RackCard* card = config.card(axis.card);
-        if (card == nullptr || card->type.empty()) continue;  // told already
+        if (card == nullptr || card->type.empty()) continue;  // already reported
         if (card->type == "mcx314" && card->mcx314.variant == Mcx314Variant::mcx314as) continue;
         problems.error(node.key_place, fmt::format("The rack has a probe, but card {} of axis {} cannot catch "
                                                    "positions; it must be of type mcx314 with variant = "

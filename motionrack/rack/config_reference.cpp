@@ -1,4 +1,4 @@
-// The reference page of the rack file, written from the tables that the reader reads with.
+// Reference page of the rack file, written from the reader's tables.
 #include <fmt/format.h>
 
 #include <motionrack/rack/config_parts.hpp>
@@ -28,7 +28,7 @@ std::string card_type_text(const CardType& type) {
     }
     for (std::size_t i = 0; i < type.chip_pins.size(); ++i) {
         const PinType& pin = type.chip_pins[i];
-        if (type.chip_pin_count != nullptr && i >= 2) continue;  // as many as the settings say, all of two kinds
+        if (type.chip_pin_count != nullptr && i >= 2) continue;  // the settings give their number
         const std::string more = type.chip_pin_count != nullptr
                                      ? fmt::format(" .. `{}`", type.chip_pins[type.chip_pins.size() - 2 + i].name)
                                      : "";

@@ -1,4 +1,4 @@
-// The sections [stage.NAME] of a rack file: their keys, and what does not fit between stages, cards and scales.
+// Sections [stage.NAME] of a rack file: their keys, and conflicts between stages, cards and scales.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -140,7 +140,7 @@ class StageReader {
                        fmt::format("scale {} of the decoder is that of stage {} already.", stage.input, other.name));
         }
         const std::vector<int> wanted = wanted_scales(card->grating_bus);
-        if (wanted.empty()) return;  // its list cannot be read, which is told of the card
+        if (wanted.empty()) return;  // its list is invalid, which is reported for the card
         std::int64_t scales = 0;
         for (const RackCard& other : config_.cards)
             if (other.type == "grating_bus")

@@ -1,8 +1,8 @@
-// Wires: the default rule of each card type, and what the rack file says otherwise. In the file the input stands left
-// and the output that drives it right, so that every input has one driver by the grammar of TOML itself:
+// Wires: the default rule of each card type, and the changes by the rack file. In the file, the input stands left and
+// the output that drives it right, so that the grammar of TOML itself permits one driver per input:
 //
 //   [wires]
-//   "motion.xlmtp" = "Y.limit_plus"    # this instead of X.limit_plus
+//   "motion.xlmtp" = "Y.limit_plus"    # replaces X.limit_plus
 //   "motion.xin0" = "open"             # no wire
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ struct KnownEnd {
     WireEnd end;
     PinDirection direction = PinDirection::input;
     std::string_view carries = logic;
-    std::string missing;  ///< not empty: the name is right, but the rack has no such part; why
+    std::string missing;  ///< not empty: the name is valid, but the rack lacks the part; the reason
 };
 
 class WireResolver {
@@ -84,10 +84,10 @@ class WireResolver {
 
     std::vector<WireEnd> take_open() { return std::move(open_); }
 
-    /// Nothing was wrong so far.
+    /// Returns true if no error has been found.
     bool sound() const { return sound_; }
 
-    /// Where the file names that input; no place if it does not.
+    /// Location at which the file names that input; an empty place if it does not.
     Place place_of(const std::string& input) const {
         const auto found = named_.find(input);
         return found != named_.end() ? found->second->key_place : Place{};
@@ -138,7 +138,7 @@ class WireResolver {
         }
     }
 
-    /// A wire of the default rule, from whichever of the two is the output; none if a part is not there.
+    /// Adds a wire of the default rule, from the output of the two to the input; none if a part is missing.
     void connect(const std::string& a, const std::string& b) {
         const auto first = known_.find(a);
         const auto second = known_.find(b);
@@ -149,7 +149,7 @@ class WireResolver {
         wires_.emplace(to->first, RackWire{from->second.end, to->second.end, true});
     }
 
-    /// The end of that name, or nullptr after an error (none for cards whose own type is in error already).
+    /// Returns the end of that name, or nullptr after an error (no error for cards whose own type is already in error).
     const KnownEnd* find_end(const std::string& name, Place place) {
         const auto found = known_.find(name);
         if (found != known_.end()) {
@@ -170,7 +170,7 @@ class WireResolver {
         return nullptr;
     }
 
-    /// The first name of a pin that has two.
+    /// Returns the first name of a pin that has two.
     std::string first_name(const std::string& name, const KnownEnd* end) const {
         return end != nullptr && end->end.owner == EndOwner::card ? config_.end_name(end->end) : name;
     }
@@ -226,7 +226,7 @@ class WireResolver {
         }
     }
 
-    /// Inputs that were wired to inputs: nothing drives them; where they go round in a circle, say so (once a circle).
+    /// Reports inputs wired to inputs, which nothing drives; a circle of inputs is reported once.
     void find_loops() {
         std::set<std::string> told;
         for (const auto& [name, node] : inputs_) {
@@ -248,7 +248,7 @@ class WireResolver {
         }
     }
 
-    /// As many listeners as a wire of the kernel has, less one for a recording.
+    /// Listener limit of a kernel wire, less one for a recording.
     static constexpr int max_inputs = 31;
 
     void too_many_inputs() {
@@ -257,7 +257,7 @@ class WireResolver {
             const WireEnd& output = input.second.from;
             const std::string from = config_.end_name(output);
             if (++inputs[from] != max_inputs + 1) continue;
-            // An input that the file names: the default rule alone wires fewer.
+            // An input named in the file; the default rule alone wires fewer.
             const auto named = std::find_if(named_.begin(), named_.end(), [&](const auto& each) {
                 const auto its = wires_.find(each.first);
                 return its != wires_.end() && its->second.from == output;
@@ -278,7 +278,7 @@ class WireResolver {
     Problems& problems_;
     bool sound_ = true;
     std::map<std::string, KnownEnd> known_;
-    std::map<std::string, RackWire> wires_;  ///< by the name of the input
+    std::map<std::string, RackWire> wires_;  ///< by input name
     std::map<std::string, const TomlNode*> named_;
     std::map<std::string, const TomlNode*> inputs_;
     std::vector<WireEnd> open_;

@@ -1,4 +1,4 @@
-// Numbers with their noun, for people.
+// Pluralises a noun after a number.
 #pragma once
 
 #include <concepts>
@@ -7,7 +7,7 @@
 
 namespace motionrack::rack {
 
-/// "1 move", "2 moves", "0 moves"; `many` where an s is not enough ("axes").
+/// Returns "1 move", "2 moves", "0 moves"; `many`: a plural other than with "s" ("axes").
 template <std::integral N>
 std::string count_noun(N number, std::string_view one, std::string_view many = {}) {
     std::string out = std::to_string(number);

@@ -1,5 +1,5 @@
-// The DataBoard 4002 in a rack: all of a rack share one bus. An ideal motor follows the pulses of a card without an
-// axis.
+// The DataBoard 4002 in a rack; all boards of a rack share one bus. An ideal motor follows the pulses of a card without
+// an axis.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ db::Settings settings_of(const Databoard4002Settings& s) {
     return out;
 }
 
-/// The axis in the card's own counts: edges that the straps let through, speeds by voltage or frequency.
+/// Converts the axis to the card's own counts: edges that the straps pass, velocities by voltage or frequency.
 db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis& axis, Databoard4002Counting counting) {
     constexpr std::array<double, 4> counts_of_edge = {1, 0.5, 0.25, 1};
     db::PositionAxisSettings out;
@@ -69,14 +69,14 @@ struct ByteValue {
     std::string_view doc = {};
 };
 
-// What the boundary calls quantities.
+// Quantities of the C boundary.
 constexpr ByteValue quantities_of_card[] = {
     {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }, "frequency of the pulses at FOUT"},
     {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); },
      "what its position counter shows"},
 };
 
-// What can be inspected beside the registers; own_number: what is written to port 1 to choose the card.
+// Values beside the registers; own_number: card number written to port 1 to select the card.
 constexpr std::string_view own_number = "SELECT";
 constexpr ByteValue inspected[] = {
     {"POSITION", [](const db::Card& card) { return static_cast<double>(card.position()); }},

@@ -1,4 +1,4 @@
-// The DataBoard 4002 of a rack, for those who look into it.
+// Access to a DataBoard 4002 in a rack.
 #pragma once
 
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::rack {
 
-/// nullptr if the rack has no such card, or it is of another type.
+/// Returns nullptr if the rack has no such card or the card is of another type.
 const databoard4002::Card* databoard4002_card_of(Rack& rack, std::string_view name);
 
 }  // namespace motionrack::rack

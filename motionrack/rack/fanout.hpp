@@ -1,4 +1,4 @@
-// Several who hear the same edges or wires: what makes them has room for one listener each.
+// Fans one listener slot for edges or wires out to several listeners.
 //
 //   part ──edges──► EdgeFanout ──┬──► waves (VCD)          kernel ──wires──► WireFanout ──┬──► waves
 //                              └──► recording                                         └──► recording
@@ -15,10 +15,10 @@ namespace motionrack::rack {
 
 class EdgeFanout final : public sim::EdgeListener {
   public:
-    /// `attach`: makes somebody the one listener, or nobody (nullptr).
+    /// `attach`: sets the single listener, or removes it (nullptr).
     explicit EdgeFanout(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
 
-    /// Between runs. Nothing is done where an ear is to be removed that was not added.
+    /// Call between runs. Removing a listener that was not added has no effect.
     void add(sim::EdgeListener& ear) {
         ears_.push_back(&ear);
         if (ears_.size() == 1) attach_(this);
@@ -39,7 +39,7 @@ class WireFanout final : public sim::Kernel::WireObserver {
   public:
     explicit WireFanout(sim::Kernel& kernel) : kernel_(kernel) {}
 
-    /// Between runs.
+    /// Call between runs.
     void add(sim::Kernel::WireObserver& observer) {
         observers_.push_back(&observer);
         kernel_.observe_wires(this);

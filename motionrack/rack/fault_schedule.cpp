@@ -1,4 +1,4 @@
-// Reading planned faults and doing them.
+// Parses planned faults and applies them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -92,7 +92,7 @@ void FaultSchedule::apply_due() {
         fault.done = true;
         const Result<void> done =
             fault.target.empty() ? desk_.force(fault.name, fault.value) : inject_fault(rack_, fault.name, fault.target);
-        if (!done) fault.refused = done.error().message;  // only the part itself knows which values it can have
+        if (!done) fault.refused = done.error().message;  // only the part itself knows its permitted values
     }
 }
 

@@ -1,6 +1,6 @@
-// Faults at planned instants of a run: "X.limit_plus=0@0.5s" drives a wire, "X.encoder.broken_a@1s" breaks a part.
+// Faults at planned instants of a run: "X.limit_plus=0@0.5s" forces a wire, "X.encoder.broken_a@1s" injects a fault.
 //
-//   kernel ──act at the planned instant──► break_run ──► between runs: apply_due() ──► WireAccess, inject_fault
+//   kernel ──on_scheduled, at its instant──► break_run ──► between runs: apply_due() ──► WireAccess, inject_fault
 #pragma once
 
 #include <motionrack/rack/rack.hpp>
@@ -12,36 +12,36 @@
 
 namespace motionrack::rack {
 
-/// NAME[=VALUE]@TIME as a user writes it. NAME is a wire that can be driven (VALUE 0, 1 or release), or TARGET.FAULT
-/// (see faults.hpp; without a VALUE 1). TIME is since the rack was started: a number with s, ms or us.
+/// NAME[=VALUE]@TIME as the user writes it. NAME is a wire that can be forced (VALUE 0, 1 or release), or TARGET.FAULT
+/// (see faults.hpp; the default VALUE is 1). TIME is a number with s, ms or us since the start of the rack.
 struct ScheduledFault {
-    std::string text;  ///< what the user wrote
+    std::string text;  ///< user's text
     Instant at{};
-    std::string name;    ///< of the wire; of the fault with its value
-    std::string target;  ///< of the fault; empty: it is a wire
-    double value = 1;    ///< of the wire; NaN releases it
+    std::string name;    ///< name of the wire, or of the fault with its value
+    std::string target;  ///< target of the fault; empty: NAME is a wire
+    double value = 1;    ///< value of the wire; NaN releases it
     bool done = false;
-    std::string refused;  ///< why it could not be done when its time had come: the part cannot have that value
+    std::string refused;  ///< reason for which the part rejected the value when the fault was due; empty: accepted
 };
 
-/// Takes texts as users write them apart; what they name is looked at later. Errors: invalid_input, one without its
-/// time.
+/// Parses texts of users; their names are checked later. Errors: invalid_input for a text without a time.
 Result<std::vector<ScheduledText>> read_faults(const std::vector<std::string>& texts);
 
 class FaultSchedule final : public sim::Device {
   public:
-    /// Before the rack is started; nothing is planned if it fails. Errors: invalid_input and refused, for the first
-    /// text that cannot be obeyed.
+    /// Call before the rack starts. On failure nothing is planned. Errors: invalid_input and refused, for the first
+    /// text that cannot be executed.
     static Result<std::unique_ptr<FaultSchedule>> create(Rack& rack, const std::vector<std::string>& texts);
     static Result<std::unique_ptr<FaultSchedule>> create_timed(Rack& rack, const std::vector<ScheduledText>& faults);
 
-    /// After the rack was started.
+    /// Call after the rack has started.
     void begin();
-    /// Between runs, whenever one was broken: does what is due.
+    /// Applies the faults that are due. Call between runs, after every broken run.
     void apply_due();
-    /// Sentences about what was not done: the run ended before it, or the part refused it; in the order of time.
+    /// Sentences, by time, about faults that were not applied: the run ended before them, or the part rejected the
+    /// value.
     std::vector<std::string> not_done() const;
-    /// What was done is what `other` has done, a plan of the same texts whose rack's state was copied.
+    /// Takes over the progress of `other`, a schedule of the same texts whose rack's state was copied.
     void copy_from(const FaultSchedule& other);
 
     void on_scheduled(Instant now) override;
@@ -53,7 +53,7 @@ class FaultSchedule final : public sim::Device {
     Rack& rack_;
     WireAccess desk_;
     sim::DeviceId id_{};
-    std::vector<ScheduledFault> faults_;  // in the order of time
+    std::vector<ScheduledFault> faults_;  // by time
 };
 
 }  // namespace motionrack::rack

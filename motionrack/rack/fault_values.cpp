@@ -1,4 +1,4 @@
-// What the values of faults mean: a row for each fault of each kind of part and card.
+// Values of faults: one row per fault of each kind of part and card.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/faults.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::rack {
 
 namespace {
 
-/// What a fault is of: the part, whose settings its limits may follow.
+/// Target of a fault: the part, whose settings may determine the limits.
 struct FaultyPart {
     const RunningAxis* axis = nullptr;
     const RackCard* card = nullptr;
@@ -19,7 +19,7 @@ struct FaultRow {
     std::string_view name;
     double min, max;
     std::string_view unit, doc;
-    double (*max_of)(const FaultyPart& part) = nullptr;  ///< instead of max; may be nullptr
+    double (*max_of)(const FaultyPart& part) = nullptr;  ///< replaces max; may be nullptr
 };
 
 constexpr double max_factor = 1000, max_levels = 1e6, max_delay_s = 1, max_ppm = 1e5;
@@ -36,7 +36,7 @@ double off_centre(const FaultyPart& part) {
 double track_speed_limit(const FaultyPart& part) {
     return part.track->config.max_velocity();
 }
-/// Whether it goes by its profile again has no number; it is checked like a speed.
+/// The switch back to the profile has no number of its own; it is checked like a velocity.
 double track_profile_limit(const FaultyPart& part) {
     return std::min(1.0, track_speed_limit(part));
 }
@@ -143,7 +143,7 @@ std::vector<FaultValue> fault_values(Rack& rack) {
         const FaultyPart part = part_of(rack, target.name);
         for (const std::string_view name : target.faults) {
             const FaultRow* row = row_of(part, name);
-            MOTIONRACK_ASSERT(row != nullptr);  // a test looks at all of them
+            MOTIONRACK_ASSERT(row != nullptr);  // a test covers all rows
             FaultValue& one = out.emplace_back(
                 FaultValue{target.name, row->name, std::string(row->unit), row->doc, row->min, row->max});
             if (row->max_of != nullptr) one.max = row->max_of(part);

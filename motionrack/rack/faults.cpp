@@ -1,4 +1,4 @@
-// Finding the part that a fault is of.
+// Finds the target of a fault.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace motionrack::rack {
 
 namespace {
 
-/// Faults of the encoder's tracks where they are wires; what else an encoder can have is the machine's.
+/// Faults of encoder tracks that are wires; other encoder faults belong to the machine.
 constexpr std::array<std::string_view, 7> line_faults = {
     "encoder.inverted_a", "encoder.inverted_b", "encoder.noise",       "encoder.jitter",
     "encoder.dirt",       "encoder.overspeed",  "encoder.eccentricity"};
@@ -21,7 +21,7 @@ bool of_lines(std::string_view fault) {
     return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end();
 }
 
-/// A part that takes faults: an axis' machine or servo, a stage's motor or scale, a belt or table, or a card.
+/// A part that accepts faults: an axis' mechanics or servo, a stage's motor or scale, a belt or table, or a card.
 struct Found {
     RunningAxis* axis = nullptr;
     Card* card = nullptr;
@@ -32,7 +32,7 @@ struct Found {
     bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
 };
 
-/// Whether the machine has the part that the fault is of ("encoder.", "limit_plus." ...).
+/// Returns true if the machine has the part named by the fault ("encoder.", "limit_plus." ...).
 bool has_part(const RunningAxis& axis, std::string_view fault) {
     const parts::AxisMechanics& machine = *axis.machine;
     const std::string_view part = fault.substr(0, fault.find('.'));

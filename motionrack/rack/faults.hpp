@@ -1,7 +1,7 @@
-// Faults by name: what can be broken on purpose in a running rack.
+// Faults by name that can be injected into a running rack.
 //
-//   inject_fault(rack, "encoder.broken_a", "X")        from now on
-//   inject_fault(rack, "encoder.broken_a=0", "X")      mended
+//   inject_fault(rack, "encoder.broken_a", "X")        from this instant
+//   inject_fault(rack, "encoder.broken_a=0", "X")      repaired
 //   inject_fault(rack, "motor.lose_steps=64", "X")     with a number
 #pragma once
 
@@ -12,36 +12,36 @@
 
 namespace motionrack::rack {
 
-/// The fault `fault` ("NAME" or "NAME=VALUE"; without a value: 1) of `target`, an axis, a stage, a belt, a table or a
-/// card of the rack. Between runs. Errors: invalid_input (no such target or fault, with the ones that there are),
-/// refused (the part is missing, the value).
+/// Injects the fault `fault` ("NAME" or "NAME=VALUE"; the default value is 1) into `target`: an axis, a stage, a belt,
+/// a table or a card of the rack. Call between runs. Errors: invalid_input (unknown target or fault, listing the
+/// available ones), refused (the part is missing, the value).
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target);
 
-/// What inject_fault would say of names and value; the rack need not be started.
+/// Returns the result of inject_fault for name and value without injecting it; the rack may not be started yet.
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target);
 
-/// The greatest number of a fault, in microsteps: how far a motor can be pushed at once.
+/// Maximum value of a fault, in microsteps: the largest push of a motor.
 inline constexpr double max_push = 1e7;
 
-/// Names of the faults that an axis can have, whatever turns it.
+/// Names of the faults of an axis, for stepping motors and servos.
 std::vector<std::string_view> fault_names();
 
-/// Everything in the rack that can be broken, and how.
+/// A target in the rack and its faults.
 struct FaultTarget {
-    std::string name;  ///< of inject_fault
+    std::string name;  ///< target name for inject_fault
     std::vector<std::string_view> faults;
 };
 std::vector<FaultTarget> fault_targets(Rack& rack);
 
-/// One of these faults, and the values that it takes.
+/// A fault and its values.
 struct FaultValue {
     std::string target;
     std::string_view name;
-    std::string unit;      ///< of the value; empty: it has none
-    std::string_view doc;  ///< what the value does
+    std::string unit;      ///< unit of the value; empty: none
+    std::string_view doc;  ///< effect of the value
     double min = 0, max = 0;
 };
-/// All of them, target by target.
+/// All faults, target by target.
 std::vector<FaultValue> fault_values(Rack& rack);
 
 }  // namespace motionrack::rack

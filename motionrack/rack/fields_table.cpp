@@ -1,4 +1,4 @@
-// Fields as rows in Markdown.
+// Fields as Markdown rows.
 #include <fmt/format.h>
 
 #include <motionrack/rack/fields_table.hpp>
@@ -6,7 +6,7 @@
 namespace motionrack::rack {
 namespace {
 
-/// "lead_mm", or "max_velocity_mm_s / max_velocity_deg_s" for a key of both kinds of axis.
+/// Returns "lead_mm", or "max_velocity_mm_s / max_velocity_deg_s" for a key of both kinds of axis.
 std::string both_units(std::string_view text, std::string_view only, std::string_view quote) {
     const auto one = [&](std::string_view unit) { return fmt::format("{}{}{}", quote, with_unit(text, unit), quote); };
     if (text.find("{u}") == std::string_view::npos || !only.empty()) return one(only);

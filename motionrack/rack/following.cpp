@@ -1,4 +1,4 @@
-// Comparing what was sent with what was counted.
+// Compares commanded motion with encoder counts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace motionrack::rack {
 namespace {
 
 constexpr Duration look_at_following_every = milliseconds(1);
-/// Within it the error of a servo fades to a third.
+/// Time in which the error of a servo decays to a third.
 constexpr double fades_within_s = 0.5;
 
-/// The wire of the card's input that the default rule joins with that end of an axis.
+/// Returns the wire of the card's input that the default rule joins with that signal of an axis.
 sim::WireId input_for(const sim::Kernel& kernel, const RackAxis& axis, const CardType& type, std::string_view end) {
     for (const DefaultWire& wire : type.default_wires)
         if (wire.end == end) return kernel.find_wire(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin));
     return sim::WireId::none;
 }
 
-/// The card's output that drives the servo of an axis; none if its input is open.
+/// Returns the card's output that drives the servo of an axis; none if its input is open.
 sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::size_t axis) {
     const WireEnd drive{EndOwner::axis, static_cast<int>(axis), "drive"};
     for (const RackWire& wire : config.wires)
@@ -31,7 +31,7 @@ sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::
     return sim::WireId::none;
 }
 
-/// How the speed of a servo changes within `seconds`, which are few: see parts::DcMotor.
+/// Integrates the velocity of a servo over `seconds`, a short time: see parts::DcMotor.
 double speed_after(const parts::DcMotorSettings& servo, double speed, double volts, double seconds) {
     const double inertia = 1 + servo.load, most = servo.top_accel / inertia * seconds;
     const double above = std::max(std::fabs(volts) - servo.dead_band_v, 0.0);
@@ -51,7 +51,7 @@ FollowingWatch::FollowingWatch(Rack& rack)
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) add(i);
 }
 
-/// Where the card that drives an axis counts its encoder, too; tracks that are crossed over are meant so.
+/// Adds an axis whose encoder the driving card also counts; crossed tracks are taken as intended.
 void FollowingWatch::add(std::size_t axis) {
     const RackConfig& config = rack_.config();
     const RunningAxis& running = rack_.axes()[axis];
@@ -97,7 +97,7 @@ void FollowingWatch::end() {
     kernel_.schedule(id_, never);
 }
 
-/// An input that is held from outside counts nothing.
+/// A forced input counts nothing.
 double FollowingWatch::error(std::size_t i, Instant now) {
     const Watched& watched = watched_[i];
     const RunningAxis& running = rack_.axes()[watched.axis];
@@ -115,7 +115,7 @@ double FollowingWatch::error(std::size_t i, Instant now) {
     return sent - static_cast<double>(own.counted) - own.origin;
 }
 
-/// On to `now`, when `turned` counts more have come.
+/// Advances the servo model to `now`, after `turned` further counts.
 void FollowingWatch::follow_servo(std::size_t i, std::int64_t turned, Instant now) {
     const Watched& watched = watched_[i];
     AxisState& own = state_.axes[i];

@@ -1,18 +1,19 @@
-// How far an axis stays behind what drives it, by the counts of its encoder, while somebody drives the machine.
+// Following-error supervision: encoder counts of an axis against its pulses or servo volts, while the machine is
+// driven.
 //
-//   pulses of the card since the begin ───────────────┐
-//   counts at the card's inputs since the begin ──────┴─► following error ──► above the warning limit: told once
+//   pulses of the card since the start ──────────────┐
+//   counts at the card's inputs since the start ─────┴─► following error ──► above the warning limit: reported once
 //                        every millisecond                               └──► above the alarm limit: the stop latch
 //
-// It looks at pulses and lines, not at the card's counters, which hosts write. An encoder that is dead, swapped or not
-// plugged in is an axis that stays behind, as well as a motor that is held or loses steps.
+// It evaluates pulses and encoder lines, not the card's counters, which hosts write. A dead, swapped or unplugged
+// encoder causes a following error, as does a motor that is blocked or loses steps.
 //
-// A servo has no pulses. What its card drives it with, the volts of its output, goes through a servo of the rack file's
-// numbers, which nothing hinders; what that turns more than is counted is its following error. It fades within half a
-// second, since volts tell a speed and no place:
+// A servo has no pulses. The output volts of its card pass through a model of the servo with the rack file's numbers
+// and without disturbances. The excess of the model's travel over the counts is the following error. It decays within
+// half a second, since volts define a velocity, not a position:
 //
-//   volts ──► dead band, gain, saturation ──► lag, current limit, friction ──► speed ──┐
-//   counts at the card's inputs ───────────────────────────────────────────────────────┴─► sum, fading
+//   volts ──► dead band, gain, saturation ──► lag, current limit, friction ──► velocity ──┐
+//   counts at the card's inputs ──────────────────────────────────────────────────────────┴─► sum, decaying
 #pragma once
 
 #include <array>
@@ -31,25 +32,25 @@ struct RunningAxis;
 
 class FollowingWatch final : public sim::Device {
   public:
-    /// Of a rack that has all its wires, before it starts.
+    /// Call when the rack has all its wires, before it starts.
     explicit FollowingWatch(Rack& rack);
 
-    /// Every axis is where it was sent, and is watched from now on. Between runs.
+    /// Takes every axis as in position and starts supervision. Call between runs.
     void begin();
-    /// This one is where it was sent: it was homed, or declared.
+    /// Takes this axis as in position: it was homed, or its position was set.
     void begin(std::size_t axis);
-    /// Nothing is watched any more.
+    /// Ends supervision.
     void end();
-    /// Now, without waiting for the millisecond.
+    /// Evaluates immediately, without waiting for the millisecond.
     void look(Instant now);
 
-    /// An axis that went beyond its warning limit, with the worst that was seen until now.
+    /// An axis above its warning limit, with the largest error seen up to now.
     struct Warning {
-        std::size_t axis = 0;  ///< of Rack::axes()
+        std::size_t axis = 0;  ///< index in Rack::axes()
         Instant at{};
         std::string text;  ///< without a full stop
     };
-    /// Those that were not told yet; none of an axis that went beyond its alarm limit.
+    /// Returns the unreported warnings, without those of an axis above its alarm limit.
     std::vector<Warning> take_warnings();
     /// "The following error of X was 1.004 mm, above its limit of 1 mm".
     std::string alarm_text(std::size_t axis) const;
@@ -58,22 +59,22 @@ class FollowingWatch final : public sim::Device {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    /// What is known of an axis; all in counts of its encoder.
+    /// State of an axis; all in counts of its encoder.
     struct Watched {
         std::size_t axis = 0;
         double counts_per_pulse = 1;
-        std::array<sim::WireId, 2> lines{sim::WireId::none, sim::WireId::none};  ///< at its card
-        double warning = 0, alarm = 0;                                           ///< 0: none
-        const parts::DcMotorSettings* servo = nullptr;                           ///< nullptr: it has pulses
-        sim::WireId volts = sim::WireId::none;                                   ///< of a servo: its card's output, uV
+        std::array<sim::WireId, 2> lines{sim::WireId::none, sim::WireId::none};  ///< at the card's inputs
+        double warning = 0, alarm = 0;                                           ///< limits; 0: none
+        const parts::DcMotorSettings* servo = nullptr;                           ///< nullptr: an axis with pulses
+        sim::WireId volts = sim::WireId::none;                                   ///< output of a servo's card, uV
     };
     struct AxisState {
-        double origin = 0;         ///< the error when it began
+        double origin = 0;         ///< error at the start of supervision
         std::int64_t counted = 0;  ///< at the card's inputs
-        double worst = 0;          ///< beyond the warning limit; 0: it was not
-        double excess = 0;         ///< beyond the alarm limit; 0: it was not
-        double speed = 0;          ///< of a servo as it should be
-        double behind = 0;         ///< of a servo
+        double worst = 0;          ///< error above the warning limit; 0: below
+        double excess = 0;         ///< error above the alarm limit; 0: below
+        double speed = 0;          ///< model velocity of a servo
+        double behind = 0;         ///< model following error of a servo
         Instant looked{}, warned_at{};
         std::int64_t told = 0;
     };
@@ -89,7 +90,7 @@ class FollowingWatch final : public sim::Device {
     Rack& rack_;
     sim::Kernel& kernel_;
     sim::DeviceId id_;
-    std::vector<Watched> watched_;  ///< goes with state_.axes
+    std::vector<Watched> watched_;  ///< same order as state_.axes
     State state_;
 };
 

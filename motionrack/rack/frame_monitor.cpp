@@ -1,4 +1,4 @@
-// Counting what agrees.
+// Counts agreeing and differing frames.
 #include <algorithm>
 #include <motionrack/rack/frame_monitor.hpp>
 
@@ -27,8 +27,8 @@ void FrameMonitor::began(const gb::Card& card, Instant now) {
     for (int n = 0; n < decoder.settings().scales; ++n) own.truth[static_cast<std::size_t>(n)] = decoder.count(n, now);
 }
 
-/// Whether a count of the frame is not that of its scale when the frame began. A host's scales are those that it wants,
-/// a slave's those that were addressed.
+/// Returns true if a count of the frame differs from that of its scale at the start of the frame. A host's frame
+/// contains its configured scales, a slave's the addressed ones.
 bool FrameMonitor::untrue(const Watched& own, const gb::Frame& frame) {
     for (std::uint32_t k = 0; k < frame.words; ++k) {
         const int address =
@@ -42,7 +42,7 @@ void FrameMonitor::published(const gb::Card& card, const gb::Frame& frame, Insta
     ++published_;
     Watched& own = watched(card);
     ++own.frames;
-    if (card.is_remote()) return;  // another crate's scales, and its time
+    if (card.is_remote()) return;  // scales of another crate, and its time
     own.untrue += untrue(own, frame);
     const Duration apart = frame.instant() - first_.instant();
     if (first_.words == 0 || apart > card.settings().period / 2 || apart < -card.settings().period / 2)

@@ -1,4 +1,4 @@
-// A frame as waves.
+// Draws a frame as waves.
 #include <fmt/format.h>
 
 #include <motionrack/rack/frame_monitor.hpp>
@@ -18,7 +18,7 @@ std::string address_name(std::uint32_t address) {
     return fmt::format("{}", address);
 }
 
-/// Collects the changes of chosen wires.
+/// Collects the changes of selected wires.
 class Collector final : public sim::Kernel::WireObserver {
   public:
     struct Chosen {

@@ -1,4 +1,4 @@
-// From frame to frame.
+// Runs a rack from frame to frame.
 #include <fmt/format.h>
 
 #include <motionrack/rack/frame_stepper.hpp>

@@ -1,4 +1,4 @@
-// Runs a rack from frame to frame of one card of its grating bus, for those who pass frames on.
+// Runs a rack from frame to frame of one card of its grating bus, for forwarding the frames.
 #pragma once
 
 #include <functional>
@@ -11,20 +11,20 @@ namespace motionrack::rack {
 
 class FrameStepper final : public grating_bus::FrameListener {
   public:
-    /// Frames of the card of that name; "": of the first host. Before the rack is started. Errors: invalid_input with
-    /// the cards that there are.
+    /// Follows the frames of the card of that name; "": the first host. Call before the rack starts. Errors:
+    /// invalid_input, listing the available cards.
     static Result<std::unique_ptr<FrameStepper>> create(Rack& rack, std::string_view card);
 
     const grating_bus::Card& card() const { return card_; }
-    /// Of the bus.
+    /// Period of the bus.
     Duration period() const { return card_.settings().period; }
 
-    /// Runs the rack until the card has published a frame, at most for a period. A frame of 0 words: it published none,
-    /// and the rack is at the frame's time. `between` is called wherever the run was broken, for faults that are due;
-    /// it may be empty.
+    /// Runs the rack until the card has published a frame, at most for a period. Returns a frame of 0 words if the card
+    /// published none; the rack is at the frame's time then. `between`, which may be empty, is called at every break of
+    /// the run, for faults that are due.
     void next(grating_bus::Frame& frame, const std::function<void()>& between);
-    /// For those who run the rack otherwise, whenever a run was broken, which every frame does: the frame that came
-    /// since the last call.
+    /// Returns the frame published since the last call. For callers that run the rack themselves; call at every break
+    /// of a run, which every frame causes.
     bool take(grating_bus::Frame& frame);
 
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;

@@ -1,4 +1,4 @@
-// The grating bus' cards in a rack file: what the models need of the settings, and what does not fit between cards.
+// Grating-bus cards in a rack file: settings for the models, and conflicts between cards.
 #pragma once
 
 #include <motionrack/cards/grating_bus/model/settings.hpp>
@@ -9,10 +9,11 @@
 
 namespace motionrack::rack {
 
-/// Addresses of the scales that a card reads, in order; none if its list cannot be read (grating_bus_flaw says why).
+/// Returns the addresses of the scales that a card reads, in order; empty if its list is invalid (grating_bus_flaw
+/// gives the reason).
 std::vector<int> wanted_scales(const GratingBusSettings& card);
 
-/// `first`: it is the first of its kind in the rack.
+/// `first`: the first card of its kind in the rack.
 grating_bus::CardSettings grating_settings(const RackCard& card, bool first);
 grating_bus::DecoderSettings decoder_settings(const RackCard& card);
 

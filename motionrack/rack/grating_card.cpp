@@ -1,4 +1,4 @@
-// The grating bus in a rack: motion cards and decoder share one bus, which the first of them brings.
+// The grating bus in a rack: motion cards and decoder share one bus, which the first of them creates.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -11,7 +11,7 @@ namespace {
 
 namespace gb = grating_bus;
 
-/// What is the same for a motion card and a decoder.
+/// Common base of a motion card and a decoder.
 class Member : public Card {
   public:
     Member(const RackCard& config, std::shared_ptr<gb::Bus> bus) : name_(config.name), bus_(std::move(bus)) {}
@@ -42,14 +42,14 @@ class Member : public Card {
         for (int n = 0; n < scales; ++n) out.push_back(std::to_string(n) + ".COUNT");
         return out;
     }
-    /// A register that can be read, by its name; else an error that lists them and `more`.
+    /// Reads a register by name; an unknown name gives an error that lists the readable ones and `more`.
     Result<std::int64_t> register_value(const sim::RegisterDevice& device, std::string_view name,
                                         std::span<const std::string_view> more) const {
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write) return device.peek(reg.offset);
         return no_such_value(*this, name, more);
     }
-    /// The number in front of `of`, if it is one below `scales`; else -1.
+    /// Returns the number in front of `of` if it is below `scales`; else -1.
     static int scale_of(std::string_view name, int scales, std::string_view of = ".COUNT") {
         int n = -1;
         const auto [end, bad] = std::from_chars(name.data(), name.data() + name.size(), n);
@@ -75,7 +75,7 @@ class GratingCard final : public Member {
 
     sim::DeviceId device() const override { return card_.id(); }
     const CardMap& map() const override { return gb::card_map(); }
-    /// All edges of a frame come a sum of these times after its start.
+    /// All edges of a frame follow its start by a sum of these times.
     Duration edge_unit() const override {
         const gb::Timing& t = card_.settings().timing;
         Duration unit = nanoseconds(10);
@@ -162,8 +162,8 @@ class GratingCard final : public Member {
     sim::Kernel& kernel_;
     gb::Card card_;
     sim::VirtualPort port_;
-    std::unique_ptr<gb::Decoder> own_decoder_;  // of a rack whose file has none
-    std::vector<std::string> wires_;            // with that decoder's
+    std::unique_ptr<gb::Decoder> own_decoder_;  // for a rack whose file has none
+    std::vector<std::string> wires_;            // includes those of that decoder
 };
 
 class DecoderCard final : public Member {

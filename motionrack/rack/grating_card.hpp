@@ -1,4 +1,4 @@
-// The cards of a grating bus in a running rack, as those see them who look at frames.
+// Grating-bus cards in a running rack, for observers of frames.
 #pragma once
 
 #include <motionrack/cards/grating_bus/model/bus.hpp>
@@ -7,9 +7,9 @@
 
 namespace motionrack::rack {
 
-/// The rack's bus; nullptr if no card is on one.
+/// Returns the rack's bus; nullptr if the rack has none.
 grating_bus::Bus* grating_bus_of(Rack& rack);
-/// The motion card of that name; nullptr if there is none.
+/// Returns the motion card of that name; nullptr if unknown.
 grating_bus::Card* grating_card_of(Rack& rack, std::string_view name);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// Settings of the grating bus' cards, and what does not fit between them.
+// Settings of grating-bus cards, and conflicts between them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 namespace gb = grating_bus;
 
-/// A motion card on the lines of this rack's bus.
+/// Returns true for a motion card on the lines of this rack's bus.
 bool is_grating(const RackCard& card) {
     return card.type == "grating_bus" && card.grating_bus.role != GratingRole::remote;
 }
@@ -30,7 +30,7 @@ gb::CardSettings settings_among(const RackCard& card, std::span<const RackCard> 
     return grating_settings(card, std::none_of(before.begin(), before.end(), is_grating));
 }
 
-/// A decoder that cannot serve a card, if so.
+/// Returns the conflict between a card and a decoder, if any.
 std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& settings, const RackCard& decoder) {
     const Result<void> fits = gb::check(settings, decoder_settings(decoder));
     if (fits) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& set
                                         fits.error().message)};
 }
 
-/// What is wrong with the list of addresses itself, or beside the keys that it stands for.
+/// Checks the list of addresses itself, and against the keys that it replaces.
 std::optional<CardFlaw> list_flaw(const RackCard& card) {
     const GratingBusSettings& own = card.grating_bus;
     if (own.addresses.empty()) return std::nullopt;

@@ -1,4 +1,4 @@
-// The loop that homes several axes, one look at all of them every millisecond.
+// Homes several axes in one loop that checks them all every millisecond.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr Duration sample_period = milliseconds(1);
 constexpr std::size_t max_samples = 200'000;
 
-/// The number of the input among `pins` of the axis' channel that `end` of the axis is wired to; -1 if none is.
+/// Returns the number of the input, among `pins` of the axis' channel, to which `end` of the axis is wired; -1 if none.
 int input_of(const RackConfig& config, const RackAxis& axis, std::string_view end,
              std::span<const std::string_view> pins) {
     for (const RackWire& wire : config.wires) {
@@ -28,7 +28,7 @@ int input_of(const RackConfig& config, const RackAxis& axis, std::string_view en
     return -1;
 }
 
-/// "xin0, xin1" of card motion.
+/// Returns "xin0, xin1" of card motion.
 std::string inputs_text(const RackAxis& axis, std::span<const std::string_view> pins) {
     std::string out;
     for (const std::string_view pin : pins) out += (out.empty() ? "" : ", ") + axis.channel + std::string(pin);
@@ -41,7 +41,7 @@ class Homing {
 
     HomingOutcome run() {
         out_.ended = choose();
-        if (!out_.ended) return std::move(out_);  // nothing was touched
+        if (!out_.ended) return std::move(out_);  // nothing was changed
         StopLatch& latch = rack_.stop_latch();
         const bool armed = latch.armed();
         if (!armed) latch.arm();
@@ -71,7 +71,7 @@ class Homing {
         }
     }
 
-    /// The axes were only asked to stop; the latch knows why.
+    /// Adds the reason for a stop from the latch, since the axes know only of the stop request.
     void tell_stop() {
         StopLatch& latch = rack_.stop_latch();
         latch.settle();
@@ -135,7 +135,7 @@ class Homing {
         return {};
     }
 
-    /// Their cards set them up.
+    /// Takes the axes over; their cards initialise them.
     Result<void> take_axes() {
         for (Work& work : works_) {
             MOTIONRACK_TRY(work.axis, work.running->card->axis(rack_.config(), work.running->config.letter));
@@ -165,7 +165,7 @@ class Homing {
             if (work->begun && !work->ended) work->axis->stop();
     }
 
-    /// Until every axis of the group has ended. One that fails stops the others; so do the time-out and the user.
+    /// Runs until every axis of the group has ended. A failed axis stops the others, as do the time-out and the user.
     void follow(const std::vector<Work*>& group) {
         sim::VirtualHost& port = group.front()->running->card->host();
         const Instant end = port.now() + settings_.timeout;
@@ -177,7 +177,7 @@ class Homing {
                 if (!work->begun || work->ended) continue;
                 work->axis->step(port.now());
                 sample(*work);
-                // A search that was stopped has an end of its own, when the axis stands.
+                // A stopped search ends when the axis is at standstill.
                 const control::AxisState state = work->axis->state();
                 if (state == control::AxisState::homing || state == control::AxisState::stopping) {
                     running = true;
@@ -278,7 +278,8 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
                     fmt::format("Axis {} cannot be homed: {}. Nothing was moved.", axis.letter, why));
     };
     const CardType& type = *find_card_type(config.card(axis.card)->type);
-    // A card that positions by itself searches the near edge of a mark; the others see the release of a switch too.
+    // A card that positions by itself searches the near edge of a mark; other cards also detect the release of a
+    // switch.
     const bool cam = type.position_loop && axis.switches.has_cam();
     if (!cam && !axis.switches.home)
         return refuse(
@@ -297,7 +298,7 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
         h.speed.value_or(std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
     const double slow = std::min(axis.max_velocity_step, order.speed);
     order.slow_speed = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
-    // The switch is active at and below its place: upwards it is its release that is searched.
+    // The switch is active at and below its position, so a search upwards ends at its release.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
     if (h.type >= 3 && !h.position && !h.index_after)

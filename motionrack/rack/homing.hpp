@@ -1,6 +1,6 @@
-// Homing the axes of a running rack: order from the rack file, what each axis found, and where the machine really is.
+// Homes the axes of a running rack: sequence from the rack file, result of each axis, and the true machine position.
 //
-//   rack file ──► HomeOrder of each axis ──► control::Axis of its card, those of one order number at once ──► HomedAxis
+//   rack file ──► HomingRequest of each axis ──► control::Axis of its card, equal order numbers together ──► HomedAxis
 #pragma once
 
 #include <array>
@@ -14,36 +14,37 @@
 
 namespace motionrack::rack {
 
-/// The order for an axis as its rack file has it. Errors: refused, it has no home switch, or that is not wired to a
-/// stop input of its own channel; the same for the index, where the type needs it.
+/// Builds the homing request of an axis from the rack file. Errors: refused if the home switch is missing or not wired
+/// to a stop input of the axis' own channel; the same for the index, where the method needs it.
 Result<control::HomingRequest> home_order(const RackConfig& config, const RackAxis& axis);
 
 struct HomingProgress {
-    double seconds = 0;  ///< virtual time since the homing began
+    double seconds = 0;  ///< virtual time since the start of homing
     int homed = 0;
     int axes = 0;
     std::string states;  ///< "X SLOW_WAIT, Y HOMED"
 };
 
-/// How far behind its switch the index of each axis was when it was homed first.
+/// Distance of each axis' index from its switch, as found by the first homing.
 using SeenIndexes = std::array<std::optional<double>, control::axis_count>;
 
 struct HomingSettings {
-    std::string axes;                         ///< letters; "": every axis that has a home switch
-    std::optional<int> type;                  ///< 1 .. 4 for all of them, instead of the rack file's
-    Duration timeout = whole_seconds(3600);   ///< of each group
+    std::string axes;                         ///< letters; "": every axis with a home switch
+    std::optional<int> type;                  ///< 1 .. 4 for all axes, instead of the rack file's method
+    Duration timeout = whole_seconds(3600);   ///< timeout of each group
     const std::atomic<bool>* stop = nullptr;  ///< Ctrl-C
-    SeenIndexes* seen_indexes = nullptr;  ///< of searches before, which one whose place no key gives must agree with
+    SeenIndexes* seen_indexes = nullptr;      ///< earlier results, binding for an index without a position key
     std::function<void(const HomingProgress&)> progress = {};  ///< every 50 ms of virtual time
-    /// An axis is home, while others may still search; its place is that of the last edge that it found, at `since`.
+    /// Called when an axis is homed, while others may still search. Its position counts from the last edge found, at
+    /// `since`.
     std::function<void(char letter, Instant since)> on_homed = {};
 };
 
-/// What was seen of an axis, every `sample_period` at first, each time twice that when there are too many.
+/// Samples of an axis, every `sample_period` at first; the period doubles whenever the limit is reached.
 struct HomingSamples {
-    std::vector<double> seconds;  ///< since the homing began
-    std::vector<float> position;  ///< of the machine, mm or degrees
-    std::vector<float> speed;     ///< of the machine, per second
+    std::vector<double> seconds;  ///< since the start of homing
+    std::vector<float> position;  ///< true position, mm or degrees
+    std::vector<float> speed;     ///< true velocity, per second
 };
 
 struct HomedAxis {
@@ -51,29 +52,29 @@ struct HomedAxis {
     std::string unit;
     control::HomingRequest order;
     bool begun = false;
-    control::HomingResult outcome;  ///< where it was begun
+    control::HomingResult outcome;  ///< valid if `begun`
     double began_s = 0;             ///< seconds from the start of the whole homing
-    double counter_position = 0;    ///< where the card says the axis is
-    double measured_position = 0;   ///< and the encoder, 0 without one
-    double machine_position = 0;    ///< and where it is, which only a simulated machine can tell
+    double counter_position = 0;    ///< position by the card's counter
+    double measured_position = 0;   ///< position by the encoder; 0 without one
+    double machine_position = 0;    ///< true position (simulated machines only)
     std::int64_t lost_pulses = 0;
     HomingSamples samples;
 };
 
 struct HomingOutcome {
-    Result<void> ended;  ///< the first axis that failed; or refused, and then nothing moved
+    Result<void> ended;  ///< error of the first axis that failed; refused: nothing moved
     std::vector<HomedAxis> axes;
     double seconds = 0;
     bool all_homed() const;
 };
 
-/// Homes axes of a rack that was started. Leaves them standing, those that succeeded with their positions trusted.
+/// Homes axes of a started rack. Leaves them at standstill; the positions of the homed axes are valid.
 HomingOutcome home_axes(Rack& rack, const HomingSettings& settings);
 
-/// A table of what was found, for a terminal: the same for the same homing.
+/// Formats the results as a table for a terminal; reproducible.
 std::string homing_text(const HomingOutcome& outcome);
 std::string homing_json(const HomingOutcome& outcome);
-/// Position and speed over time with the states' names below, as an SVG file's text.
+/// Draws position and velocity over time, with the states' names below, as SVG text.
 std::string homing_picture(const HomedAxis& axis);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// What a homing found, as text, JSON and picture.
+// Homing results as text, JSON and picture.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,17 +10,17 @@ namespace motionrack::rack {
 
 namespace {
 
-/// States in which time passes, or that end: what people want to see.
+/// Returns true for states that take time or are final.
 bool shown(const control::HomingStateVisit& stay) {
     return stay.state.size() < 6 || stay.state.compare(stay.state.size() - 6, 6, "_START") != 0;
 }
 
-/// "-0.0000" is 0.
+/// Turns "-0.0000" into 0.
 double plain(double value) {
     return std::fabs(value) < 5e-5 ? 0 : value;
 }
 
-/// As JSON: to a nanosecond, a nanometre.
+/// Rounds for JSON: to a nanosecond, a nanometre.
 double rounded(double value) {
     return std::round(value * 1e9) / 1e9;
 }

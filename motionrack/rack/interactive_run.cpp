@@ -1,4 +1,4 @@
-// Lines go in while there is room, and the stream drives.
+// Feeds lines while the stream executor has room, and runs it.
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/language/program_flow.hpp>
@@ -10,8 +10,8 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t max_probes = 2000;    // that are told of
-constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
+constexpr std::size_t max_probes = 2000;    // reported probes
+constexpr Duration look = milliseconds(1);  // time step of an idle host
 
 }  // namespace
 
@@ -51,7 +51,7 @@ std::vector<control::MoveStart> PathObserver::heard() {
 
 namespace {
 
-/// Lines of a program as far as the stream takes them.
+/// Feeds the lines of a program to the stream executor as it accepts them.
 class Feeder {
   public:
     Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file,
@@ -121,7 +121,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
                 break;
             case ExecutionState::paused:
                 stream.resume();
-                break;  // M0: nobody waits in simulated time
+                break;  // M0: no operator exists in simulated time
             case ExecutionState::running:
                 break;
             case ExecutionState::idle:
@@ -141,7 +141,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
 Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
                         std::string_view text, const control::gcode::Settings& settings, const std::string& file,
                         control::ProgramResult& run, const OnProgrammedMove& on_move) {
-    // What is left of a move after a hold is planned again: what was programmed counts.
+    // The remainder of a move is planned again after a feed hold; the programmed move counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
         on_move(move, start);

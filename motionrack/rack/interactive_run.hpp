@@ -1,8 +1,8 @@
-// Drives a part program so that orders can come while it runs: hold, resume, overrides, stop.
+// Runs a part program interactively, with commands during the run: feed hold, resume, overrides, stop.
 //
-//   text ──Walk──► Stream ──► PathObserver ──► card's axes          CommandSchedule ──between runs──► Stream
-//                                 │
-//                                 └──► who hears of planned moves, and of their starts
+//   text ──ProgramFlow──► StreamExecutor ──► PathObserver ──► card's axes
+//                          ▲          │
+//   CommandSchedule ───────┘          └──► listener for planned moves and their starts
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@
 
 namespace motionrack::rack {
 
-/// Passes a path on to the axes. Blocks count from 0 over the whole job, not over each path between two holds.
+/// Forwards a path to the axes. Numbers moves from 0 over the whole job, not per path between two feed holds.
 class PathObserver final : public control::AxisGroup {
   public:
     using OnBlock = std::function<void(std::int64_t block, const control::PlannedMove& move)>;
@@ -32,7 +32,7 @@ class PathObserver final : public control::AxisGroup {
     std::vector<control::PathWarning> take_path_warnings() override { return axes_.take_path_warnings(); }
     std::vector<control::MoveStart> take_move_starts() override;
 
-    /// For those who hear: starts since the last call, by the job's numbers.
+    /// Returns the starts since the last call, for a listener, with the job's move numbers.
     std::vector<control::MoveStart> heard();
 
   private:
@@ -40,15 +40,15 @@ class PathObserver final : public control::AxisGroup {
 
     control::AxisGroup& axes_;
     OnBlock on_block_;
-    std::int64_t blocks_ = 0, first_ = 0;  ///< of the job; of the present path
+    std::int64_t blocks_ = 0, first_ = 0;  ///< moves in the job; first move of the present path
     std::vector<control::MoveStart> starts_, heard_;
 };
 
 using OnProgrammedMove = std::function<void(const control::Move& move, const control::Point& start)>;
 
-/// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as ProgramExecutor::run.
-/// The stream's stop flag must be the axes', and `orders` be attached to it. `on_move`: hears of each move as it was
-/// read.
+/// Executes a checked program. A program error ends the job at the present position. Errors: as ProgramExecutor::run.
+/// The stream's stop flag must also be the axes' flag, and `orders` must be attached to the stream. `on_move` is called
+/// with each move as it was read.
 Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
                         std::string_view text, const control::gcode::Settings& settings, const std::string& file,
                         control::ProgramResult& run, const OnProgrammedMove& on_move);

@@ -1,5 +1,5 @@
-// The IOFLEX02 in a rack: all of a rack share one bus, on which each answers from its base address. It moves nothing;
-// its lines are wires.
+// The IOFLEX02 in a rack. All boards of a rack share one bus, on which each answers at its base address. It moves
+// nothing; its lines are wires.
 #include <motionrack/cards/ioflex02/image.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
@@ -22,7 +22,7 @@ io::Settings settings_of(const Ioflex02Settings& s) {
     return out;
 }
 
-/// What can be inspected beside the registers: the time, in ticks of 1.2 us, and a value of each axis.
+/// Values beside the registers: the time, in ticks of 1.2 us, and a value per axis.
 constexpr std::string_view card_time = "TIME";
 struct AxisValue {
     std::string_view name;

@@ -1,4 +1,4 @@
-// Running a program and gathering what came of it.
+// Runs a program and collects its results.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr Duration slice = milliseconds(50);
 
-/// How far pulses may lead from the program beyond its own tolerance, mm: ends and chords are on whole pulses, and arcs
-/// that the card does not draw are as near as their chords.
+/// Deviation of the pulses allowed beyond the program's tolerance, mm. Ends and chords are on whole pulses, and an arc
+/// that the card cannot draw is as close as its chords.
 double allowed_deviation(const RackConfig& config) {
     constexpr double pulses = 3.5, rounding_mm = 1e-4;
     if (config.point_to_point()) return 0;
@@ -24,7 +24,7 @@ double allowed_deviation(const RackConfig& config) {
     return longest > 0 ? pulses * longest + config.controller.arc_tolerance_mm + rounding_mm : 0;
 }
 
-/// What a stop at once does to a motor that was fast shows some milliseconds later.
+/// Delay after which the effect of an immediate stop on a fast motor shows.
 constexpr Duration shows_after = milliseconds(20);
 
 double counts_per_pulse(const RackAxis& axis) {
@@ -161,7 +161,7 @@ Result<control::Point> Job::start() const {
     return reference_.position();
 }
 
-/// Nothing of the program before is left.
+/// Discards the data of the previous program.
 void Job::restart() {
     planned_.clear();
     line_ = 0;
@@ -175,7 +175,7 @@ void Job::restart() {
     monitor_->restart(std::move(watched));
 }
 
-/// Once the card is set up, which sets its counters.
+/// Call after the card's setup, which sets its counters.
 void Job::note_before() {
     before_.clear();
     for (const RunningAxis& axis : rack_.axes())
@@ -227,10 +227,10 @@ JobOutcome Job::run() {
     return out;
 }
 
-/// An axis that has lost its position keeps the next program from beginning.
+/// An axis with an invalid position prevents the next program from starting.
 void Job::judge_positions(TrustWatch& trust, JobOutcome& out) {
     for (TrustFinding& found : trust.look(true)) {
-        if (found.axis == TrustFinding::no_axis) continue;  // told with the conditions
+        if (found.axis == TrustFinding::no_axis) continue;  // reported with the conditions
         if (found.lost) {
             out.position_trusted = false;
             reference_.lose(found.axis, std::move(found.text));
@@ -270,7 +270,7 @@ HomingOutcome Job::home(const HomingSettings& settings) {
     return out;
 }
 
-/// Where the axes themselves have nothing to say but that they were asked to stop, the latch knows why.
+/// If the axes report only a stop request, adds the reason from the latch.
 void Job::tell_stop(JobOutcome& out) {
     StopLatch& latch = rack_.stop_latch();
     if (!latch.latched()) return;
@@ -288,7 +288,7 @@ void Job::tell_stop(JobOutcome& out) {
                      {line_, 1});
 }
 
-/// Those of pieces that came too late are breaches; one of each other kind is returned, with the lines it is of.
+/// Records late segments as breaches. Returns one warning of each other kind, with its number of lines.
 std::vector<Job::DrivenOtherwise> Job::take_path_warnings(control::AxisGroup& axes, JobOutcome& out) {
     std::vector<DrivenOtherwise> others;
     for (control::PathWarning& note : axes.take_path_warnings()) {
@@ -309,7 +309,7 @@ std::vector<Job::DrivenOtherwise> Job::take_path_warnings(control::AxisGroup& ax
     return others;
 }
 
-/// Behind what was lost or broken: these moves were driven as they should.
+/// Appended after losses and breaches: these moves were executed correctly.
 void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const {
     for (const DrivenOtherwise& one : others) {
         const std::string lines = one.lines == 1
@@ -321,7 +321,8 @@ void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) cons
     }
 }
 
-/// What the machine itself stopped, by a switch, an alarm or a motor that could not follow, is told as that.
+/// A stop by the machine itself (a switch, an alarm or a motor that could not follow) is reported as such, not as a
+/// breach.
 void Job::collect_breaches(JobOutcome& out) {
     if (!out.ended && out.ended.error().kind == ErrorKind::machine) {
         out.breaches = {};

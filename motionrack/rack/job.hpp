@@ -1,4 +1,4 @@
-// A job: a part program run on a rack, watched from start to standstill, with everything a report needs.
+// A job: a part program run on a rack, monitored from start to standstill, with all data for a report.
 #pragma once
 
 #include <atomic>
@@ -19,44 +19,44 @@
 namespace motionrack::rack {
 
 struct JobProgress {
-    double seconds = 0;      ///< virtual time since the job began
-    std::int64_t line = 0;   ///< line being driven
-    std::int64_t lines = 0;  ///< lines of the program
+    double seconds = 0;      ///< virtual time since the start of the job
+    std::int64_t line = 0;   ///< current program line
+    std::int64_t lines = 0;  ///< number of program lines
 };
 
 struct JobSettings {
-    std::string_view program;  ///< the text; must outlive the job
+    std::string_view program;  ///< program text; must outlive the job
     std::string program_name;  ///< for messages
-    /// How it is read; none: reader_settings() of the rack.
+    /// Reader settings; none: reader_settings() of the rack.
     std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
     std::size_t max_samples = 200'000;
-    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; not used if there are orders
-    CommandSchedule* orders = nullptr;                      ///< planned orders, and stops; must outlive the job
+    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; ignored if `orders` is set
+    CommandSchedule* orders = nullptr;                      ///< planned commands and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
-    std::function<void()> on_slice = {};                    ///< between runs: recorders drain here
-    std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< every sample, between runs
+    std::function<void()> on_slice = {};                    ///< called between runs: recorders drain here
+    std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< called with every sample, between runs
 };
 
-/// What one axis did.
+/// Result of one axis.
 struct AxisOutcome {
     int index = 0;  ///< 0 .. 5
     std::string unit;
-    bool servo = false;  ///< it follows a voltage: pulses are those of its encoder, none are sent
+    bool servo = false;  ///< the axis follows a voltage: `pulses` are encoder counts, and no pulses are sent
     control::AxisLimits limits;
-    std::int64_t pulses_sent = 0;      ///< pulses of both directions since the job began
-    std::int64_t pulses_net = 0;       ///< of them, forward less backward
+    std::int64_t pulses_sent = 0;      ///< pulses in both directions since the start of the job
+    std::int64_t pulses_net = 0;       ///< forward pulses minus backward pulses
     std::int64_t pulse_position = 0;   ///< the card's counter LP at the end
-    std::int64_t pulse_start = 0;      ///< and when the job began
-    std::int64_t counts_read = 0;      ///< by which the card's encoder counter EP has changed
-    std::int64_t counts_expected = 0;  ///< and would have if every pulse had moved the motor
-    std::int64_t lost_pulses = 0;      ///< pulses that the motor did not follow
+    std::int64_t pulse_start = 0;      ///< the card's counter LP at the start of the job
+    std::int64_t counts_read = 0;      ///< change of the card's encoder counter EP
+    std::int64_t counts_expected = 0;  ///< expected change if the motor followed every pulse
+    std::int64_t lost_pulses = 0;      ///< step loss of the motor
     double planned_end = 0;            ///< mm or degrees
-    double real_end = 0;               ///< where the machine is, by the last reference of its position
+    double real_end = 0;               ///< machine position, by the last position reference
     AxisStatistics top;
 };
 
-/// A sentence about something that happened, with its instant.
+/// A sentence about an event, with its instant.
 struct JobWarning {
     Instant at{};
     int line = 0;
@@ -64,68 +64,67 @@ struct JobWarning {
 };
 
 struct JobOutcome {
-    Result<void> ended;  ///< how it ended
+    Result<void> ended;  ///< error that ended the job, if any
     control::ProgramResult run;
-    Duration time{};     ///< virtual time of the job
-    double path_mm = 0;  ///< planned XYZ path
+    Duration time{};     ///< duration in virtual time
+    double path_mm = 0;  ///< planned XYZ path length
     std::vector<AxisOutcome> axes;
     PathDeviation worst;
-    double tolerance_mm = 0;  ///< greatest deviation that the program allows somewhere
+    double tolerance_mm = 0;  ///< largest deviation that the program allows on its path
     std::vector<JobWarning> warnings;
     std::int64_t chip_segments = 0;
-    std::uint64_t events = 0;  ///< kernel events: what it cost
+    std::uint64_t events = 0;  ///< kernel events: cost of the simulation
     std::uint64_t trace_hash = 0;
-    int rest_axis = -1;   ///< of the servos the one that stands farthest from where it was sent; -1: no servo
-    double rest_off = 0;  ///< and how far, mm or degrees
+    int rest_axis = -1;   ///< servo axis with the largest position error at the end; -1: no servo
+    double rest_off = 0;  ///< its position error, mm or degrees
     bool position_trusted =
-        true;           ///< false once steps were lost, or an axis that positions by itself does not know where it is
-    Breaches breaches;  ///< what the controller must not do to the machine, and did
+        true;           ///< false after step loss, or if an axis that positions by itself has lost its position
+    Breaches breaches;  ///< limit breaches caused by the controller
 
-    /// It ended, and nothing was lost or broken on the way.
+    /// Returns true if the job ended well without step loss or breach.
     bool good() const { return ended.has_value() && position_trusted && breaches.all().empty(); }
 };
 
-/// What a monitor watches of a rack: all its axes.
+/// Axes of a rack for a monitor: all of them.
 std::vector<WatchedAxis> watched_axes(Rack& rack);
-/// How a rack's controller reads part programs; they begin where the axes start.
+/// Reader settings of a rack's controller; programs begin at the axes' initial positions.
 control::gcode::Settings reader_settings(const RackConfig& config, bool block_delete = false);
 
-/// Runs programs that have been checked on a rack at standstill, one after the other: each begins where its axes stand,
-/// and its outcome is of it alone. `monitor` keeps what was seen of the last one.
+/// Runs checked programs one after the other on a rack at standstill. Each program begins at the axes' present
+/// positions and has its own outcome. `monitor` keeps the data of the last one.
 class Job {
   public:
-    /// Before the rack is started: adds the monitor to it.
+    /// Call before the rack starts; adds the monitor to the rack.
     Job(Rack& rack, JobSettings settings);
     ~Job();
 
-    /// Another program than that of the settings, before run(), and how it is read. The text must outlive the run.
+    /// Replaces the program of the settings and its reader settings; call before run(). The text must outlive the run.
     void give(std::string_view program, std::string name, control::gcode::Settings reading);
 
-    /// Between programs: where the next one begins, mm or degrees. Errors: those of PositionReference::check.
+    /// Start position of the next program, mm or degrees; call between programs. Errors: as PositionReference::check.
     Result<control::Point> start() const;
     JobOutcome run();
-    /// home_axes, which gives axes another reference.
+    /// Homes axes as home_axes does, which sets their position reference.
     HomingOutcome home(const HomingSettings& settings);
-    /// Where the controller of this job's world has its axes becomes that of another one, whose rack is this one's
-    /// copy.
+    /// Takes over the controller's axis positions from another job, whose rack was copied into this job's rack.
     void copy_from(const Job& other) {
         reference_.copy_from(other.reference_);
         told_ = other.told_;
     }
     const Monitor& monitor() const { return *monitor_; }
-    /// Every planned move as it was handed out, at most `max_planned`.
+    /// Planned moves as they were submitted, at most `max_planned`.
     const std::vector<control::PlannedMove>& planned() const { return planned_; }
     static constexpr std::size_t max_planned = 20'000;
 
   private:
-    /// What moves of some lines were driven with instead, and what that costs at most.
+    /// Lines whose moves were replaced for execution, and the largest deviation caused by that.
     struct DrivenOtherwise {
         control::PathWarning first;
         int last_line = 0;
         std::int64_t lines = 0;
     };
 
-    /// What was counted when the program began.
+    /// Counter values at the start of the program.
     struct Before {
         std::int64_t pulses_made = 0, commanded = 0, pulse_counter = 0, encoder_counter = 0;
     };
@@ -148,15 +147,15 @@ class Job {
     Rack& rack_;
     JobSettings settings_;
     PositionReference reference_;
-    control::Point start_ = {};   ///< of the program
-    std::vector<Before> before_;  ///< one an axis
-    std::uint64_t told_ = 0;      ///< conditions of the kernel, by the programs before
+    control::Point start_ = {};   ///< start of the program
+    std::vector<Before> before_;  ///< one per axis
+    std::uint64_t told_ = 0;      ///< kernel conditions reported before this program
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;
-    Instant given_{};  ///< before its axes were set up
+    Instant given_{};  ///< instant before the setup of its axes
     Instant began_{};
-    int line_ = 0;            ///< being driven
-    std::int64_t lines_ = 0;  ///< of the program
+    int line_ = 0;            ///< current program line
+    std::int64_t lines_ = 0;  ///< number of program lines
 };
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// Gathering what happens in a job, and handing it to the recording.
+// Collects the events of a job and passes them to the recording.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@ namespace motionrack::rack {
 
 namespace {
 
-// What a killed program loses: the last tenth of the job's time, or so many events.
+// Data lost when the program is killed: the last tenth of the job's time, or this number of events.
 constexpr std::uint64_t max_unflushed = 1'000'000;
 constexpr Duration min_flush_period = whole_seconds(1);
 
@@ -16,7 +16,7 @@ std::string lower_letter(char letter) {
     return std::string(1, static_cast<char>(letter - 'A' + 'a'));
 }
 
-/// "motion.xlmtp" -> "wires/motion/xlmtp"; names without a dot are the rack's.
+/// Converts "motion.xlmtp" to "wires/motion/xlmtp"; names without a dot belong to the rack.
 std::string wire_path(const std::string& name) {
     const std::size_t dot = name.find('.');
     return dot == std::string::npos ? "wires/rack/" + name
@@ -27,7 +27,7 @@ std::string wire_path(const std::string& name) {
 
 class JobRecorder::Observer final : public sim::EdgeListener {
   public:
-    /// `counts`: the value is the count after the edge, else its direction.
+    /// `counts`: values are counts after the edge, else directions.
     Observer(JobRecorder& recorder, std::uint32_t signal, bool counts)
         : recorder_(recorder), signal_(signal), counts_(counts) {}
 
@@ -43,7 +43,7 @@ class JobRecorder::Observer final : public sim::EdgeListener {
     bool counts_;
 };
 
-// ---- what is recorded
+// ---- recorded signals
 
 JobRecorder::JobRecorder(Rack& rack, trace::RecordingHead head) : rack_(rack), head_(std::move(head)) {
     buffer_.reserve(buffer_size);
@@ -104,7 +104,7 @@ void JobRecorder::add_wires() {
     wire_signals_.assign(kernel.wire_count(), -1);
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
-        if (kernel.lazy(wire)) continue;  // pulse outputs and the like: nobody drives them unless somebody looks
+        if (kernel.lazy(wire)) continue;  // pulse outputs and the like are driven only while observed
         const std::string& name = kernel.wire_name(wire);
         wire_signals_[i] = add({name, wire_path(name), trace::SignalKind::levels, "", kernel.level(wire)});
     }
@@ -180,7 +180,7 @@ void JobRecorder::drain() {
 
 namespace {
 
-/// The numbers of all axes in one text: "X 81920, Y 40960".
+/// Formats the numbers of all axes as one text: "X 81920, Y 40960".
 template <class Member>
 std::string of_axes(const JobOutcome& outcome, Member member) {
     std::string out;

@@ -1,9 +1,9 @@
-// A job recorded whole, while it runs, into one file from which it can be run again: see trace/recording.hpp.
+// Records a whole job, while it runs, into one file from which it can be repeated: see trace/recording.hpp.
 //
 //   pulses ──┐
 //   encoders ┼──► events in a buffer ──drain(), between runs──► RecordingWriter ──► run.h5
 //   wires ───┤                              samples, inputs ──────┘
-//   counters ┘ looked at every ms
+//   counters ┘ sampled every ms
 #pragma once
 
 #include <memory>
@@ -17,19 +17,19 @@ namespace motionrack::rack {
 
 class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
-    /// Before the rack is started. `head`: what was run; axes and signals are filled in here. Errors: io.
+    /// Call before the rack starts. `head`: description of the job; axes and signals are filled in here. Errors: io.
     static Result<std::unique_ptr<JobRecorder>> create(Rack& rack, const std::string& path, trace::RecordingHead head);
     ~JobRecorder() override;
 
-    /// After the rack was started.
+    /// Call after the rack has started.
     void begin();
     // ---- between runs
     void sample(const Sample& sample, double deviation_mm);
-    /// Something from outside takes effect at its instant.
+    /// Records an external input that takes effect at its instant.
     void input(const trace::RecordedInput& input) { writer_.input(input); }
-    /// Writes what has come together.
+    /// Writes the buffered events.
     void drain();
-    /// Ends the file and listens no more. Errors: io.
+    /// Ends the file and stops listening. Errors: io.
     Result<void> finish(const JobOutcome& outcome, trace::ReportData report);
 
     std::uint64_t events() const { return writer_.events(); }
@@ -42,9 +42,9 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
         std::int64_t value = 0;
         std::uint32_t signal = 0;
     };
-    /// Hears pulses, or counts, of one axis.
+    /// Listens to the pulses or counts of one axis.
     class Observer;
-    /// LP (or EP) of a channel.
+    /// LP or EP of a channel.
     struct Counter {
         Card* card = nullptr;
         CardCounter counter;
@@ -71,7 +71,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;
-    std::vector<int> axis_indexes_;  // of the head's axes, 0 .. 5
+    std::vector<int> axis_indexes_;  // axis indexes of the head, 0 .. 5
     std::vector<trace::AxisSample> sampled_;
     bool listening_ = false;
     std::uint64_t lost_ = 0, flushed_events_ = 0;

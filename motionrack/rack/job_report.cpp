@@ -1,4 +1,4 @@
-// A job's numbers in the forms people read: report data, summary, JSON, CSV.
+// Formats a job's results: report data, summary, JSON, CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ const char* kind_text(control::MoveKind kind) {
     return "";
 }
 
-/// The lines of a text, found again by number.
+/// Finds the lines of a text by number.
 class LineIndex {
   public:
     explicit LineIndex(std::string_view text) {
@@ -99,7 +99,7 @@ std::string verdict_text(const JobOutcome& outcome) {
                        control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
 
-/// A jerk-limited ride is planned in many short lines: what was programmed counts.
+/// A jerk-limited trajectory is planned in many short lines; programmed moves count.
 std::int64_t moves_of(const RackConfig& config, const JobOutcome& outcome) {
     return config.jerk_limited() ? outcome.run.moves : outcome.run.plan.moves;
 }

@@ -1,4 +1,4 @@
-// What a job was, as a report and a summary.
+// Report and summary of a job.
 #pragma once
 
 #include <motionrack/rack/job.hpp>
@@ -7,14 +7,14 @@
 
 namespace motionrack::rack {
 
-/// Everything the HTML report shows. `program` is the text that was run.
+/// Data of the HTML report. `program` is the text that was run.
 trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program,
                             const std::string& program_name);
 
-/// The summary that a person reads at the end of a run, without colours, the same for the same job.
+/// Plain-text summary of a run, without colours; reproducible for the same job.
 std::string summary_of(const RackConfig& config, const JobOutcome& outcome);
 
-/// The summary as JSON.
+/// Summary as JSON.
 std::string summary_json(const RackConfig& config, const JobOutcome& outcome);
 
 }  // namespace motionrack::rack

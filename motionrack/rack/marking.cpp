@@ -1,4 +1,4 @@
-// Belts, tables and scan heads from their settings.
+// Builds belts, tables and scan heads from their settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr double places_per_unit = 1e5;  // of the parts: 10 nm, or 1/100,000 degree
+constexpr double places_per_unit = 1e5;  // resolution of part positions: 10 nm, or 1/100,000 degree
 /// Faults of the encoder's lines; see parts::LineOutput.
 constexpr std::array<std::string_view, 7> encoder_faults = {
     "encoder.broken_a",   "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
@@ -80,7 +80,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
     RunningConveyor out;
     out.config = config;
     const Result<parts::Conveyor> track = parts::Conveyor::make(config.settings());
-    MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
+    MOTIONRACK_ASSERT(track.has_value());  // checked by read_rack
     out.drive = std::make_unique<parts::ConveyorDrive>(kernel, config.name, *track, config.max_velocity());
     if (config.has_encoder()) {
         out.counts = std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".counts", out.track(),
@@ -112,7 +112,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
 
 RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Conveyor* track) {
     Result<parts::MarkingStation> station = parts::MarkingStation::make(config.settings(), track);
-    MOTIONRACK_ASSERT(station.has_value());  // read_rack has looked
+    MOTIONRACK_ASSERT(station.has_value());  // checked by read_rack
     const auto wire = [&](const char* pin) { return kernel.find_wire(config.card + "." + pin); };
     RunningScanner out;
     out.config = config;

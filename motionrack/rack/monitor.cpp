@@ -1,4 +1,4 @@
-// Sampling in virtual time, and what is made of the samples between runs.
+// Samples in virtual time and evaluates the samples between runs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,10 +8,9 @@ namespace motionrack::rack {
 
 namespace {
 constexpr std::size_t max_blocks = 20'000;
-// Pulses: a piece begins and ends at whole pulses of its own axis and of the one that leads it.
+// Pulses: a segment begins and ends at whole pulses of its own axis and of the leading axis.
 constexpr double max_rounding = 2;
-// The acceleration of an axis is kept but for a speed step of the card more or less within the time that it is taken
-// over.
+// Tolerance of the acceleration limit: one velocity step of the card more or less within the averaging time.
 constexpr double accel_reserve = 1.03;
 }  // namespace
 
@@ -29,7 +28,7 @@ void Monitor::Observer::rate_changed(double before, double rate, Instant now) {
         if (std::fabs(away) > full_step) settle();
     }
     if (!pending) good = follower = before;
-    if (pending && ramp) {  // a ramp goes on after the jump
+    if (pending && ramp) {  // a ramp continues after the step
         good += rate - before;
         follower += rate - before;
     }
@@ -75,7 +74,7 @@ void Monitor::Observer::restart(const TopSpeed& fresh, double rate, Instant now)
 Monitor::Seen::Seen(const std::vector<WatchedAxis>& axes, Duration period, std::size_t max_samples)
     : kept(max_samples) {
     for (const WatchedAxis& axis : axes) {
-        // A servo follows a voltage in steps; a card that has none of these limits is not held to them.
+        // A servo follows a voltage in steps; a card without these limits is not checked against them.
         const bool watched = axis.servo == nullptr && axis.start_hz > 0;
         jump_watches.emplace_back(axis.start_hz, axis.accel_hz, watched ? period : never);
     }
@@ -88,7 +87,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
       period_(period),
       max_samples_(max_samples),
       seen_(axes_, period, max_samples) {
-    ears_.reserve(axes_.size());  // they are listened with
+    ears_.reserve(axes_.size());  // listeners keep their addresses
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_.emplace_back(axes_[i].jump_hz, period);
         ears_[i].full_step = axes_[i].full_step;
@@ -271,7 +270,7 @@ void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
     }
 }
 
-/// A motor that does not follow is another matter: it is the pulses that must not leave the path.
+/// A motor that does not follow is reported elsewhere; here the pulses must not leave the path.
 void Monitor::look_at_deviation(const Sample& sample, const ProgramDistance& off) {
     const bool was_beside = seen_.beside;
     seen_.beside = false;
@@ -296,7 +295,7 @@ std::array<double, 3> Monitor::place_at(Instant at) const {
     return {near.position[0], near.position[1], near.position[2]};
 }
 
-/// Several blocks may follow on one move, or on several that have become one.
+/// Several planned moves may follow on one programmed move, or on several merged ones.
 void Monitor::begin_programmed(const control::PlannedMove& block) {
     const std::int64_t index = block.move.index;
     if (seen_.part.first < 0 || index != seen_.current_programmed) {
@@ -309,10 +308,10 @@ void Monitor::begin_programmed(const control::PlannedMove& block) {
     seen_.current_mm += block.length;
 }
 
-/// The host hears of a joint a little after it happened, so the moves of the block before and of the one after count
-/// too. A block may stand for several moves, and a move for several blocks.
+/// The host learns of a junction slightly late, so the programmed moves of the previous and the next planned move count
+/// too. A planned move may stand for several programmed moves, and vice versa.
 void Monitor::find_programmed() {
-    constexpr double longer = 2, more_mm = 1;  // a program's path than that of what it is driven as
+    constexpr double longer = 2, more_mm = 1;  // a programmed path may be longer than the planned one
     seen_.part.last = std::numeric_limits<std::int64_t>::max();
     seen_.part.reach_mm = more_mm + longer * (seen_.before_mm + seen_.current_mm);
     std::int64_t next = -1;

@@ -1,4 +1,4 @@
-// Lens, mirrors and laser as files say them: rack files and marking jobs have the same keys.
+// Keys of lens, mirrors and laser, shared by rack files and marking jobs.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace motionrack::rack {
 
-/// A section lens; see sim::ScanLens.
+/// Section lens; see sim::ScanLens.
 struct RackLens {
     double f1_mm = 163.064, f2_mm = -1.259, f3_mm = -21.465, f4_mm = -26.664;
     double calibration_deg = 11.7, bits_per_mm = 8656;

@@ -1,4 +1,4 @@
-// Looks at a running rack at equal distances of virtual time, between two events of the kernel.
+// Samples a running rack at equal intervals of virtual time, between two events of the kernel.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,11 @@ namespace motionrack::rack {
 
 class PeriodicSampler final : public sim::Device {
   public:
-    /// Before the rack is started.
+    /// Call before the rack starts.
     explicit PeriodicSampler(sim::Kernel& kernel)
         : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
-    /// Calls `look` every `period` (> 0) from now on, within the kernel's run: it must neither allocate nor change
-    /// anything. Between runs.
+    /// Calls `look` every `period` (> 0) from this instant, within the kernel's run; it must neither allocate nor
+    /// change anything. Call between runs.
     void begin(Duration period, std::function<void(Instant now)> look) {
         period_ = period;
         look_ = std::move(look);

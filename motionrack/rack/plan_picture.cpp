@@ -16,7 +16,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr int width = 720, min_path_height = 160, max_path_height = 460, heading_height = 28, chart_height = 120;
-/// Looks at the whole plan, and at each of its stretches at least.
+/// Number of samples over the whole plan, and minimum per path section.
 constexpr double looks = 8000, min_looks = 24;
 
 /// Values over time.
@@ -31,7 +31,7 @@ struct Track {
 };
 
 struct AxisTrack {
-    std::vector<float> accel, jerk;  ///< parts of the limits
+    std::vector<float> accel, jerk;  ///< fractions of the limits
     bool moves = false;
 };
 
@@ -39,7 +39,7 @@ double greatest(double a, double b, double c) {
     return std::max({std::fabs(a), std::fabs(b), std::fabs(c)});
 }
 
-/// The jerk-limited plan, look by look.
+/// Samples of the jerk-limited plan.
 class Looks {
   public:
     Looks(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start)
@@ -54,13 +54,13 @@ class Looks {
         if (path.seconds.empty()) add(0, {.place = start});
     }
 
-    Track path;  ///< speed along XYZ, or of the fastest of ABC where only they move
+    Track path;  ///< velocity along XYZ, or of the fastest of ABC if only they move
     std::vector<trace::Xyz> driven;
     std::array<AxisTrack, control::axis_count> axes = {};
 
     double seconds() const { return seconds_; }
     bool is_linear() const { return linear_; }
-    /// Goes on at rest.
+    /// Appends standstill up to `time`.
     void rest_until(double time) {
         control::TrajectoryPoint state;
         for (std::size_t i = 0; i < 3; ++i) state.place[i] = driven.back()[i];
@@ -119,7 +119,7 @@ class Looks {
     double seconds_ = 0, begin_ = 0;
 };
 
-/// The corners of the speed's trapezoids, and S-curves in chords.
+/// Corners of the trapezoidal velocity profile; S-curves as chords.
 Track corners_of_trapezoids(std::span<const control::Move> moves, const control::MachineLimits& limits,
                             const control::Point& start) {
     Track out;
@@ -159,7 +159,7 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
     return out;
 }
 
-/// Looks at even times, from 0 to `end`; after the last corner it rests.
+/// Samples at equal intervals from 0 to `end`; the last corner is followed by standstill.
 Track looked_at(const Track& corners, double end) {
     Track out;
     std::size_t k = 0;
@@ -193,7 +193,7 @@ std::vector<trace::SvgChart> charts_of(const Looks& plan, const Track& trapezoid
     return out;
 }
 
-/// From above, or in perspective where the path is not flat.
+/// Draws the path from above, or in perspective if it is not flat.
 trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves, const control::Point& start) {
     trace::ReportData data;
     data.driven = plan.driven;
@@ -204,7 +204,7 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
     }
     const trace::Extent extent = trace::extent_of_path(data);
     const bool flat = !extent.some || extent.high[2] - extent.low[2] <= 0.05 * extent.diagonal();
-    // As wide as it can be, with some room for the marks and the scale.
+    // As wide as possible, with a margin for the marks and the scale.
     const double wide = extent.high[0] - extent.low[0], high = extent.high[1] - extent.low[1];
     const int height =
         std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : max_path_height,
@@ -222,7 +222,7 @@ std::string plan_picture(const std::string& title, std::span<const control::Move
     const control::MachineLimits limits = config.limits();
     Looks plan(moves, limits, start);
     const Track corners = corners_of_trapezoids(moves, limits, start);
-    // All charts have the same seconds.
+    // All charts share one time axis.
     const double end = std::max(plan.path.seconds.back(), corners.seconds.back());
     plan.rest_until(end);
     const Track planned = looked_at(corners, end);

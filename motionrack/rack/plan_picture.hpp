@@ -1,5 +1,5 @@
-// A jerk-limited plan as a picture: the path coloured by its speed, and below it over time the speed and what each axis
-// is asked.
+// Picture of a jerk-limited plan: the path coloured by velocity, and below it the velocity and the demands on each axis
+// over time.
 #pragma once
 
 #include <motionrack/control/move.hpp>
@@ -9,8 +9,9 @@
 
 namespace motionrack::rack {
 
-/// An SVG of its own. Beneath the path is the programmed one; beside the speed is that of the trapezoids. Acceleration
-/// and jerk are parts of the axis' limits. The axes stand at `start`; `moves` as control::OfflineTrajectory takes them.
+/// Draws a stand-alone SVG. The programmed path lies beneath the planned one, and the velocity of the trapezoidal
+/// profile beside the planned one. Acceleration and jerk are fractions of the axis limits. The axes start at standstill
+/// at `start`; `moves` as for control::OfflineTrajectory.
 std::string plan_picture(const std::string& title, std::span<const control::Move> moves, const RackConfig& config,
                          const control::Point& start);
 

@@ -1,4 +1,4 @@
-// Negating what passes through.
+// Negates positions and rates.
 #include <algorithm>
 #include <motionrack/rack/position_functions.hpp>
 

@@ -1,4 +1,4 @@
-// Motions between cards and parts: one that never moves, and one seen backwards.
+// Position functions between cards and parts: a constant one and an inverted one.
 //
 //   open step input   ──► FixedPosition ──► AxisMechanics
 //   encoder ──► InvertedPosition (tracks A and B crossed over: count -> -count) ──► card
@@ -10,7 +10,7 @@
 
 namespace motionrack::rack {
 
-/// Stands at 0 for ever.
+/// Constant position 0.
 class FixedPosition final : public sim::PositionFunction {
   public:
     std::int64_t count(Instant) const override { return 0; }
@@ -24,7 +24,7 @@ class FixedPosition final : public sim::PositionFunction {
     int listeners_ = 0;
 };
 
-/// `of` with all counts and rates negated. Counts stand for the same lines with A and B exchanged: phase 1 (A) becomes
+/// `of` with all counts and rates negated. Counts describe the same lines with A and B exchanged: phase 1 (A) becomes
 /// phase 3 (B). Takes listener slots of `of`.
 class InvertedPosition final : public sim::PositionFunction, private sim::EdgeListener {
   public:

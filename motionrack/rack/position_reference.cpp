@@ -1,4 +1,4 @@
-// Counting on from the reference.
+// Counts pulses from the reference.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace motionrack::rack {
 
 namespace {
 
-/// A servo that turns by less in a second stands: what holds it swings by a count.
+/// A servo below this count rate is at standstill: position hold oscillates by a count.
 constexpr double standing_servo_hz = 50;
 
 }  // namespace

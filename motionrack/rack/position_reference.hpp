@@ -1,12 +1,12 @@
-// Where a rack's controller has its axes, between programs and homings: an axis was at its reference, and its pulses
-// lead on from there, by whatever order. Of a servo it is what its motor turns.
+// Position reference of a rack's axes, between programs and homings. An axis has a reference position, and its pulses
+// since then give its present position. For a servo, the rotation of its motor replaces the pulses.
 //
 //   rack file ──start──┐
-//   home ──position────┴─► reference ──pulses since──► where a program begins
+//   home ──position────┴─► reference ──pulses since──► start of a program
 //                              ▲
-//   steps lost, home not found ┴─► lost: no program begins until the axis is homed
+//   step loss, homing failed ──┴─► lost: no program starts until the axis is homed
 //
-// Hosts may write what they like into the counters of a card: nothing here goes by them.
+// Hosts may write any value into the counters of a card; the reference does not use them.
 #pragma once
 
 #include <cstdint>
@@ -21,37 +21,36 @@ namespace motionrack::rack {
 
 class PositionReference {
   public:
-    /// Every axis stands where the rack's file says. The rack must outlive this.
+    /// Sets every axis to the rack file's initial position. The rack must outlive this.
     explicit PositionReference(Rack& rack) : rack_(rack), axes_(rack.axes().size()) {}
 
-    /// Where they stand, mm or degrees by their index 0 .. 5: on whole pulses once there were some.
+    /// Positions in mm or degrees by index 0 .. 5; on whole pulses after the first pulse.
     control::Point position() const;
-    /// mm or degrees where the counts of an axis are 0: that of its pulses, and that of its rotor. `axis`: of
-    /// Rack::axes().
+    /// Position of count 0 of an axis, mm or degrees: of its pulses, and of its rotor. `axis`: index in Rack::axes().
     double commanded_origin(std::size_t axis) const;
     double real_origin(std::size_t axis) const;
-    /// Pulses that an axis had lost when it got its reference; they do not matter any more.
+    /// Step loss of an axis up to its reference, in pulses; already accounted for.
     std::int64_t lost_before(std::size_t axis) const { return axes_[axis].lost_pulses; }
 
-    /// It was homed; `from`: what was lost until then.
+    /// Sets the reference of a homed axis; `from`: its step loss up to then.
     void set(std::size_t axis, double position, const TrustWatch::Mark& from);
-    /// Its position means no place any more. `why`: without a full stop; the first one stays.
+    /// Invalidates the position. `why`: reason without a full stop; the first one is kept.
     void lose(std::size_t axis, std::string why);
-    /// A watch that was begun now looks no farther back than the references.
+    /// Limits a watch that begins now to events after the references.
     void begin(TrustWatch& watch) const;
-    /// Errors: refused, an axis moves, or does not know where it is; nothing may be begun.
+    /// Errors: refused if an axis moves or its position is not valid; nothing may start then.
     Result<void> check() const;
-    /// Those of the same rack in another world.
+    /// Copies the references of the same rack in another simulation.
     void copy_from(const PositionReference& other) { axes_ = other.axes_; }
 
   private:
     struct Reference {
-        bool homed = false;   ///< else: where the file says, both counts 0
-        double position = 0;  ///< of the commanded count
+        bool homed = false;   ///< false: position from the file, both counts 0
+        double position = 0;  ///< position of the commanded count
         std::int64_t commanded = 0;
         std::int64_t lost_pulses = 0;
         Instant at{};
-        std::string lost;  ///< why; empty: it is not
+        std::string lost;  ///< reason for the loss; empty: valid
         Instant lost_at{};
     };
     std::int64_t commanded(std::size_t axis) const;

@@ -1,4 +1,4 @@
-// What a check of a part program has found, in a line.
+// One-line text for the problems found by a program check.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,13 +10,13 @@
 
 namespace motionrack::rack {
 
-/// Whether the disk is among the causes: a subprogram that cannot be read.
+/// Returns true if a file access is among the causes: an unreadable subprogram.
 inline bool has_unreadable(const control::gcode::ProgramCheck& check) {
     return std::any_of(check.problems.begin(), check.problems.end(),
                        [](const control::gcode::Problem& problem) { return problem.kind == ErrorKind::io; });
 }
 
-/// "part.ngc has 3 problems; nothing was moved."
+/// Returns "part.ngc has 3 problems; nothing was moved."
 inline std::string problems_verdict(const control::gcode::ProgramCheck& check, const std::string& name) {
     return fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
                        count_noun(check.problems.size(), "problem"));

@@ -7,7 +7,7 @@ namespace motionrack::rack {
 
 namespace {
 
-/// A move begins while the end of the one before is still to be driven, where the corner's tolerance allows it.
+/// A move begins while the end of the previous one is still being executed, if the corner tolerance allows it.
 constexpr double overlap_mm = 10;
 
 }  // namespace
@@ -39,7 +39,7 @@ ProgrammedPath::Moves::const_iterator ProgrammedPath::begin_of(std::int64_t firs
     return before == moves_.begin() ? before : std::prev(before);
 }
 
-/// The move that goes on so far behind the start of this one, or the next.
+/// Returns the move that contains the position `mm` after the start of this one, or at least the next move.
 ProgrammedPath::Moves::const_iterator ProgrammedPath::skip(const Moves::const_iterator& move, double mm) const {
     const auto next = std::next(move);
     const auto behind = std::upper_bound(next, moves_.end(), move->begins_mm + mm,
@@ -57,7 +57,7 @@ ProgramDistance ProgrammedPath::distance(const ProgramPart& part, double x, doub
         if (move > first && (move->index > part.last || move->begins_mm > reach)) break;
         const double dx = x - move->path.start[0], dy = y - move->path.start[1], dz = z - move->path.start[2];
         const double from_start = std::sqrt(dx * dx + dy * dy + dz * dz);
-        // Nearer than this is no point of the path before it has gone on for the rest.
+        // Path points before this length is used up are farther away than `enough`.
         const double enough = std::max(nearest, min_beside + max_tolerance_mm_);
         if (from_start - move->length_mm > enough) {
             move = skip(move, from_start - enough);

@@ -1,8 +1,8 @@
-// The path as the program has it, move by move: before short moves are merged, corners are cut and places are rounded
-// to pulses. What the machine does is held against it.
+// The path as programmed, move by move: before short moves are merged, corners are blended and positions are rounded to
+// pulses. It is the reference for the machine's deviation.
 //
-//   ProgramExecutor, Stream --each move as it was read--> moves --where the machine is--> distance, tolerance there
-//                                                      '-- before the one that is driven: dropped
+//   ProgramExecutor, StreamExecutor --each move as read--> moves --machine position--> distance, tolerance there
+//                                                            '-- moves before the current one: dropped
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace motionrack::rack {
 
-/// How far a place is from the program.
+/// Distance of a position from the program.
 struct ProgramDistance {
-    double mm = 0;  ///< from the nearest move
-    /// From the move of which it is least beside its tolerance, and this tolerance: G64 P, 0 with G61.
+    double mm = 0;  ///< distance to the nearest move
+    /// Distance and tolerance at the move with the smallest distance beyond its tolerance: G64 P, 0 with G61.
     double judged_mm = 0, tolerance_mm = 0;
 };
 
-/// Moves of the program between which the machine must be.
+/// Moves of the program on which the machine must be.
 struct ProgramPart {
-    std::int64_t first = 0, last = 0;  ///< indices; some of the path in front of the first counts, too
-    double reach_mm = 0;               ///< no farther than this along the path behind the first
+    std::int64_t first = 0, last = 0;  ///< indices; part of the path before the first counts, too
+    double reach_mm = 0;               ///< limit along the path after the end of the first move
 };
 
 class ProgrammedPath {
   public:
-    /// The next move of the program, and where it starts. Dwells are left out.
+    /// Appends a move of the program and its start. Dwells are left out.
     void add(const control::Move& move, const control::Point& start);
-    /// The moves before are not asked for any more, but for some of the path in front of `first`.
+    /// Drops the moves that are no longer needed. Part of the path before `first` is kept.
     void drop_before(std::int64_t first);
     ProgramDistance distance(const ProgramPart& part, double x, double y, double z) const;
 
@@ -41,7 +41,7 @@ class ProgrammedPath {
         control::Geometry path;
     };
     using Moves = std::deque<Programmed>;
-    /// The one in front of the first on its path, or so much before.
+    /// Returns the move that is `overlap_mm` before the start of `first`, or the first stored one.
     Moves::const_iterator begin_of(std::int64_t first) const;
     Moves::const_iterator skip(const Moves::const_iterator& move, double mm) const;
 

@@ -1,4 +1,4 @@
-// Quantities by name: getting, setting, listing.
+// Gets, sets and lists quantities by name.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using namespace quantity_tables;
 
-// ---- what the kinds of part differ in
+// ---- differences between the kinds of part
 
 std::span<const QuantityRow<RunningAxis>> rows_of(const RunningAxis&) {
     return axis_quantities;
@@ -63,7 +63,7 @@ std::string said_of(const Part& part) {
     return name_of(part);
 }
 
-// ---- going through them
+// ---- iteration over parts
 
 template <class Told>
 void each_part(Rack& rack, const Told& told) {
@@ -73,7 +73,7 @@ void each_part(Rack& rack, const Told& told) {
     for (RunningScanner& scanner : rack.scanners()) told(scanner);
 }
 
-/// What this part has, with names in its own unit.
+/// Lists the quantities of this part, with names in its own unit.
 template <class Part, class Told>
 void each_quantity(const Part& part, const Told& told) {
     for (const QuantityRow<Part>& row : rows_of(part))
@@ -99,10 +99,10 @@ Result<double> value_of(Part& part, std::string_view name, Instant now) {
     return row->get(part, now);
 }
 
-/// "X.position_mm" apart.
+/// Parts of "X.position_mm".
 struct Name {
     std::string_view part, quantity;
-    bool whole;  ///< it has a dot
+    bool whole;  ///< the name contains a dot
     explicit Name(std::string_view text)
         : part(text.substr(0, text.find('.'))),
           quantity(text.substr(std::min(part.size() + 1, text.size()))),
@@ -141,7 +141,7 @@ Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::s
     return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
 }
 
-/// `name`: the whole one.
+/// `name`: the complete name.
 Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, double value) {
     MOTIONRACK_TRY(const QuantityRow<RunningAxis>* row, find_row(axis, Name(name).quantity));
     if (row->push == nullptr)
@@ -158,14 +158,14 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
                     fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; {:.0f} are the most "
                                 "at once. Nothing was done.",
                                 name, value, push, max_push));
-    // A rotor in step springs back unless it is brought past the middle of an electrical cycle.
+    // A rotor in step springs back unless it is pushed past the middle of an electrical cycle.
     const double least =
         machine.in_step() && !axis.servo ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
     if (std::fabs(push) < least) return {};
     return inject_fault(rack, fmt::format("motor.push={:.0f}", push), name_of(axis));
 }
 
-/// What a push can bring it to, which is as far to both sides.
+/// Returns the range that a push can reach, symmetrical to both sides.
 template <class Part>
 void bound_by_push(QuantityRange& out, const QuantityRow<Part>& row, Part& part, Instant now) {
     const double here = row.get(part, now), microsteps = row.push(part, here + 1, now);
@@ -269,7 +269,7 @@ Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double
         return set_track_quantity(rack, *track, name.quantity, value);
     for (RunningAxis& axis : rack.axes())
         if (name.whole && name_of(axis) == name.part) return push_axis(rack, axis, part_dot_quantity, value);
-    MOTIONRACK_CHECK(get_quantity(rack, part_dot_quantity));  // whatever else there is cannot be set
+    MOTIONRACK_CHECK(get_quantity(rack, part_dot_quantity));  // no other quantity can be set
     return fail(ErrorKind::refused, fmt::format("{} follows from the machine and cannot be set; of axes the position "
                                                 "can, of belts and tables the speed. Nothing was done.",
                                                 part_dot_quantity));

@@ -1,6 +1,7 @@
-// What is true of a machine's parts, by name: where a table really is, whatever any counter says.
+// Quantities: true values of a machine's parts, by name, independent of any counter; for example the true position of a
+// table.
 //
-//   "X.position_mm"   NAME.QUANTITY; the quantities are a table, the unit in their names is the axis' own (mm or deg)
+//   "X.position_mm"   NAME.QUANTITY; the quantities form a table, and the unit in a name is the axis' own (mm or deg)
 #pragma once
 
 #include <cstdint>
@@ -13,45 +14,45 @@
 
 namespace motionrack::rack {
 
-/// One thing that can be asked of a part that is there.
+/// A readable quantity of an existing part.
 struct Quantity {
-    std::string name;  ///< with its unit: "position_mm"
+    std::string name;  ///< name with unit: "position_mm"
     std::string_view doc;
-    bool whole = false;                      ///< it counts something: its values are whole
-    std::function<double(Instant now)> get;  ///< as long as the rack lives
+    bool whole = false;                      ///< a count, with whole values
+    std::function<double(Instant now)> get;  ///< valid as long as the rack exists
 };
 struct QuantitiesOfPart {
     std::string part;  ///< "X", "line"
     std::vector<Quantity> quantities;
 };
-/// Of everything in the rack: axes, stages, belts and tables, scan heads.
+/// Quantities of the whole rack: axes, stages, belts and tables, scan heads.
 std::vector<QuantitiesOfPart> quantities_of(Rack& rack);
 
-/// A name that get_quantity takes, and what its values can be.
+/// A name for get_quantity and its range of values.
 struct QuantityRange {
     std::string name;         ///< "X.position_mm"
-    std::string_view doc;     ///< what it is
-    std::string_view unit;    ///< "mm", "deg/s"; empty: it has none
-    double min = 0, max = 0;  ///< of its values, infinite where nothing bounds them; of one that can be set what
-                              ///< set_quantity takes now
+    std::string_view doc;     ///< description
+    std::string_view unit;    ///< "mm", "deg/s"; empty: none
+    double min = 0, max = 0;  ///< limits of its values, infinite if unbounded; for a settable quantity the present
+                              ///< limits of set_quantity
     bool can_set = false;
 };
-/// All that there are: of quantities_of, then of cards.
+/// All quantities: those of quantities_of, then those of cards.
 std::vector<QuantityRange> quantity_ranges(Rack& rack);
-/// The unit that the name of a quantity ends in: "mm/s" of "speed_mm_s".
+/// Returns the unit at the end of a quantity's name: "mm/s" for "speed_mm_s".
 std::string_view unit_of_quantity(std::string_view name);
 
 enum class PartKind : std::uint8_t { axis, stage, track, scanner };
-/// As they are declared, whether a rack has them or not: name and meaning, "{u}" for mm or deg. For pages of reference.
+/// Declared quantities, whether or not a rack has them: name and description, "{u}" for mm or deg. For reference pages.
 std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(PartKind kind);
 
-/// Errors: invalid_input if there is no such part or quantity, with the ones that there are.
+/// Errors: invalid_input if the part or quantity is unknown, listing the available ones.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
 
-/// Pushes an axis there by hand; of a belt or table speed_{u}_s can be set, for good or until the fault drive.profile.
-/// A motor in step goes to the nearest place of the same electrical phase (a multiple of four full steps away), as a
-/// real one under current does: read the quantity to see where it came to. Between runs. Errors: invalid_input; refused
-/// if it cannot be set, if the value is no number or too far away (see max_push).
+/// Pushes an axis manually to `value`. On a belt or table, sets speed_{u}_s, permanently or until the fault
+/// drive.profile. A motor in step goes to the nearest position of the same electrical phase (a multiple of four full
+/// steps away), like a real motor under current. Read the quantity to get the position reached. Call between runs.
+/// Errors: invalid_input; refused if it cannot be set, or if the value is not a number or too far away (see max_push).
 Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// The tables of quantities: of axes, stages, belts and tables, scan heads. Only quantities.cpp reads them.
+// Tables of quantities: axes, stages, belts and tables, scan heads. Only quantities.cpp uses them.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace motionrack::rack::quantity_tables {
 enum class ValueKind : std::uint8_t {
     measures,  ///< any number
     whole,     ///< any whole number
-    amount,    ///< a whole number from 0 on
+    amount,    ///< a whole number >= 0
     yes_no     ///< 1 or 0
 };
 using enum ValueKind;
@@ -24,7 +24,7 @@ struct QuantityRow {
     double (*get)(Part& part, Instant now);
     ValueKind values;
     bool (*present)(const Part& part) = nullptr;  ///< nullptr: always
-    /// What brings an axis to `value`, as microsteps to push its motor by; nullptr: it cannot be set.
+    /// Returns the microsteps by which to push the motor to bring an axis to `value`; nullptr: not settable.
     double (*push)(Part& part, double value, Instant now) = nullptr;
 };
 
@@ -76,9 +76,9 @@ inline constexpr std::array<QuantityRow<RunningAxis>, 13> axis_quantities = {{
      measures, [](const RunningAxis& axis) { return axis.servo != nullptr; }},
 }};
 
-inline constexpr double mm = 1e-6;  // a nm
+inline constexpr double mm = 1e-6;  // mm per nm
 
-/// Somebody closes its loop.
+/// Returns true if the stage's control loop is closed by a processor.
 inline bool has_loop(const RunningStage& stage) {
     return stage.loop() != nullptr;
 }

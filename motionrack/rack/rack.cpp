@@ -1,4 +1,4 @@
-// From a rack file's config to cards, parts and wires in one kernel.
+// Builds cards, parts and wires in one kernel from a rack file's config.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,12 +76,12 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     return out;
 }
 
-/// Where the rotor is, in pulses from the start, when the machine is at that position.
+/// Returns the rotor position, in pulses from the start, for that machine position.
 std::int64_t rotor_at(const RackAxis& axis, double position) {
     return static_cast<std::int64_t>(std::floor((position - axis.start_position) * axis.pulses_per_unit() + 0.5));
 }
 
-/// The rotor of a servo is its encoder: it follows whatever turns it.
+/// The rotor of a servo is its encoder, which follows the source of its motion.
 parts::StepperSettings motor_settings(const RackAxis& axis) {
     if (axis.servo) return {axis.encoder_counts_per_rev, 1, 1e12, 1e12};
     return {axis.motor_steps_per_rev, axis.microsteps, axis.motor.start_stop_hz, axis.motor.pull_out_hz};
@@ -166,7 +166,7 @@ void Rack::build_probe() {
     }
 }
 
-/// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
+/// Returns the kernel's wire name of an end. Pulses and encoder tracks of an axis have none: they are links.
 std::string Rack::wire_name(const WireEnd& end) const {
     switch (end.owner) {
         case EndOwner::card:
@@ -193,7 +193,7 @@ void Rack::build_wires() {
         MOTIONRACK_ASSERT(from != sim::WireId::none && to != sim::WireId::none);
         junctions_->join(from, to, is_contact(wire.to));
     }
-    // A contact's input without a wire: no current flows.
+    // A contact input without a wire carries no current.
     const sim::WireId no_current = config_.open.empty() ? sim::WireId::none : kernel_.add_wire("no_current", 0);
     for (const WireEnd& input : config_.open)
         if (is_contact(input)) junctions_->join(no_current, kernel_.find_wire(wire_name(input)), true);
@@ -203,7 +203,7 @@ CardProcessor& Rack::processor_of(const std::string& card) {
     for (const auto& [name, processor] : processors_)
         if (name == card) return *processor;
     grating_bus::Card* found = grating_card_of(*this, card);
-    MOTIONRACK_ASSERT(found != nullptr);  // read_rack has looked
+    MOTIONRACK_ASSERT(found != nullptr);  // checked by read_rack
     return *processors_.emplace_back(card, std::make_unique<CardProcessor>(kernel_, card + ".processor", *found))
                 .second;
 }
@@ -233,7 +233,7 @@ void Rack::build_scanners() {
             build_scanner(kernel_, scanner, scanner.track ? &track(*scanner.track)->drive->track() : nullptr));
 }
 
-/// The wire of an output. The tracks of an encoder are made as wires where the first card asks for them.
+/// Returns the wire of an output. The tracks of an encoder become wires when the first card needs them.
 sim::WireId Rack::output_wire(const WireEnd& end) {
     if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b"))
         return kernel_.find_wire(wire_name(end));
@@ -242,8 +242,8 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
     if (!axis.lines) {
         parts::LineEncoderSettings settings;
         settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
-        // A pulse may be many counts, and a rotor that locks elsewhere jumps: their edges keep a distance, none is
-        // lost.
+        // A pulse may be many counts, and a rotor can jump when it locks elsewhere. Their edges keep a minimum
+        // distance, and none is lost.
         settings.fastest = nanoseconds(200);
         settings.too_quick = parts::TooQuick::loses_by_fault;
         axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
@@ -290,7 +290,7 @@ Result<control::AxisGroup*> Rack::path_axes(const std::optional<control::Point>&
 
 namespace {
 
-/// A host that resets a card that positions by itself, or writes its counter, shifts the axis' positions.
+/// Detects a shift by a host that resets a card that positions by itself, or writes its counter.
 Result<void> check_agrees(const RunningAxis& axis, double position) {
     const double units = axis.config.pulses_per_unit();
     const double counted =

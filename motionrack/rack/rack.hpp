@@ -1,8 +1,8 @@
-// A running rack: the cards, wires and machine that a rack file describes, in one kernel.
+// A running rack: the cards, wires and machine of a rack file, in one kernel.
 //
-//   RackConfig ──► cards (catalogue) ──pulses──► axis machines ──encoders──► cards
+//   RackConfig ──► cards (catalogue) ──pulses──► axis mechanics ──encoders──► cards
 //                       │        └─volts─► servos ──┘   ▲
-//                       ▲   wires (junctions) ◄── switches, cams, index, emergency stop
+//                       ▲   wires (connections) ◄── switches, cams, index, emergency stop
 //                       └── VirtualPort ◄── driver ◄── axes ◄── controller
 //   belts, tables ──encoders, words──► card of a laser ──x, y, gate──► scan heads over them
 //   grating bus: cards ──frames──► processors ──volts──► stages ──scales──► decoder
@@ -39,26 +39,25 @@ namespace motionrack::rack {
 struct RunningAxis {
     RackAxis config;
     MotionCard* card = nullptr;
-    int channel = 0;                        ///< of the card
-    std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which is a part of the machine
+    int channel = 0;                        ///< channel of the card
+    std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which belongs to the machine
     std::unique_ptr<parts::AxisMechanics> machine;
-    std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
-    std::unique_ptr<parts::LineEncoder>
-        lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
+    std::unique_ptr<parts::ReferenceCam> cam;   ///< may be nullptr
+    std::unique_ptr<parts::LineEncoder> lines;  ///< encoder tracks as wires, for cards that need them; may be nullptr
     std::unique_ptr<EdgeFanout> pulse_ears,
-        encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
+        encoder_ears;  ///< listeners to the edges of the card's pulses and of the encoder
 
-    /// What turns the machine: the card's pulses or the servo.
+    /// Source of the machine's motion: the card's pulses or the servo.
     sim::PositionFunction& turned_by() const {
         return servo ? static_cast<sim::PositionFunction&>(*servo) : card->pulses(channel);
     }
-    /// How fast the rotor moves the table at `now`, mm/s or degrees/s, signed.
+    /// Velocity of the table caused by the rotor at `now`, mm/s or degrees/s, signed.
     double speed(Instant now) const { return servo ? servo->rate(now) * machine->units_per_pulse() : machine->speed(); }
 };
 
 class Rack {
   public:
-    /// Builds cards, parts and wires; nothing has happened yet (virtual time 0). The config must come from read_rack.
+    /// Builds cards, parts and wires at virtual time 0. The config must come from read_rack.
     explicit Rack(const RackConfig& config);
     ~Rack();
 
@@ -69,36 +68,36 @@ class Rack {
     Card* card(std::string_view name);
     std::vector<RunningAxis>& axes() { return axes_; }
     std::vector<RunningStage>& stages() { return stages_; }
-    /// nullptr if there is no such stage.
+    /// Returns nullptr if the stage is unknown.
     RunningStage* stage(std::string_view name);
     std::vector<RunningConveyor>& tracks() { return tracks_; }
     std::vector<RunningScanner>& scanners() { return scanners_; }
-    /// nullptr if there is no such part.
+    /// Returns nullptr if the conveyor is unknown.
     RunningConveyor* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
     StopLatch& stop_latch() { return *stop_latch_; }
     sim::InputLog& input_log() { return log_; }
-    /// Who hears the changes of wires.
+    /// Listeners to wire changes.
     WireFanout& wire_ears() { return wire_ears_; }
-    /// Takes the state of another rack of the same config. Both are started and between runs.
+    /// Copies the state of another rack of the same config. Both must be started and between runs.
     void copy_from(Rack& other);
 
-    /// No more parts: virtual time can run.
+    /// Ends construction, so that virtual time can run.
     void start();
     bool started() const { return started_; }
-    /// All axes of the rack as a group that follows paths: those of one card that can, or axes that position one by one
-    /// (see point_to_point). They are set up at `position` (one that positions by itself, and knows where it is, must
-    /// agree), or go on from where their counters say that they stand. Errors: refused if the rack has both kinds, or
-    /// an axis does not agree. The rack must be started.
+    /// Returns all axes of the rack as an axis group: those of one card that follows paths, or axes that position one
+    /// by one (see point_to_point). The group starts at `position`; an axis that positions by itself and has a valid
+    /// position must agree with it. Without `position` the axes continue from their counters. Errors: refused if the
+    /// rack has both kinds, or an axis does not agree. The rack must be started.
     Result<control::AxisGroup*> path_axes(const std::optional<control::Point>& position);
     Result<control::AxisGroup*> path_axes() { return path_axes(start_position()); }
     Result<control::AxisGroup*> path_axes_here() { return path_axes(std::nullopt); }
-    /// For progress, draining and Ctrl-C: see VirtualPort. The stop latch is looked at after each call.
+    /// Call-back for progress, draining and Ctrl-C: see VirtualPort. The stop latch is checked after each call.
     void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
 
     control::Point start_position() const;
-    /// A condition as a sentence.
+    /// Returns a condition as a sentence.
     std::string describe(const sim::Condition& condition);
 
   private:
@@ -124,10 +123,10 @@ class Rack {
     std::vector<RunningAxis> axes_;
     std::unique_ptr<parts::TouchProbe> probe_;  // may be nullptr
     std::vector<RunningStage> stages_;
-    std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by their cards' names
+    std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by card name
     std::vector<RunningConveyor> tracks_;
     std::vector<RunningScanner> scanners_;
-    FixedPosition still_;  // what turns a motor whose step input is open
+    FixedPosition still_;  // source of a motor whose step input is open
     std::vector<std::unique_ptr<InvertedPosition>> mirrored_;
     std::unique_ptr<sim::WireConnections> junctions_;
     std::optional<control::PointToPointAxes> positioning_;

@@ -1,4 +1,4 @@
-// A flag that is set while something runs, also where that ends by an exception.
+// A flag that is set for the duration of a scope, even if an exception ends it.
 #pragma once
 
 #include <utility>

@@ -1,4 +1,4 @@
-// Windows of pulses, from a stop on.
+// Evaluates windows of pulses after a stop.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/rack.hpp>
@@ -21,7 +21,7 @@ std::int64_t RampWatch::count_of(std::size_t i, Instant now) const {
     return rack_.axes()[watched_[i].axis].turned_by().count(now);
 }
 
-/// As if each axis had come with the rate that it has.
+/// Assumes that each axis has had its present rate before.
 void RampWatch::arm(Instant now) {
     state_ = {};
     for (std::size_t i = 0; i < watched_.size(); ++i) {
@@ -54,7 +54,7 @@ void RampWatch::on_scheduled(Instant now) {
     }
 }
 
-/// The windows go on over what is not driven any more.
+/// Continues the windows over the time without a driver.
 void RampWatch::settle() {
     if (state_.judges == 0) return;
     for (std::size_t i = 0; i < watched_.size(); ++i) {

@@ -1,12 +1,12 @@
-// Whether the pulses of the axes end in a ramp once a stop is in force, or without one: then steps may be lost.
+// Detects axes whose pulses end without a ramp after a stop, which may cause step loss.
 //
-//   armed                     a stop comes into force        whoever drives has seen all axes stand
+//   armed                     a stop comes into force        the driver has seen all axes at standstill
 //     │     every millisecond        │                              │
 //     ▼                              ▼                              ▼
-//   counts of pulses ─────────────── windows of 1 to 8 ms: see JumpLaw ──► an axis whose speed jumped
+//   counts of pulses ─────────────── windows of 1 to 8 ms: see JumpLaw ──► an axis with a velocity step
 //
-// A card that is told to stop, or does so at a limit switch, brakes with a ramp; but the chip of an MCX314 that follows
-// a path ends its pulses where the piece ends that it has begun, however fast it is there.
+// A card that stops on a command or at a limit switch decelerates with a ramp. The chip of an MCX314 that follows a
+// path ends its pulses at the end of the current segment, at any velocity.
 #pragma once
 
 #include <array>
@@ -23,16 +23,16 @@ class Rack;
 
 class RampWatch final : public sim::Device {
   public:
-    /// Of a rack that has all its axes, before it starts.
+    /// Call when the rack has all its axes, before it starts.
     explicit RampWatch(Rack& rack);
 
-    /// From now on what the axes did last is known.
+    /// Records the recent motion of the axes from this instant.
     void arm(Instant now);
-    /// A stop comes into force.
+    /// Call when a stop comes into force.
     void begin() { state_.judges = 1; }
-    /// All axes stand. Between runs.
+    /// Call between runs when all axes are at standstill.
     void settle();
-    /// No stop is in force, and none comes.
+    /// Call when no stop is in force or expected.
     void end();
     /// `axis`: 0 .. 5.
     bool has_jumped(int axis) const { return (state_.jumped & 1u << axis) != 0; }
@@ -43,14 +43,14 @@ class RampWatch final : public sim::Device {
   private:
     static constexpr Duration period = milliseconds(1);
     static constexpr std::size_t counts_kept = 2 * (JumpLaw::max_window / period) + 1;
-    /// An axis that pulses move, with a start speed.
+    /// An axis moved by pulses, with a velocity step limit.
     struct Watched {
-        std::size_t axis = 0;  ///< of Rack::axes()
+        std::size_t axis = 0;  ///< index in Rack::axes()
         JumpLaw law;
     };
     struct State {
         std::int64_t judges = 0;
-        std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< the newest is the last
+        std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
         std::uint64_t jumped = 0;                                                         ///< bits: axes
     };
     std::int64_t count_of(std::size_t i, Instant now) const;
@@ -60,7 +60,7 @@ class RampWatch final : public sim::Device {
     Rack& rack_;
     sim::Kernel& kernel_;
     sim::DeviceId id_;
-    std::vector<Watched> watched_;  ///< goes with state_.counts
+    std::vector<Watched> watched_;  ///< same order as state_.counts
     State state_;
 };
 

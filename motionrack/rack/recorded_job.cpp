@@ -1,4 +1,4 @@
-// From a request to a job that is watched, and from a recording to a request.
+// Converts a request to a monitored job, and a recording to a request.
 #include <fmt/format.h>
 
 #include <motionrack/rack/job_report.hpp>
@@ -11,7 +11,7 @@ namespace motionrack::rack {
 
 namespace {
 
-// How faults are told apart from orders in a recording.
+// Distinguishes faults from commands in a recording.
 constexpr std::string_view fault_word = "fault ";
 
 trace::RecordingHead head_of(const JobRequest& request, const CommandSchedule& orders) {

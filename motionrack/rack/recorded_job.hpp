@@ -1,7 +1,6 @@
-// A job with all that may watch it, and everything that it is made of: what a recording keeps, so that it can be run
-// again.
+// A job with its observers and all its inputs: the content of a recording that allows it to be repeated.
 //
-//   JobRequest ──► RecordedJob ──► rack, job, faults, orders        files, options ──► JobRequest
+//   JobRequest ──► RecordedJob ──► rack, job, faults, commands      files, options ──► JobRequest
 //                       │                                           recording ───────► JobRequest
 //                       └──► waves (VCD), recording (HDF5)
 #pragma once
@@ -22,48 +21,48 @@ namespace motionrack::rack {
 
 struct JobRequest {
     RackConfig config;
-    std::string rack_file, rack_text;  ///< what the config was read from; only recordings need them
+    std::string rack_file, rack_text;  ///< source of the config; only recordings need it
     std::string program, program_name;
     bool block_delete = false, stream = false;
     control::gcode::ToolTable tools;
-    std::map<std::string, std::string> subprograms;  ///< texts of those that the program calls and does not have itself
+    std::map<std::string, std::string> subprograms;  ///< texts of called subprograms outside the program
     std::vector<ScheduledText> faults, orders;
-    std::string version;  ///< of the program that runs it
+    std::string version;  ///< version of the running program
 };
 
-/// Takes "ORDER@TIME" as users write it. Errors: invalid_input.
+/// Parses "COMMAND@TIME" texts. Errors: invalid_input.
 Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts);
 
-/// How its program is read.
+/// Returns the reader settings of the request's program.
 control::gcode::Settings reading_of(const JobRequest& request);
 
-/// The request that a recording was made by. Errors: invalid_input, its rack cannot be read any more.
+/// Restores the request of a recording. Errors: invalid_input if its rack can no longer be read.
 Result<JobRequest> request_of(const trace::RecordingReader& recording);
 
 struct JobObservers {
-    std::string recording = {};  ///< its path; empty: none
+    std::string recording = {};  ///< path; empty: no recording
     std::optional<WaveSettings> waves = std::nullopt;
 };
 
 class RecordedJob {
   public:
-    /// Builds all; nothing has moved. `request` must outlive it. Errors: as FaultSchedule, CommandSchedule, the
+    /// Builds everything without any motion. `request` must outlive it. Errors: as FaultSchedule, CommandSchedule, the
     /// recorders.
     static Result<std::unique_ptr<RecordedJob>> create(const JobRequest& request, const JobObservers& watchers);
     ~RecordedJob();
 
-    /// Once. `stop_asked` may be nullptr, `progress` empty.
+    /// Call once. `stop_asked` may be nullptr, `progress` empty.
     const JobOutcome& run(const std::atomic<bool>* stop_asked, std::function<void(const JobProgress&)> progress);
-    /// Ends the files. Errors: io, the first one.
+    /// Ends the files. Errors: io; the first one is returned.
     Result<void> finish();
 
     Rack& rack() { return rack_; }
     const Job& job() const { return *job_; }
-    /// What the page shows; also what stands in the recording.
+    /// Data of the report page, also stored in the recording.
     const trace::ReportData& report() const { return report_; }
-    /// Sentences about planned faults and orders that were not done.
+    /// Sentences about planned faults and commands that were not executed.
     std::vector<std::string> not_done() const;
-    /// Events that the recording has; 0: there is none.
+    /// Number of events in the recording; 0: no recording.
     std::uint64_t events() const { return recorder_ ? recorder_->events() : 0; }
 
   private:

@@ -1,4 +1,4 @@
-// Reading all registers, and saying what their bits mean.
+// Reads all registers and decodes their bits.
 #include <fmt/format.h>
 
 #include <algorithm>

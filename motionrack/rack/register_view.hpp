@@ -1,4 +1,4 @@
-// What a card's registers show, read through its port: the same accesses for a virtual card and a real one.
+// Register contents of a card, read through its port with the same accesses for a virtual and a real card.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace motionrack::rack {
 
-/// A register as it was read. `axis`: "" or the axis it belongs to.
+/// A register as read. `axis`: its axis, or "".
 struct RegisterSnapshot {
     const RegisterInfo* reg = nullptr;
     std::string axis = {};
     std::uint16_t word = 0;
 };
 
-/// A counter or another value that takes a read command.
+/// A counter or another value read with a command.
 struct ValueSnapshot {
     std::string_view name;
     std::string axis;
@@ -27,16 +27,16 @@ struct ValueSnapshot {
 struct RegisterView {
     std::vector<RegisterSnapshot> registers;
     std::vector<ValueSnapshot> values;
-    /// False where every word is FFFFh, as in an empty slot.
+    /// Returns false if every word is FFFFh, as in an empty slot.
     bool answered() const;
 };
 
-/// The MCX314: all RR registers, LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to choose the axis) and read
-/// commands; these change no motion, but RR6, RR7 and the chosen axis: nobody else may use the card meanwhile.
-/// `clearing`: RR3 too, which clears its flags and lets the interrupt line go.
+/// Reads an MCX314: all RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis)
+/// and read commands. These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others
+/// meanwhile. `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
 RegisterView view_mcx314(RegisterPort& port, bool clearing);
 
-/// For a terminal; fields that are 0 are left out unless `all`.
+/// Formats the view for a terminal; fields with value 0 are left out unless `all`.
 std::string view_text(const RegisterView& view, bool all);
 std::string view_json(const RegisterView& view);
 

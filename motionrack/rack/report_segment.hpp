@@ -1,4 +1,4 @@
-// A move's path as the reports' pictures draw it.
+// Path of a move, as the report's pictures draw it.
 #pragma once
 
 #include <motionrack/control/move.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::rack {
 
-/// A line as it is, an arc in chords that no picture shows as such. `start`: where the move begins.
+/// Returns a line unchanged and an arc as chords too short to see. `start`: start of the move.
 trace::ReportSegment path_segment(const control::Move& move, const control::Point& start);
 
 }  // namespace motionrack::rack

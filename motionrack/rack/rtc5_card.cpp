@@ -18,7 +18,7 @@ rtc5::Settings settings_of(const Rtc5Settings& s) {
     return out;
 }
 
-/// What can be inspected, beside the status words.
+/// A value beside the status words.
 struct WordValue {
     std::string_view name;
     std::int64_t (*get)(const Engine& engine);
@@ -59,7 +59,7 @@ constexpr Number numbers[] = {
      "speed of the encoder that it follows, signed"},
 };
 
-/// Time as a program beside the card has it; the end of a list stands for an interrupt.
+/// Host time for a program beside the card; the end of a list serves as its interrupt.
 class Host final : public sim::VirtualHost {
   public:
     Host(sim::Kernel& kernel, const rtc5::Card& card, sim::InputLog& log)
@@ -84,7 +84,7 @@ class Rtc5Card final : public Card {
         std::vector<std::string_view> more;
         for (const auto& [known, get] : values) {
             if (known == name) return get(card_.engine());
-            if (more.empty() && known != "XOUT") continue;  // the map has the status words
+            if (more.empty() && known != "XOUT") continue;  // the status words are in the map
             more.push_back(known);
         }
         return no_such_value(*this, name, more);

@@ -1,4 +1,4 @@
-// The RTC5 of a rack, for those who give it commands.
+// Access to an RTC5 in a rack, for sending commands.
 #pragma once
 
 #include <motionrack/cards/rtc5/model/card.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::rack {
 
-/// nullptr if the rack has no such card, or it is of another type.
+/// Returns nullptr if the rack has no such card or the card is of another type.
 rtc5::Card* rtc5_card_of(Rack& rack, std::string_view name);
 
 }  // namespace motionrack::rack

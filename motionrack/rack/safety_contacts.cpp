@@ -1,4 +1,4 @@
-// What contacts do by themselves.
+// Reactions of the contacts themselves.
 #include <fmt/format.h>
 
 #include <motionrack/rack/safety_contacts.hpp>

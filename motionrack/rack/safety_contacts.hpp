@@ -1,13 +1,13 @@
-// The contacts that a machine has for its people: an emergency stop with two channels, and a door.
+// Operator safety contacts of a machine: an emergency stop with two channels, and a door.
 //
 //   estop1 ──┐
-//            ├── both closed ──► estop ──► cards, stop latch        the first contact that opens acts at once
+//            ├── both closed ──► estop ──► cards, stop latch        the first contact that opens acts immediately
 //   estop2 ──┘
-//      └── unlike for longer than they may ──► a fault: no reset until both are alike again
+//      └── different for longer than permitted ──► a fault: no reset until both agree again
 //
-//   door ──► open: the feed is held, or what has nobody to hold it is stopped; nothing begins to move
+//   door ──► open: feed hold, or a stop if the driver cannot hold; no motion starts
 //
-// The wires estop1, estop2 and door are there where the rack file says so, high while the contact is closed.
+// The wires estop1, estop2 and door exist if the rack file declares them; high while the contact is closed.
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@ namespace motionrack::rack {
 
 class SafetyContacts final : public sim::Device {
   public:
-    /// Behind the wire `estop`, before the kernel starts. Adds wires only where there are contacts.
+    /// Acts on the wire `estop`, before the kernel starts. Adds wires only for existing contacts.
     SafetyContacts(sim::Kernel& kernel, const RackSafety& settings);
 
-    /// The channels are unlike, and have been for longer than they may.
+    /// Returns true if the channels have differed for longer than permitted.
     bool differs() const { return state_.differs != 0; }
     bool door_open() const { return has_door() && kernel_.level(door_) == 0; }
     bool has_door() const { return door_ != sim::WireId::none; }
-    /// When it was opened last.
+    /// Instant of the last opening.
     Instant door_opened() const { return state_.door_opened; }
-    /// "The two channels of the emergency stop have differed for 500 ms at 1.700 s: ...", each once.
+    /// Returns new alarms, each once, as sentences with the duration and the instant.
     std::vector<std::string> take_alarms();
 
     void on_scheduled(Instant now) override;

@@ -1,4 +1,4 @@
-// Taking planned texts apart.
+// Parses scheduled texts.
 #include <limits>
 #include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/scheduled_text.hpp>
@@ -7,7 +7,7 @@ namespace motionrack::rack {
 
 namespace {
 
-/// "0.5s", "20ms", "1e3us" in seconds, or NaN.
+/// Converts "0.5s", "20ms", "1e3us" to seconds; NaN if invalid.
 double seconds(std::string_view text) {
     struct Unit {
         std::string_view name;

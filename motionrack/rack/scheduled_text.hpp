@@ -1,4 +1,4 @@
-// "WHAT@TIME" as users plan what happens on the way of a run.
+// "ACTION@TIME": a user's text that schedules an action during a run.
 #pragma once
 
 #include <motionrack/base/time.hpp>
@@ -9,14 +9,14 @@
 namespace motionrack::rack {
 
 struct ScheduledText {
-    Instant at{};        ///< since the rack was started
-    std::string action;  ///< what stands before the '@'
-    std::string text;    ///< all of it, as its user wrote it
+    Instant at{};        ///< since the start of the rack
+    std::string action;  ///< text before the '@'
+    std::string text;    ///< complete text of the user
 };
 
 inline constexpr double max_planned_seconds = 1e6;
 
-/// TIME is a number with s, ms or us, 0 .. max_planned_seconds. Nothing: it has no such time.
+/// TIME is a number with s, ms or us, 0 .. max_planned_seconds. Returns nothing if the text has no such time.
 std::optional<ScheduledText> read_timed_text(std::string_view text);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// Opening, time, the bus, conditions and recordings.
+// Opens racks; time, the bus, conditions and recordings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Result<void> refuse_time_beyond_end(Instant now) {
                             to_seconds(now), to_seconds(Session::latest)));
 }
 
-/// `ns` as a time that the rack has left.
+/// Converts `ns` to a duration within the rack's remaining time.
 Result<Duration> Session::time_of(std::uint64_t ns) const {
     MOTIONRACK_CHECK(check_free());
     if (ns > max_ns)
@@ -73,7 +73,7 @@ void Session::run_to(Instant until) {
     look();
 }
 
-/// Where a recording is due to look at the registers, it does, and puts what it has on the disk.
+/// Lets a due recording sample the registers and write its data to the disk.
 void Session::look() {
     if (now() < next_look_) return;
     recorder_->look();
@@ -82,7 +82,7 @@ void Session::look() {
     next_look_ = (now() / period + 1) * period;
 }
 
-/// While a program, a homing or a card's host has the rack's time.
+/// Called while a program, a homing or a card's host advances time.
 void Session::between() {
     look();
     if (recorder_) recorder_->drain_settled();
@@ -114,7 +114,7 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
 Result<bool> Session::wait(std::string_view card, std::uint64_t ns) {
     MOTIONRACK_TRY(Card * on, card_named(rack_, card));
     MOTIONRACK_TRY(const Duration time, time_of(ns));
-    constexpr Duration drained_within = microseconds(10);  // what a recording has is fetched so often
+    constexpr Duration drained_within = microseconds(10);  // interval at which the data of a recording is fetched
     const Instant end = now() + time;
     bool active = false;
     for (look(); !active; look()) {
@@ -188,7 +188,7 @@ void Session::on_condition(std::function<void(const Told&)> call) {
     on_condition_ = std::move(call);
 }
 
-/// What the call-back does may report more, which it hears of then.
+/// The call-back may cause further conditions, which it receives afterwards.
 void Session::tell_conditions() {
     if (!on_condition_ || telling_) return;
     const RaisedFlag telling(telling_);
@@ -197,7 +197,7 @@ void Session::tell_conditions() {
         if (news.empty()) break;
         for (const Told& one : news) {
             told_ = one.number;
-            const auto call = on_condition_;  // it may take another, or none
+            const auto call = on_condition_;  // it may replace or remove itself
             if (call) call(one);
         }
     }
@@ -236,7 +236,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
         settings.signals.emplace_back(signals.substr(at, end - at));
         at = end;
     }
-    if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // what is lost holds its name no more
+    if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // a lost recording no longer blocks its name
     MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
     next_look_ = now();
     return {};

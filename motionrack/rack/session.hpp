@@ -1,4 +1,4 @@
-// A running rack as programs outside of it use it: by names and plain numbers, every mistake an error, nothing aborts.
+// A running rack for external programs: names and plain numbers, an error for every mistake, no aborts.
 //
 //               ┌──► Card: bus accesses, registers by name
 //               ├──► WireAccess: pins, switches
@@ -7,7 +7,7 @@
 //               ├──► Job: a part program; home_axes
 //               └──► Kernel: time, copies, hash ──conditions, between runs──► call-back
 //
-// What the C interface (motionrack/c.h) gives to other languages; one thread at a time.
+// Implements the C interface (motionrack/c.h) for other languages; one thread at a time.
 #pragma once
 
 #include <atomic>
@@ -27,39 +27,40 @@ namespace motionrack::rack {
 
 /// A part program for Session::run_program.
 struct ProgramOrder {
-    std::string_view path_or_text;  ///< a text has a line end in it; subprograms lie beside a file
+    std::string_view path_or_text;  ///< a text contains a line end; the subprograms of a file lie beside it
     std::string tools = {};         ///< path of a tool table (LinuxCNC's .tbl); empty: none
     bool block_delete = false;
-    /// About every 50 ms of virtual time; false: the axes come to rest along the path. May be empty.
+    /// Called about every 50 ms of virtual time. If it returns false, the axes decelerate to a stop on the path. May be
+    /// empty.
     std::function<bool(const JobProgress&)> progress = {};
 };
 
-/// What came of it.
+/// Result of a part program.
 struct ProgramReport {
-    Result<void> ended;  ///< refused and invalid_input: nothing moved; machine: also where something was lost or broken
-    Place place;         ///< of the first error
-    JobOutcome outcome;  ///< where it moved
-    std::string sentence;  ///< all that was wrong, a line each; or that it ended well
-    std::string summary;   ///< as the command line prints it; empty where nothing moved
+    Result<void> ended;    ///< refused and invalid_input: nothing moved; machine: also after step loss or a breach
+    Place place;           ///< location of the first error
+    JobOutcome outcome;    ///< valid if the program moved
+    std::string sentence;  ///< all errors, one per line, or a statement of success
+    std::string summary;   ///< as printed by the command line; empty if nothing moved
 };
 
-// The two refusals of calls that a host makes a million times a second; the checks before them are inlined.
+// The two refusals of calls that a host makes a million times per second; their checks are inlined.
 Result<void> refuse_in_a_call_back();
 Result<void> refuse_time_beyond_end(Instant now);
 
 class Session {
   public:
-    /// Whether part programs will be run: the axes are watched from the start then.
+    /// Whether part programs may be run; if yes, the axes are monitored from the start.
     enum class Programs : std::uint8_t { no, yes };
     /// Reads a rack file (a path, or the text itself: see read_rack), builds the rack and starts it. Errors:
-    /// invalid_input with everything that is wrong, a line each; io.
+    /// invalid_input with all errors, one per line; io.
     static Result<std::unique_ptr<Session>> open(std::string_view path_or_text, Programs programs = Programs::no);
     ~Session();
 
     Rack& rack() { return rack_; }
 
     // ---- time
-    /// Lets the world run for `ns` nanoseconds, 0 .. max_ns. Errors: refused beyond that, beyond latest, and by
+    /// Advances virtual time by `ns` nanoseconds, 0 .. max_ns. Errors: refused beyond max_ns, beyond `latest`, and by
     /// check_free.
     Result<void> advance(std::uint64_t ns);
     std::uint64_t now_ns() const { return static_cast<std::uint64_t>(now().count()) / 10; }
@@ -67,17 +68,17 @@ class Session {
     static constexpr Instant latest{never.count() / 2};
 
     // ---- the bus
-    /// One access of the host's bus: it takes the card's bus time. `bits`: 8, 16, 32. Errors: invalid_input (there is
-    /// no such card), refused (the card has no accesses of that width, nothing at that address; see check_free).
+    /// One access on the host's bus; takes the card's bus access time. `bits`: 8, 16, 32. Errors: invalid_input
+    /// (unknown card), refused (no accesses of that width, no register at that address, or by check_free).
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
     Result<void> write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value);
 
-    /// Lets the world run until the card's interrupt is active, for `ns` nanoseconds at most; whether it is active.
-    /// Errors: invalid_input (there is no such card), those of advance.
+    /// Advances virtual time until the card's interrupt is active, by `ns` nanoseconds at most. Returns whether it is
+    /// active. Errors: invalid_input (unknown card), those of advance.
     Result<bool> wait(std::string_view card, std::uint64_t ns);
 
-    /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors:
-    /// invalid_input.
+    /// Reads a register or value of a card by name, without side effects and without virtual time: see Card::inspect.
+    /// Errors: invalid_input.
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
     // ---- wires and parts
@@ -90,52 +91,54 @@ class Session {
     /// See faults.hpp.
     Result<void> fault(std::string_view fault, std::string_view target);
 
-    // ---- what a controller does
-    /// Runs a part program on the controller of a rack that was opened for programs, from where the axes stand: see
-    /// PositionReference. What is wrong in it is found before anything moves.
+    // ---- controller functions
+    /// Runs a part program on the controller of a rack opened for programs, from the axes' present positions: see
+    /// PositionReference. Checks the whole program before anything moves.
     ProgramReport run_program(const ProgramOrder& order);
-    /// Homes axes: letters, with blanks and commas between them or not; empty: all that have a home switch. Errors (in
-    /// `ended`): as home_axes, and refused by check_free.
+    /// Homes axes: letters, optionally with blanks and commas between them; empty: all axes with a home switch. Errors
+    /// (in `ended`): as home_axes, and refused by check_free.
     HomingOutcome home(std::string_view axes);
 
-    // ---- the whole world
-    /// A world of its own in the same state: the same calls from here on do the same in both. A recording and the
-    /// call-back of on_condition stay with this one. Errors: refused by check_free.
+    // ---- the whole simulation
+    /// Returns an independent session in the same state: equal calls have equal effects in both. A recording and the
+    /// call-back of on_condition stay with the original. Errors: refused by check_free.
     Result<std::unique_ptr<Session>> copy();
-    /// Equal worlds, equal hash: time, cards, wires, parts, conditions told, and the history of the wires.
+    /// Hash of the state: time, cards, wires, parts, reported conditions, and the event trace of the wires. Equal
+    /// states have equal hashes.
     std::uint64_t state_hash() { return rack_.kernel().state_hash(); }
 
-    /// What happened, as a sentence.
+    /// A reported event as a sentence.
     struct Told {
-        std::uint64_t number = 0;  ///< from 1
+        std::uint64_t number = 0;  ///< starts at 1
         Instant at{};
-        std::string device;  ///< a card's name, or of what else it happened to
-        int code = 0;        ///< of this kind of device
+        std::string device;  ///< name of the card or other source
+        int code = 0;        ///< condition code of this kind of device
         std::string sentence;
     };
-    /// Those with numbers above `since`, oldest first; the kernel keeps the last ones.
+    /// Returns the conditions with numbers above `since`, oldest first; the kernel stores the most recent ones.
     std::vector<Told> conditions(std::uint64_t since);
-    /// Calls `call` with each condition from now on, once and in their order, between runs of the kernel: time stands
-    /// at the event that reported it; in a program or a homing at most 50 ms later. Empty: no more.
+    /// Calls `call` with each later condition, once and in order, between runs of the kernel. Time is that of the event
+    /// that reported it; during a program or homing it may be up to 50 ms later. Empty: ends the calls.
     void on_condition(std::function<void(const Told&)> call);
-    /// Errors: refused: this is a call-back (of on_condition, of a program's progress) in the middle of what lets time
-    /// pass.
+    /// Errors: refused within a call-back (of on_condition, or of a program's progress) of a function that advances
+    /// time.
     Result<void> check_free() const {
         if (!telling_ && !driving_) return {};
         return refuse_in_a_call_back();
     }
 
     // ---- recordings
-    /// Of VCD files that are begun from now on; 0: see WaveSettings::unit. Errors: refused (no unit of VCD).
+    /// Sets the time unit of later VCD files; 0: see WaveSettings::unit. Errors: refused (not a VCD unit).
     Result<void> set_trace_unit(double ns);
-    /// Begins one; its name ends in .vcd, .csv or .h5. `signals`: patterns with * and ?, separated by blanks or commas;
-    /// empty: all but the pins that cards drive on demand. `version`: of the program that records. One whose end failed
-    /// is given up for it. Errors: refused (one runs already, the name's ending), invalid_input (no signal fits), io.
+    /// Starts a recording; its name ends in .vcd, .csv or .h5. `signals`: patterns with * and ?, separated by blanks or
+    /// commas; empty: all signals except the pins that cards drive on demand. `version`: version of the recording
+    /// program. Discards a recording that could not be ended. Errors: refused (already recording, the name's ending),
+    /// invalid_input (no matching signal), io.
     Result<void> start_trace(const std::string& path, std::string_view signals, std::string_view version = {});
-    /// One runs, or could not be ended.
+    /// Returns true while a recording is active or could not be ended.
     bool is_recording() const { return recorder_ != nullptr; }
-    /// Ends it. Errors: refused (none runs), io: it goes on, and what could not be written is kept for the next time;
-    /// an .h5 file is lost.
+    /// Ends the recording. Errors: refused (no recording); io: the recording continues and keeps the unwritten data for
+    /// a retry; an .h5 file is lost.
     Result<void> stop_trace();
 
   private:
@@ -156,19 +159,19 @@ class Session {
     Result<void> drive_program(const ProgramOrder& order, ProgramReport& report);
 
     Rack rack_;
-    std::unique_ptr<Job> job_;  // may be nullptr: no programs
-    std::string program_;       // the text of the last one
+    std::unique_ptr<Job> job_;  // nullptr: no programs
+    std::string program_;       // text of the last program
     std::atomic<bool> stop_{false};
     std::function<bool(const JobProgress&)> progress_;
     std::function<void(const Told&)> on_condition_;
-    std::uint64_t told_ = 0;  // conditions that it has heard of
-    bool telling_ = false;    // it is being called
-    bool driving_ = false;    // a program or a homing runs
+    std::uint64_t told_ = 0;  // conditions reported
+    bool telling_ = false;    // the call-back is running
+    bool driving_ = false;    // a program or homing is running
     std::unique_ptr<WireTap> tap_;
     WireAccess desk_;
     std::unique_ptr<WaveRecorder> recorder_;
     Duration trace_unit_{0};
-    Instant next_look_ = never;  // of the recorder at the registers
+    Instant next_look_ = never;  // next sampling of the registers by the recorder
 };
 
 }  // namespace motionrack::rack

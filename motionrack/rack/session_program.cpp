@@ -1,4 +1,4 @@
-// Part programs and homings of a session: read and checked first, then driven as the command line does.
+// Part programs and homing of a session: read and checked first, then executed as by the command line.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -19,17 +19,17 @@ namespace {
 constexpr std::size_t max_problems = 20;
 constexpr std::size_t max_warnings = 12;
 constexpr Duration homing_slice = milliseconds(50);
-/// Longer than any program of a day and any homing of all axes.
+/// Longer than any day-long program and any homing of all axes.
 constexpr Duration max_drive_time = whole_seconds(86'400);
 
-/// A problem a line, and how many there are.
+/// Lists the problems, one per line, and their number.
 std::string problems_text(const control::gcode::ProgramCheck& check, const std::string& name) {
     std::string out;
     for (const control::gcode::Problem& problem : check.problems) out += problem.text() + '\n';
     return out + problems_verdict(check, name);
 }
 
-/// How the program went, and what is to be said of it, a line each.
+/// Describes the result of the program, with one message per line.
 std::string drive_text(const std::string& verdict, const JobOutcome& outcome) {
     std::string out = verdict;
     for (std::size_t i = 0; i < outcome.warnings.size() && i < max_warnings; ++i)
@@ -94,7 +94,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     progress_ = {};
     rack_.set_stop_flag(nullptr);
     between();
-    if (report.outcome.axes.empty()) return report.outcome.ended;  // its axes could not be had
+    if (report.outcome.axes.empty()) return report.outcome.ended;  // its axes were not available
     report.summary = summary_of(rack_.config(), report.outcome);
     const JobOutcome& outcome = report.outcome;
     if (!outcome.ended) {

@@ -1,4 +1,4 @@
-// Stages from their settings, and the processors' frames.
+// Builds stages from their settings, and processes frames.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace gb = grating_bus;
 namespace {
 
 constexpr double nm_per_mm = 1e6;
-/// A stage that has braked is held for so long before its power goes: it would drift with what speed is left.
+/// Hold time after deceleration, before power is removed; without it the stage would drift with its remaining velocity.
 constexpr Duration settles = milliseconds(50);
 
 gb::MotionLimits limits_of(const RackStageServo& s) {
@@ -86,7 +86,7 @@ parts::LinearScaleSettings scale_settings(const RackStage& stage) {
 
 gb::ServoSettings loop_settings(const RackStage& stage) {
     const RackStageServo& s = *stage.servo;
-    const double um = 1e-3;  // a nm in um
+    const double um = 1e-3;  // um per nm
     gb::ServoSettings out;
     out.scale = static_cast<std::uint64_t>(stage.input);
     out.nm_per_count =
@@ -134,7 +134,7 @@ void CardProcessor::go_on(const std::array<std::int64_t, gb::output_count>& coun
     state_.stopping = state_.power_off = 0;
 }
 
-/// The plans' time goes on by a frame; gives how its rate changes, 1/s.
+/// Advances profile time by a frame; returns the change of its rate, 1/s.
 double CardProcessor::advance(const gb::Frame& frame, double period) {
     const auto sequence = static_cast<std::int64_t>(frame.sequence);
     const double passed = static_cast<double>(sequence - std::exchange(state_.sequence, sequence)) * period;

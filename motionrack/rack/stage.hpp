@@ -1,5 +1,4 @@
-// The linear stages of a rack: motor and scale of each, and what runs on the processors of the motion cards that close
-// their loops.
+// Linear stages of a rack: motor and scale of each, and the processors of the motion cards that close their loops.
 //
 //   card ──frames──► CardProcessor: loops, one an output ──NAME.voutN──► stage ──► scale ──► decoder
 #pragma once
@@ -19,17 +18,17 @@
 
 namespace motionrack::rack {
 
-/// Where a stage is to be, as its servo's keys say.
+/// Set point of a stage as a function of time, from its servo's keys.
 class StageSetup {
   public:
     StageSetup() = default;
-    /// The servo must be sound (see stage_flaw).
+    /// The servo must be valid (see stage_flaw).
     explicit StageSetup(const RackStage& stage);
     grating_bus::Setpoint at(double seconds) const;
-    /// Where it is before it begins.
+    /// Position before the profile begins.
     double start_nm() const { return at(-1).position_nm; }
-    /// In which it may be slowed to standstill along its own way: twice as long as a ramp from its greatest speed, for
-    /// it may be in one.
+    /// Time allowed for decelerating to standstill along the profile. It is twice the duration of a ramp from maximum
+    /// velocity, since the profile may be on a ramp already.
     double braking_s() const { return 2 * limits_.speed_nm_s / limits_.accel_nm_s2; }
 
   private:
@@ -38,22 +37,22 @@ class StageSetup {
     double delay_s_ = 0;
 };
 
-/// What a processor reports; a: number of the output, b: the following error in nm.
+/// Conditions reported by a processor; a: output number, b: following error in nm.
 enum class LoopCondition : std::uint16_t { stale = 1, too_far = 2 };
 
-/// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0
-/// V. Its time is the frames' sequence, for a card knows no clock but the pulses that it counts.
+/// Control loops of one card. Each frame yields the voltages of its outputs, after a delay; without a frame for two
+/// periods: 0 V. Time follows the frames' sequence, since a card has no clock other than the pulses that it counts.
 ///
-/// A stop slows the plans' time down to standstill, so that every stage brakes on its own way, and none jumps when the
-/// time goes on:
+/// A stop slows profile time down to standstill. Every stage decelerates along its own profile, and none jumps when
+/// profile time continues:
 ///
-///   rate of the plans' time   1 ‾‾‾\          /‾‾‾
+///   rate of profile time      1 ‾‾‾\          /‾‾‾
 ///                             0     \________/          stop()      go_on()
 class CardProcessor final : public sim::Device, private grating_bus::FrameListener {
   public:
     CardProcessor(sim::Kernel& kernel, const std::string& name, grating_bus::Card& card);
 
-    /// Before the kernel starts. `count`: of the scale, now. The loop is closed from the first frame on.
+    /// Call before the kernel starts. `count`: present count of the scale. The loop is closed from the first frame.
     void add(int output, const StageSetup& plan, const grating_bus::ServoSettings& settings, Duration compute,
              std::int64_t count);
     grating_bus::ServoLoop& loop(int output) { return state_.loops[static_cast<std::size_t>(output)]; }
@@ -61,11 +60,11 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     const StageSetup& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
 
     // ---- between runs
-    /// Brings its stages to rest; `power_off`: their loops are opened then, 0 V.
+    /// Stops its stages; `power_off`: opens their loops afterwards, 0 V.
     void stop(bool power_off);
-    /// Loops that stop() has opened are closed again, at `count` of the output's scale; all go on from there.
+    /// Resumes all stages. Closes loops opened by stop() again, at `count` of the output's scale.
     void go_on(const std::array<std::int64_t, grating_bus::output_count>& count);
-    /// All stand, or are at least not driven.
+    /// Returns true if all stages are at standstill or not driven.
     bool stopped() const { return state_.rate == 0; }
 
     void on_scheduled(Instant now) override;
@@ -76,15 +75,15 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
         std::array<grating_bus::ServoLoop, grating_bus::output_count> loops;
         std::array<Instant, grating_bus::output_count> put_out{never, never, never, never};
         Instant stale_at{};
-        double rate = 1;      ///< of the plans' time, 0 .. 1
-        double behind_s = 0;  ///< the plans' time, of the frames'
+        double rate = 1;      ///< rate of profile time, 0 .. 1
+        double behind_s = 0;  ///< delay of profile time behind frame time
         std::int32_t stopping = 0, power_off = 0;
-        std::int64_t sequence = -1;  ///< of the last frame
+        std::int64_t sequence = -1;  ///< sequence of the last frame
     };
 
     double advance(const grating_bus::Frame& frame, double period);
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
-    /// Output `n` has no longer a closed loop.
+    /// Reports that output `n` no longer has a closed loop.
     void report_open(std::size_t n);
     void schedule();
 
@@ -94,7 +93,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     std::array<StageSetup, grating_bus::output_count> plans_{};
     std::array<Duration, grating_bus::output_count> compute_{};
     std::array<bool, grating_bus::output_count> used_{};
-    double braking_s_ = 0;  ///< of its slowest stage
+    double braking_s_ = 0;  ///< of the slowest stage
     State state_{};
 };
 
@@ -103,13 +102,13 @@ struct RunningStage {
     RackStage config;
     std::unique_ptr<parts::LinearStage> motor;
     std::unique_ptr<parts::LinearScale> scale;
-    CardProcessor* processor = nullptr;  ///< nullptr: nobody closes its loop
+    CardProcessor* processor = nullptr;  ///< nullptr: no closed loop
 
-    /// nullptr if nobody closes it.
+    /// Returns nullptr if the loop is not closed by a processor.
     grating_bus::ServoLoop* loop() const {
         return processor ? &processor->loop(static_cast<int>(config.output)) : nullptr;
     }
-    /// Where it is to be; nothing sensible without a loop.
+    /// Returns the set point; meaningless without a loop.
     grating_bus::Setpoint wanted(double seconds) const {
         return processor->plan(static_cast<int>(config.output)).at(seconds);
     }
@@ -117,11 +116,11 @@ struct RunningStage {
 
 parts::LinearStageSettings motor_settings(const RackStage& stage);
 parts::LinearScaleSettings scale_settings(const RackStage& stage);
-/// Of a card whose first scale is `first`.
+/// Settings of the loop of a card whose first scale is `first`.
 grating_bus::ServoSettings loop_settings(const RackStage& stage);
-/// "stage step_x: at 0.1 s its loop was opened ..." `stage`: the one at the output.
+/// Returns "stage step_x: at 0.1 s its loop was opened ...". `stage`: the stage at the output.
 std::string describe_loop(const sim::Condition& condition, const RackStage& stage);
-/// What of a stage's profile cannot be; empty if it can.
+/// Returns the infeasible part of a stage's profile; empty if feasible.
 std::string profile_flaw(const RackStage& stage);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// What sets the latch, what it leaves to the cards, and the sentences.
+// Sets the latch, leaves axes to their cards, and writes the sentences.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace motionrack::rack {
 
 namespace {
 
-/// A switch that has been left bounces for some milliseconds; that is no new trip.
+/// Bounce time of a switch that has been left; it causes no new trip.
 constexpr Duration bounces_for = milliseconds(20);
-/// So long a card has for what is left to it: a ramp from full speed.
+/// Time allowed for a card to stop by itself: a ramp from full velocity.
 constexpr Duration card_has = whole_seconds(2);
-/// And so long whoever drives has to see that the axes stand.
+/// Time allowed for the driver to detect standstill.
 constexpr Duration seen_within = milliseconds(300);
-/// A servo that holds its place trembles; slower than this part of its speed it stands.
+/// A servo in position hold oscillates; below this fraction of its velocity it is at standstill.
 constexpr double trembles = 0.01;
 
 struct SourceWords {
@@ -131,28 +131,29 @@ Instant& StopLatch::left_at(const Input& input) {
     return state_.left[2 * static_cast<std::size_t>(input.axis) + (input.direction > 0 ? 1 : 0)];
 }
 
-/// Of an input that has become active.
+/// Called when an input has become active.
 bool StopLatch::trips(const Input& input, Instant now) {
     if (input.source != StopSource::limit_switch) return true;
     if (const Instant left = left_at(input); left != Instant{} && now - left < bounces_for) return false;
     return state_.heeds_limits != 0 || is_behind(input, now);
 }
 
-/// A limit switch that becomes active while its axis moves away from it is wired wrongly or broken, also in a search
-/// for home: the axis may be about to run into its other end. One that is active already leaves the way back free.
+/// Returns true for a limit switch that becomes active while its axis moves away from it. The switch is wired wrongly
+/// or broken, and the axis may be about to reach its other end; this also applies to homing. A switch that is already
+/// active leaves the way back free.
 bool StopLatch::is_behind(const Input& input, Instant now) const {
     if (input.source != StopSource::limit_switch) return false;
     const RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.axis)];
     return moves(axis, now) && axis.speed(now) * input.direction < 0;
 }
 
-/// Its card stops what moves at this input.
+/// Returns true if the card itself stops the motion at this input.
 bool StopLatch::left_to_card(const Input& input, Instant now) const {
     const std::vector<RunningAxis>& axes = rack_.axes();
     switch (input.source) {
         case StopSource::limit_switch:
             return moves(axes[static_cast<std::size_t>(input.axis)], now) && !is_behind(input, now);
-        case StopSource::emergency_stop:  // look() sees which cards have heard of it
+        case StopSource::emergency_stop:  // look() finds the cards that have received it
             return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return moves(axis, now); });
         case StopSource::watchdog:
             return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) { return moves(axis, now); }) &&
@@ -166,7 +167,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     return false;
 }
 
-/// At what has set the latch.
+/// Evaluated for the input that set the latch.
 bool StopLatch::is_stopped_by_card(char letter) const {
     if (state_.input < 0) return false;
     const Input& input = inputs_[static_cast<std::size_t>(state_.input)];
@@ -217,8 +218,8 @@ void StopLatch::stays_behind(std::size_t axis, Instant now) {
             trip(StopSource::following_error, static_cast<int>(i), now);
 }
 
-/// Steps are lost where a motor is to stop without a ramp and was faster than it can, where its drive gave up while it
-/// moved, or where it stays behind. Cards that position by an encoder know for themselves.
+/// Marks axes with possible step loss: a motor that must stop without a ramp above its start-stop rate, whose drive
+/// failed in motion, or with a following error. Cards that position by an encoder know their own state.
 void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
     const std::vector<RunningAxis>& axes = rack_.axes();
     for (std::size_t a = 0; a < axes.size(); ++a) {
@@ -245,9 +246,9 @@ bool StopLatch::is_on_card(const RunningAxis& axis, const Input& input) const {
     return input.card >= 0 && rack_.cards()[static_cast<std::size_t>(input.card)]->motion() == axis.card;
 }
 
-// ---- carrying out
+// ---- executing
 
-/// A card says it by a condition, which no device hears.
+/// A card reports a watchdog by a condition, which no device receives.
 void StopLatch::look_at_watchdogs() {
     const std::vector<sim::Condition> conditions = kernel_.conditions();
     const std::uint64_t dropped = kernel_.dropped_conditions();
@@ -290,7 +291,7 @@ void StopLatch::settle() {
     ramps_.settle();
 }
 
-// ---- releasing
+// ---- resetting
 
 Result<void> StopLatch::reset() {
     if (contacts_.differs())

@@ -1,16 +1,16 @@
-// The one stop latch of a rack: whatever must stop the machine sets it, in every state, and only a reset releases it.
+// The stop latch of a rack: every cause of a stop sets it, in every state, and only a reset releases it.
 //
-//   emergency stop, drive alarms, limit switches, watchdogs,       STOP order
+//   emergency stop, drive alarms, limit switches, watchdogs,       STOP command
 //   following errors                                                    │ between runs
 //        │ edge, in the kernel, at its tick                             │
 //        └──────────────────────────────► trip ◄────────────────────────┘
-//                                          ├──► halted(): hosts wait for nothing more, no motion begins
+//                                          ├──► halted(): hosts stop waiting, no motion starts
 //                                          └──► break_run ──► look(): the reactions, see stop_reactions.hpp
 //
-//   released ── trip ──► latched ── reset(), no cause is there any more ──► released       (a reset moves nothing)
+//   released ── trip ──► latched ── reset(), no cause left ──► released       (a reset moves nothing)
 //
-// An axis that its card stops by itself at such an input (a limit switch in its way, the emergency stop) is left to the
-// card while it does: then halted() comes when whoever drives has seen it stand, and calls settle().
+// If a card itself stops an axis at such an input (a limit switch in its direction, the emergency stop), the axis is
+// left to the card meanwhile. halted() then follows when the driver has seen standstill and calls settle().
 #pragma once
 
 #include <array>
@@ -33,61 +33,63 @@ struct RunningAxis;
 
 class StopLatch final : public sim::Device {
   public:
-    /// Of a rack that has all its wires, before it starts.
+    /// Call when the rack has all its wires, before it starts.
     explicit StopLatch(Rack& rack);
 
-    /// Between runs: somebody drives the machine from now on. An emergency stop or alarm that is there already sets it.
+    /// Arms the latch when a driver takes over the machine. An active emergency stop or alarm sets it immediately. Call
+    /// between runs.
     void arm();
-    /// Nobody does: edges are not heard, and it is released.
+    /// Disarms the latch: ignores edges and releases it. Call when the machine has no driver.
     void disarm();
     bool armed() const { return state_.armed != 0; }
-    /// A search for home goes to limit switches on purpose.
+    /// Sets whether limit switches are heeded; homing moves to limit switches on purpose.
     void heed_limits(bool on) { state_.heeds_limits = on; }
 
-    /// Between runs: the STOP order.
+    /// Sets the latch for a STOP command. Call between runs.
     void order();
-    /// An axis, a number in Rack::axes(), stays behind what drives it by more than its limit: in the kernel, at its
-    /// tick. Where a stop is in force already its position is lost all the same.
+    /// Sets the latch for an axis (index in Rack::axes()) above its following-error limit; called in the kernel, at
+    /// that tick. Its position becomes invalid even if a stop is already in force.
     void stays_behind(std::size_t axis, Instant now);
-    /// What sees that.
+    /// Following-error supervision.
     FollowingWatch& following() { return following_; }
-    /// The contacts for people.
+    /// Operator safety contacts.
     SafetyContacts& contacts() { return contacts_; }
-    /// Whoever drives holds the feed while the door is open; else an open door is a stop order.
+    /// true: the driver holds the feed while the door is open; false: an open door is a stop command.
     void heed_door(bool on) { state_.heeds_door = on; }
-    /// Between runs, in every slice of whoever drives: carries the reactions out.
+    /// Executes the reactions. Call between runs, in every slice of the driver.
     void look();
-    /// Between runs: whoever drives has seen all axes stand.
+    /// Call between runs when the driver has seen all axes at standstill.
     void settle();
-    /// Between runs: releases it. Refused while the emergency stop or an alarm is there; nothing is changed then.
+    /// Releases the latch. Call between runs. Refused, without any change, while the emergency stop or an alarm is
+    /// active.
     Result<void> reset();
 
     bool latched() const { return state_.latched != 0; }
-    /// That stop requests come from it: see VirtualHost::set_halted_flag.
+    /// Flag that makes the latch a source of stop requests: see VirtualHost::set_halted_flag.
     const std::atomic<bool>& halted() const { return halted_; }
-    /// Somebody asked for the stop, and nothing else did.
+    /// Returns true if a stop command was the only cause.
     bool is_ordered() const { return cause() == StopSource::stop_order && state_.by_door == 0; }
-    /// What set it first, and when; while it is latched.
+    /// First cause, and its instant; valid while latched.
     StopSource cause() const { return static_cast<StopSource>(state_.cause); }
     Instant at() const { return state_.at; }
-    /// Whether whoever drives this axis is to brake it: it is latched, and the card does not stop it by itself.
+    /// Returns true if the driver of this axis must decelerate it: the latch is set, and the card does not stop the
+    /// axis by itself.
     bool is_to_brake(char letter) const { return latched() && !is_stopped_by_card(letter); }
-    /// How often something has asked for a stop since the rack was made: a reset releases what was there when it was
-    /// ordered.
+    /// Number of stop requests since the rack was created. A reset releases only the stops requested before it was
+    /// commanded.
     std::uint64_t trips() const { return state_.trips; }
-    /// Whether this source has set it, first or later.
+    /// Returns true if this source has set the latch, first or later.
     bool tripped_by(StopSource source) const { return (state_.tripped & bit(source)) != 0; }
-    /// False where steps may have been lost (the motor was faster than it can stop without a ramp and was to, or its
-    /// pulses ended without one, or its drive failed while it moved), where the axis did not follow, or where its card
-    /// was reset. Of pulses that end it is known once all axes were seen to stand. `axis`: 0 .. 5.
+    /// Returns false if step loss is possible, if the axis did not follow, or if its card was reset. Step loss is
+    /// possible after a stop without a ramp at a velocity above the start-stop rate, or if the drive failed in motion.
+    /// For pulses that end, the result is final when all axes have been seen at standstill. `axis`: 0 .. 5.
     bool keeps_position(int axis) const { return (state_.lost & 1u << axis) == 0 && !ramps_.has_jumped(axis); }
 
-    /// "The emergency stop was pressed at 1.200 s."
+    /// Returns "The emergency stop was pressed at 1.200 s."
     std::string sentence() const;
-    /// "The position of X is not trusted any more: steps may have been lost; home again.", by each reason that there
-    /// is, or that they are kept.
+    /// Returns a sentence on the invalid positions for each reason, or that the positions are kept.
     std::string position_sentence() const;
-    /// "Release it, then reset."
+    /// Returns "Release it, then reset."
     std::string_view advice() const;
 
     void on_scheduled(Instant) override {}
@@ -95,26 +97,26 @@ class StopLatch final : public sim::Device {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    /// A wire that is watched, the watchdog of a card, or an axis that may stay behind.
+    /// A monitored wire, the watchdog of a card, or an axis with following-error supervision.
     struct Input {
-        sim::WireId wire = sim::WireId::none;  ///< none: a watchdog, or an axis
+        sim::WireId wire = sim::WireId::none;  ///< none: a watchdog or an axis
         StopSource source{};
-        int active = 0;  ///< the level; of a watchdog the code of its condition
+        int active = 0;  ///< active level; for a watchdog its condition code
         int direction = 0;
-        int card = -1;  ///< number in the rack; -1: the rack's own button
-        int axis = -1;  ///< number in Rack::axes(); -1: of no axis
+        int card = -1;  ///< index in the rack; -1: the rack's own button
+        int axis = -1;  ///< index in Rack::axes(); -1: no axis
     };
     struct State {
         Instant at{};
-        std::uint64_t heard = 0;  ///< conditions of the kernel that were looked at
+        std::uint64_t heard = 0;  ///< kernel conditions already evaluated
         std::uint64_t trips = 0;
-        std::array<Instant, 2 * control::axis_count> left{};  ///< when an axis' - and + limit switch was left last
+        std::array<Instant, 2 * control::axis_count> left{};  ///< when each - and + limit switch was last left
         std::int32_t armed = 0, heeds_limits = 1, latched = 0, cause = 0;
-        std::int32_t input = -1;  ///< that set it; -1: an order
-        std::int32_t behind = 0;  ///< a limit switch behind an axis that moved: its direction
+        std::int32_t input = -1;  ///< input that set the latch; -1: a command
+        std::int32_t behind = 0;  ///< direction of a limit switch opposite to the motion of its axis
         std::int32_t heeds_door = 1, by_door = 0;
         std::uint32_t tripped = 0, pending = 0;  ///< bits: sources
-        std::uint32_t lost = 0, unfollowed = 0;  ///< bits: axes; of these, those with a following error
+        std::uint32_t lost = 0, unfollowed = 0;  ///< bits: axes; `unfollowed`: those with a following error
     };
     static constexpr std::uint32_t bit(StopSource source) { return 1u << static_cast<unsigned>(source); }
 

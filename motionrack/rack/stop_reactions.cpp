@@ -1,4 +1,4 @@
-// The table of reactions, and what the latch does itself.
+// The table of reactions, and those of the latch itself.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,12 +27,12 @@ using enum StopCategory;
 constexpr std::uint32_t every = to({emergency_stop, stop_order, drive_alarm, limit_switch, watchdog, following_error});
 constexpr std::uint32_t but_the_button = to({stop_order, drive_alarm, limit_switch, watchdog, following_error});
 
-/// A slice of whoever drives; an edge ends a slice at once.
+/// One slice of the driver; an edge ends a slice immediately.
 constexpr Duration a_slice = milliseconds(50);
 
-// ---- what the latch does
+// ---- reactions of the latch
 
-/// Lists end, starts are no longer taken, the laser's gate closes at this tick.
+/// Ends lists, blocks starts, and closes the laser's gate at this tick.
 void laser_off(Rack& rack, const StopReaction&) {
     for (const auto& card : rack.cards())
         if (rtc5::Card* laser = rtc5_card_of(rack, card->name()); laser != nullptr) {
@@ -50,7 +50,7 @@ void stop_stages(Rack& rack, const StopReaction& reaction) {
         if (stage.processor != nullptr) stage.processor->stop(reaction.category == category_1);
 }
 
-/// The outputs that no loop drives.
+/// Clears the outputs without a control loop.
 void clear_analog_outputs(Rack& rack, const StopReaction&) {
     for (const auto& card : rack.cards()) {
         grating_bus::Card* found = grating_card_of(rack, card->name());
@@ -133,7 +133,7 @@ std::span<const StopState> stop_states() {
     return states;
 }
 
-// ---- starting anew
+// ---- restarting
 
 Result<void> start_part(Rack& rack, std::string_view name) {
     if (const StopLatch& latch = rack.stop_latch(); latch.latched())

@@ -1,4 +1,4 @@
-// The page of what a stop does, written from the tables that the latch runs by.
+// The page on stop reactions, written from the tables of the latch.
 #include <fmt/format.h>
 
 #include <motionrack/rack/stop_reactions.hpp>

@@ -1,4 +1,4 @@
-// What can set the stop latch of a rack.
+// Sources that can set the stop latch of a rack.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@ namespace motionrack::rack {
 
 enum class StopSource : std::uint8_t {
     emergency_stop,  ///< the rack's button, or a card's input for it
-    stop_order,      ///< somebody asked
-    drive_alarm,     ///< of an axis' drive, at its card's input
-    limit_switch,    ///< of an axis that moves towards it, or stands
-    watchdog,        ///< a card was reset because its program hung
-    following_error  ///< an axis stays behind by more than its limit: see following.hpp
+    stop_order,      ///< a command from a client or the operator
+    drive_alarm,     ///< alarm of an axis' drive, at its card's input
+    limit_switch,    ///< limit switch of an axis at standstill or moving towards it
+    watchdog,        ///< reset of a card whose program hung
+    following_error  ///< following error above the limit: see following.hpp
 };
 
 inline constexpr std::array<StopSource, 6> stop_sources = {StopSource::emergency_stop, StopSource::stop_order,

@@ -1,4 +1,4 @@
-// Reading them when they are called.
+// Reads subprograms when they are called.
 #include <fmt/format.h>
 
 #include <motionrack/base/read_whole_file.hpp>

@@ -1,4 +1,4 @@
-// `motionrack new`: a machine as a RackConfig, written out key by key with what the table of keys says about each.
+// `motionrack new`: writes a machine as a RackConfig key by key, with the description of each key from the table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ RackConfig router() {
     RackAxis& z = out.axes[2];
     z.max_velocity = 50;
     z.max_accel = 500;
-    z.start_position = 80;  // the tool stands above the work
+    z.start_position = 80;  // the tool is above the work piece
     RackAxis& a = out.axes[3];
     a.card = "motion";
     a.channel = "u";
@@ -91,7 +91,7 @@ class Writer {
         text_ += fmt::format("\n[{}]  # {}\n", header, doc);
     }
 
-    /// Leaves out what is of other units, and `without`.
+    /// Leaves out keys of other units, and `without`.
     void fields(std::span<const Field> fields, const void* object, const void* defaults, std::string_view unit,
                 std::initializer_list<std::string_view> without = {}) {
         for (const Field& field : fields) {
@@ -135,7 +135,7 @@ void write_axis(Writer& out, const RackAxis& axis) {
     out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
 }
 
-/// The rack and its one card.
+/// Writes the rack and its card.
 void write_head(Writer& out, const RackConfig& config, const std::string& card_name, std::string_view card_type) {
     RackCard card;
     card.type = card_type;
@@ -154,7 +154,7 @@ void write_head(Writer& out, const RackConfig& config, const std::string& card_n
     out.fields(type.settings, type.settings_of(card), type.settings_of(scratch), "");
 }
 
-/// `type`: of its one card, which is called motion.
+/// `type`: type of its only card, called motion.
 std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     const CardType& type = *find_card_type(card_type);
     Writer out;

@@ -1,4 +1,4 @@
-// Rack files to start from, written from the same table of keys that the reader uses.
+// Template rack files, written from the reader's table of keys.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -8,7 +8,7 @@
 
 namespace motionrack::rack {
 
-/// One kind of machine that `motionrack new` can write a rack file for.
+/// A kind of machine for which `motionrack new` can write a rack file.
 struct TemplateVariant {
     std::string_view name;
     std::string_view doc;
@@ -17,8 +17,8 @@ struct TemplateVariant {
 /// "router", "stage", "single" ..; the first is the default.
 std::span<const TemplateVariant> template_variants();
 
-/// A complete rack file: every key with its unit, range and default as a comment. It reads without errors or warnings.
-/// Errors: invalid_input if there is no such variant.
+/// Returns a complete rack file: every key with its unit, range and default as a comment. Reads without errors or
+/// warnings. Errors: invalid_input for an unknown variant.
 Result<std::string> rack_template(std::string_view variant);
 
 }  // namespace motionrack::rack

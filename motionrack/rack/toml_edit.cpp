@@ -33,7 +33,7 @@ std::string key_text(std::string_view key) {
     return is_bare(key) ? std::string(key) : toml_quoted(key);
 }
 
-/// Whole numbers are written without a point, which every field for numbers takes.
+/// Writes whole numbers without a point, which every number field accepts.
 std::string value_text(const TomlNode& node) {
     std::string out;
     switch (node.type) {
@@ -46,7 +46,7 @@ std::string value_text(const TomlNode& node) {
         case TomlType::flag:
             return node.flag ? "true" : "false";
         case TomlType::date:
-            return "1970-01-01";  // no reader of ours takes one
+            return "1970-01-01";  // no reader in this library accepts a date
         case TomlType::array:
             for (const TomlNode& child : node.children) out += (out.empty() ? "" : ", ") + value_text(child);
             return fmt::format("[{}]", out);

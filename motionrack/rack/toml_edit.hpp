@@ -1,5 +1,5 @@
-// Changing the tree of a TOML text and writing it again: one line a value, so that an error's line tells which value it
-// is about.
+// Edits the tree of a TOML text and writes it back with one value per line, so that an error's line identifies the
+// value.
 //
 //   [axis.X]              axis.X.card = "motion"
 //   card = "motion"  ──►  axis.X.max_limit_mm = 300
@@ -14,24 +14,24 @@
 
 namespace motionrack::rack {
 
-/// The keys of a dotted name; those with dots stand in double quotes: axis.X.max_limit_mm, wires."motion.xin1". Empty:
-/// it is no such name.
+/// Splits a dotted name into keys; keys with dots stand in double quotes: axis.X.max_limit_mm, wires."motion.xin1".
+/// Returns an empty list for an invalid name.
 std::vector<std::string> toml_path(std::string_view text);
-/// The dotted name of these keys, with quotes where TOML needs them.
+/// Joins keys into a dotted name, with quotes where TOML needs them.
 std::string toml_name(std::span<const std::string> path);
 
-/// Puts `value` at `path`, over what is there, with the tables that it needs on the way. False: something on the way is
-/// no table, or a table is there; nothing was changed.
+/// Sets or replaces `value` at `path` and creates missing tables. Returns false, without any change, if a parent is not
+/// a table or `path` is a table.
 bool put_value(TomlNode& root, std::span<const std::string> path, const TomlNode& value);
 
-/// A value of the tree with its name; an empty table is one, too.
+/// A value of the tree with its name; an empty table also counts as a value.
 struct TomlLine {
-    std::string name;  ///< as toml_name writes it
+    std::string name;  ///< as written by toml_name
     std::string value;
 };
-/// All values, in the order of the tree.
+/// Returns all values, in the order of the tree.
 std::vector<TomlLine> toml_lines(const TomlNode& root);
-/// The lines as a text that parse_toml reads to the same tree, places apart.
+/// Writes the lines as a text that parse_toml reads into the same tree, except for locations.
 std::string toml_of(std::span<const TomlLine> lines);
 
 }  // namespace motionrack::rack

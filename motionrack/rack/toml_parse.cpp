@@ -1,11 +1,11 @@
-// From TOML text to the tree of nodes: toml++ does the syntax; a scanner before it keeps from it what version 3.3
-// cannot stand:
+// Parses TOML text into the tree of nodes. toml++ handles the syntax; a scanner before it rejects inputs that version
+// 3.3 cannot handle:
 //   - very long dotted keys, which nest tables until their destruction overruns the stack;
-//   - a header without a key ("[{"), where it asserts, or tells the optimiser, that there is one;
+//   - a header without a key ("[{"), where it asserts, or assumes for the optimiser, that a key exists;
 //   - brackets that do not match ("[}"), another assumption of the same kind;
 //   - quotes within a number or word ("1\"a"), which end it for the scanner but not for the parser;
 //   - a date and half a time after a blank ("1979-05-27 7"), one more such assumption;
-//   - characters beyond ASCII where it asks whether they are blanks (its table of blanks runs into "unreachable").
+//   - characters beyond ASCII where it tests for blanks (its table of blanks runs into "unreachable").
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
@@ -16,14 +16,14 @@
 namespace motionrack::rack {
 namespace {
 
-/// Reads strings, comments, brackets and dots of a TOML text as its grammar does, and nothing else.
+/// Reads only strings, comments, brackets and dots of a TOML text, by the grammar.
 class Scanner {
   public:
     explicit Scanner(std::string_view text) : text_(text) {
         if (text_.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;  // a byte order mark
     }
 
-    /// What the parser must not see, or nothing.
+    /// Returns an error for an input that the parser must not receive, or nothing.
     std::optional<Error> find() {
         while (at_ < text_.size()) {
             const char c = text_[at_];
@@ -86,11 +86,11 @@ class Scanner {
         return {ErrorKind::invalid_input, std::move(what), {}, {line_, column}};
     }
 
-    /// At a quote: does a text or a quoted key begin here?
+    /// Returns true if a quote at this position begins a text or a quoted key.
     bool text_may_begin() const { return !after_word() || (text_[at_ - 1] == '.' && !value_); }
 
-    /// After a header's '[' or '[[' and blanks: does a key (or the closing bracket, which the parser refuses itself)
-    /// come?
+    /// Returns true if a key follows a header's '[' or '[[' and blanks. A closing bracket also counts; the parser
+    /// itself rejects it.
     bool key_follows() const {
         const auto past_blanks = [&](std::size_t from) {
             return std::min(text_.find_first_not_of(" \t", from), text_.size());
@@ -121,7 +121,7 @@ class Scanner {
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == '\n') {
-                if (!many_lines) return {};  // a syntax error; the parser tells it
+                if (!many_lines) return {};  // a syntax error, which the parser reports
                 next_line();
             }
             if (c == '\\' && quote == '"') {
@@ -139,7 +139,7 @@ class Scanner {
         return {};
     }
 
-    /// A backslash and what it escapes: one character, or blanks and line ends up to the text's next character.
+    /// Skips a backslash and its escape: one character, or blanks and line ends up to the text's next character.
     std::optional<Error> skip_escape(bool many_lines) {
         const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
         ++at_;
@@ -162,7 +162,7 @@ class Scanner {
     int line_ = 1;
     int dots_ = 0;
     bool value_ = false;  ///< after '=', up to the end of the line or of the entry
-    std::string open_;    ///< the brackets that are open, outermost first
+    std::string open_;    ///< open brackets, outermost first
 };
 
 Place to_place(const toml::source_position& position) {
@@ -217,8 +217,8 @@ void convert(const toml::node& from, TomlNode& to) {
     }
 }
 
-/// toml++ reads numbers through a stream, which takes a lack of memory for a number that is none: what it refuses is
-/// read once more.
+/// toml++ reads numbers through a stream, which reports a lack of memory as an invalid number. A rejected text is
+/// therefore parsed once more.
 toml::table parse_twice(std::string_view text) {
     try {
         return toml::parse(text);

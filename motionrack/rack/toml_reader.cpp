@@ -1,4 +1,4 @@
-// Typed reading of one table: types, ranges and unknown keys, with a sentence for each thing that is wrong.
+// Typed reading of one table: types, ranges and unknown keys, with a sentence for each error.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ std::string in_quotes(std::string_view text) {
 
 namespace {
 
-/// Edits (insert, delete, replace, swap neighbours) that make b of a.
+/// Number of edits (insert, delete, replace, swap neighbours) between a and b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) above[j] = j;
@@ -92,7 +92,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// Small numbers without an exponent, as people write them, where the digits are the same.
+/// Formats small numbers without an exponent if the digits stay the same.
 std::string small_number_text(double value) {
     const std::string shortest = fmt::format("{}", value);
     for (int digits = 5; digits <= 12 && std::fabs(value) < 1e-4; ++digits) {
@@ -113,7 +113,7 @@ std::string did_you_mean(std::string_view text, std::span<const std::string_view
     std::string_view nearest;
     for (const std::string_view candidate : candidates) {
         const std::size_t distance = edit_distance(small, lower(candidate));
-        // A name of which every letter would have to change is not near.
+        // A name in which every letter would change is not close.
         if (distance < best && distance < candidate.size()) {
             best = distance;
             nearest = candidate;
@@ -186,13 +186,13 @@ std::string default_text(const Field& field, const void* defaults) {
 
 namespace {
 
-/// Reads one value; every mistake is one error at its place.
+/// Reads one value; every mistake is one error at its location.
 class FieldReader {
   public:
     FieldReader(const Field& field, const TomlNode& node, const Section& section, Problems& problems)
         : field_(field), node_(node), section_(section), problems_(problems) {}
 
-    /// False if the value was refused.
+    /// Returns false if the value was rejected.
     bool read_into(void* object) {
         const FieldValue value = read();
         if (std::holds_alternative<std::monostate>(value)) return false;
@@ -280,7 +280,7 @@ class FieldReader {
     Problems& problems_;
 };
 
-/// The sentence for a key that `section` does not have.
+/// Returns the error sentence for an unknown key of `section`.
 std::string unknown_key(const std::string& key, std::span<const Field> fields, const Section& section,
                         std::span<const std::string_view> known) {
     for (const Field& field : fields) {

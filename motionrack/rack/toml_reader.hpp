@@ -1,5 +1,5 @@
-// Reading TOML with types, units, ranges and places: a text becomes a small tree, and one table of fields says for each
-// key what it is; reading, range checks, templates and reference pages all come from that one table.
+// TOML reader with types, units, ranges and locations. A text becomes a small tree. A single table of fields describes
+// each key for reading, range checks, templates and reference pages.
 #pragma once
 
 #include <cstddef>
@@ -22,27 +22,27 @@ enum class TomlType : std::uint8_t { table, text, integer, number, flag, array, 
 /// A key with its value; tables keep their entries in the order of the file.
 struct TomlNode {
     std::string key;
-    Place key_place;    ///< where the key (or the table's header) stands
-    Place value_place;  ///< where the value begins
+    Place key_place;    ///< location of the key or of the table's header
+    Place value_place;  ///< location of the value's first character
     TomlType type = TomlType::table;
     std::string text;
     std::int64_t integer = 0;
-    double number = 0;  ///< may be NaN or infinite here; fields refuse them
+    double number = 0;  ///< NaN and infinity are possible here; fields reject them
     bool flag = false;
-    std::vector<TomlNode> children;  ///< of a table its entries, of an array its values (without keys)
+    std::vector<TomlNode> children;  ///< entries of a table, or values of an array (without keys)
 
-    /// The entry of that name, or nullptr.
+    /// Returns the entry of that name, or nullptr.
     const TomlNode* find(std::string_view name) const;
-    /// Where that entry's value stands; where this node stands if there is no such entry.
+    /// Location of that entry's value; location of this node if the entry is missing.
     Place place_of(std::string_view name) const;
 };
 
-/// The largest rack file and the deepest nesting that are read.
+/// Limits of file size and nesting.
 inline constexpr std::size_t max_toml_bytes = 1'000'000;
 inline constexpr int max_toml_depth = 16;
 
-/// Reads TOML 1.0. Errors: more than `max_toml_bytes`, nesting deeper than `max_toml_depth`, syntax (with its place).
-/// Never throws and never overruns the stack, whatever the text is. `file` is used in errors only.
+/// Reads TOML 1.0. Never throws and never overruns the stack, for any text. `file` is used in errors only. Errors: more
+/// than `max_toml_bytes`, nesting deeper than `max_toml_depth`, syntax (with its location).
 Result<TomlNode> parse_toml(std::string_view text, std::string_view file);
 
 /// "text", "whole number", "table" ...: the type's name in a sentence.
@@ -50,16 +50,16 @@ std::string_view type_name(TomlType type);
 
 // ---- Problems
 
-/// Collects everything that is wrong with one file, so that the user sees all of it at once.
+/// Collects all errors of one file, so that the user sees them together.
 class Problems {
   public:
     explicit Problems(std::string file) : file_(std::move(file)) {}
     void error(Place place, std::string message) { add(errors_, place, std::move(message)); }
     void warn(Place place, std::string message) { add(warnings_, place, std::move(message)); }
     bool any_errors() const { return !errors_.empty(); }
-    /// False once the list is longer than what is shown: then nobody needs hints, which cost time.
+    /// Returns false once the list exceeds the displayed length; hints, which cost time, are unnecessary then.
     bool wants_hints() const { return errors_.size() < max_listed; }
-    /// Sorted by place; at most `max_listed`, then one sentence that tells how many more there were.
+    /// Returns the errors sorted by location: at most `max_listed`, then one sentence with the number of further ones.
     std::vector<Error> take_errors() { return take(errors_); }
     std::vector<Error> take_warnings() { return take(warnings_); }
 
@@ -73,39 +73,39 @@ class Problems {
     std::vector<Error> warnings_;
 };
 
-/// Text from outside as it may stand in a message: without control characters, cut after `longest` bytes.
+/// Formats an external text for a message: without control characters, cut after `longest` bytes.
 std::string printable(std::string_view text, std::size_t longest);
-/// The user's own text in a message: printable and in quotes, cut after 60 bytes.
+/// Quotes the user's text for a message: printable, cut after 60 bytes.
 std::string in_quotes(std::string_view text);
 
-/// "; did you mean 'max_limit_mm'?" if a candidate is near enough to `text` (edit distance), else an empty string.
+/// Returns "; did you mean 'max_limit_mm'?" if a candidate is close to `text` (edit distance), else an empty string.
 std::string did_you_mean(std::string_view text, std::span<const std::string_view> candidates);
 
-/// A number as the user would write it: the shortest text that reads back to the same double.
+/// Formats a number as the shortest text that reads back to the same double.
 std::string number_text(double value);
 
 // ---- Fields
 
-/// A field's value; monostate is "not there" (optional fields only). Choices are their names.
+/// Value of a field; monostate: absent (optional fields only). Choices are stored by name.
 using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 
 enum class FieldType : std::uint8_t { flag, integer, number, text, choice };
 
-/// One key: everything that the reader, the template and the reference page know about it. In `key` and `unit`, "{u}"
-/// stands for the section's own unit (mm for a linear axis, deg for a rotary one).
+/// Description of one key for the reader, the template and the reference page. In `key` and `unit`, "{u}" stands for
+/// the section's own unit (mm for a linear axis, deg for a rotary one).
 struct Field {
     std::string_view key;
     FieldType type = FieldType::number;
-    double min = 0;  ///< least value, or least length of a text
-    double max = 0;  ///< greatest value, or greatest length of a text (bytes)
+    double min = 0;  ///< minimum value, or minimum length of a text
+    double max = 0;  ///< maximum value, or maximum length of a text (bytes)
     std::string_view unit;
     std::string_view doc;  ///< one sentence without a full stop
     std::span<const std::string_view> choices = {};
-    std::string_view only = {};         ///< the section unit that the key belongs to ("mm", "deg"); empty: all
-    bool lines = false;                 ///< a text that may have line ends
-    bool required = false;              ///< the key must be there
-    bool optional = false;              ///< may be absent, and that means something; `default_doc` says what
-    std::string_view default_doc = {};  ///< in place of the default, where there is none to show
+    std::string_view only = {};         ///< section unit to which the key is limited ("mm", "deg"); empty: all
+    bool lines = false;                 ///< a text that may contain line ends
+    bool required = false;              ///< the key must be present
+    bool optional = false;              ///< may be absent; `default_doc` describes the effect
+    std::string_view default_doc = {};  ///< replaces the default in pages if it has no value
     std::string_view old_key = {};      ///< name of the key in earlier versions; empty: the same
     FieldValue (*get)(const void* object, const Field& field) = nullptr;
     void (*set)(void* object, const FieldValue& value, const Field& field) = nullptr;
@@ -219,26 +219,26 @@ constexpr Field absent_means(Field f, std::string_view meaning) {
     return f.default_doc = meaning, f;
 }
 
-/// `text` with "{u}" replaced by `unit`.
+/// Returns `text` with "{u}" replaced by `unit`.
 std::string with_unit(std::string_view text, std::string_view unit);
-/// "0.001 .. 1000 mm", "linear or rotary", "true or false": what the field takes.
+/// Returns the permitted values of the field: "0.001 .. 1000 mm", "linear or rotary", "true or false".
 std::string range_text(const Field& field, std::string_view unit);
-/// The default as it would stand in a file, or what takes its place ("required", "none").
+/// Returns the default as written in a file, or its substitute ("required", "none").
 std::string default_text(const Field& field, const void* defaults);
-/// A value as TOML.
+/// Formats a value as TOML.
 std::string toml_text(const FieldValue& value);
 
-/// What read_fields reads: one table of the file.
+/// One table of a file, as input of read_fields.
 struct Section {
     std::string name;                             ///< for messages: "axis X"
     std::string unit;                             ///< for "{u}": "mm", "deg" or empty
-    std::string kind;                             ///< for keys of other units: "a linear axis"
-    std::span<const std::string_view> also = {};  ///< further keys that are allowed (read by others)
+    std::string kind;                             ///< noun in messages about keys of other units: "a linear axis"
+    std::span<const std::string_view> also = {};  ///< further permitted keys (read elsewhere)
 };
 
-/// Reads every field of `table` into `object` (of the type that the fields were declared for). Values that are missing
-/// or wrong leave the member as it is; each wrong, unknown or missing key is one error. Returns the fields (their
-/// `key`) that were refused or missing though required.
+/// Reads every field of `table` into `object` (of the type that the fields were declared for). Missing or wrong values
+/// leave the member unchanged; each wrong, unknown or missing key is one error. Returns the `key` of each field that
+/// was rejected, or missing though required.
 std::vector<std::string_view> read_fields(const TomlNode& table, std::span<const Field> fields, void* object,
                                           const Section& section, Problems& problems);
 

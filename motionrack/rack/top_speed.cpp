@@ -9,9 +9,9 @@ namespace {
 
 constexpr double min_window = 1e-3;
 constexpr std::size_t max_looks = 1 << 10;
-/// Pulses by which a count of some time may be more than the speed makes of it: it is whole, and so are ends of pieces.
+/// Pulses by which a count over some time may exceed the velocity: counts and segment ends are whole.
 constexpr double count_excess = 2;
-/// With so many pulses one more or less does not matter.
+/// With this number of pulses, a single pulse is negligible.
 constexpr double many_pulses = 1000;
 
 }  // namespace

@@ -1,8 +1,8 @@
-// The greatest speed of an axis that lasted. A piece of the path begins and ends at whole pulses, so that one of a few
-// pulses has a rate that the axis never had: such a rate counts less the pulse that it may be wrong by.
+// Sustained peak velocity of an axis. Path segments begin and end at whole pulses, so a segment of a few pulses can
+// show a rate that the axis never had. Such a rate counts less the pulse by which it may be wrong.
 //
-//   rate    ___/~~~~\___|^|___|^|___|~~~~~~~~~~    between jumps: counts in full where it lasts for many pulses
-//   pulses  |  w  |     w     |          w    |    over all: of windows of 1 ms to 1 s the fullest, less two
+//   rate    ___/~~~~\___|^|___|^|___|~~~~~~~~~~    between steps: counts fully if it lasts for many pulses
+//   pulses  |  w  |     w     |          w    |    overall: the fullest of the windows of 1 ms to 1 s, less two
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace motionrack::rack {
 
-/// Allocates only when it is made.
+/// Allocates only in the constructor.
 class TopSpeed {
   public:
-    /// A rate that changes by more than `jump_hz` at once begins another piece. `period`: between two looks.
+    /// A rate change above `jump_hz` starts another segment. `period`: time between two samples.
     TopSpeed(double jump_hz, Duration period);
-    /// The rate was `before` and is `rate` from now on, pulses/s.
+    /// Reports a rate change from `before` to `rate`, pulses/s.
     void changed(double before, double rate, Instant now);
-    /// Every period: the pulses so far, and their rate now.
+    /// Call every period with the pulse count and the present rate.
     void look(std::int64_t count, double rate, Instant now);
-    /// Nothing more comes.
+    /// Ends the last segment.
     void finish();
     double hz() const { return top_; }
 
@@ -30,14 +30,14 @@ class TopSpeed {
 
     double jump_hz_;
     double period_s_;
-    std::size_t min_looks_ = 1;         ///< of a window
-    std::vector<std::int64_t> counts_;  ///< at the last looks
+    std::size_t min_looks_ = 1;         ///< samples per window
+    std::vector<std::int64_t> counts_;  ///< counts of the last samples
     std::size_t looks_ = 0;
     double top_ = 0;
-    // of the piece
+    // state of the present segment
     double rate_ = 0, piece_top_ = 0, pulses_ = 0;
-    bool whole_pulses_ = false;  ///< a jump is at its begin or its end
-    Instant since_{};            ///< when rate_ was
+    bool whole_pulses_ = false;  ///< the segment begins or ends with a velocity step
+    Instant since_{};            ///< instant of the last change of rate_
 };
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// Telling what a rack went through.
+// Writes the event trace hash of a rack.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>

@@ -1,15 +1,15 @@
-// The history of a rack in a line, so that programs in different languages can be compared that use the library.
+// Writes the event trace hash of a rack to a file, to compare programs in different languages that use the library.
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
 
 namespace motionrack::rack {
 
-/// The environment variable that names the file.
+/// Environment variable with the name of the file.
 inline constexpr const char* history_variable = "MOTIONRACK_HISTORY";
 
-/// If it is set, appends "HASH TICKS" to the file: what the wires and the conditions were, and the rack's time in ticks
-/// of 100 ps. Every rack that was started does so when it ends, copies too. A file that cannot be written is left.
+/// If it is set, appends "HASH TICKS" to the file: hash of the wires and conditions, and the rack's time in ticks of
+/// 100 ps. Called at the end of every started rack, including copies. Write errors are ignored.
 void tell_history(const sim::Kernel& kernel) noexcept;
 
 }  // namespace motionrack::rack

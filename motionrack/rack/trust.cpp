@@ -1,4 +1,4 @@
-// What takes the trust from a position.
+// Finds causes of invalid positions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ void TrustWatch::lose(std::size_t axis, Instant at, std::string text, std::vecto
     out.push_back({axis, at, std::move(text), true});
 }
 
-/// What was lost and found again by chance was lost all the same.
+/// Steps that were lost and regained by chance count as lost.
 void TrustWatch::look_at_conditions(std::vector<TrustFinding>& out) {
     const std::vector<sim::Condition> all = rack_.kernel().conditions();
     const std::uint64_t first = rack_.kernel().dropped_conditions();
@@ -88,9 +88,10 @@ void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
          false});
 }
 
-// ---- what there is to compare
+// ---- comparable counts
 
-/// Its own card counts its encoder beside the pulses. Axes that position by themselves do so by these counts.
+/// Returns true if the axis' own card counts its encoder beside the pulses. Axes that position by themselves use these
+/// counts.
 bool TrustWatch::is_counted(std::size_t axis) const {
     const RackConfig& config = rack_.config();
     const RunningAxis& running = rack_.axes()[axis];
@@ -115,7 +116,7 @@ std::int64_t TrustWatch::lost_pulses(std::size_t axis) const {
     return running.turned_by().count(now) - running.machine->rotor().count(now);
 }
 
-/// What the card has counted less what the motor has turned.
+/// Counts of the card minus rotation of the motor.
 std::int64_t TrustWatch::counted_wrongly(std::size_t axis) const {
     if (!watched_[axis].counted) return 0;
     const RunningAxis& running = rack_.axes()[axis];

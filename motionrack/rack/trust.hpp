@@ -1,10 +1,10 @@
-// Whether the positions of a rack's axes still mean places of the machine: one rule for programs that are run and for
-// machines that people operate.
+// Validity of the positions of a rack's axes: one rule for part programs and for operated machines.
 //
-//   a motor lost steps, was pushed or held ──────────────────────► lost, until the axis is homed or declared
-//   an axis that positions by itself does not know where it is ──► lost
-//   a card's encoder counter is off from what the motor turned ──► told; the pulses that drive the axis are right
-//   a following error above its warning limit ───────────────────► told; above its alarm limit the stop latch says it
+//   a motor lost steps, was pushed or blocked ───────────────────► invalid, until the axis is homed or its position set
+//   an axis that positions by itself has lost its position ──────► invalid
+//   a card's encoder counter is off from the motor's rotation ───► reported; the pulses that drive the axis are right
+//   a following error above its warning limit ───────────────────► reported; above its alarm limit by the stop latch
+//   a stage's card opened its loop ──────────────────────────────► reported
 //   a stage's card opened its loop ──────────────────────────────► told
 #pragma once
 
@@ -17,41 +17,41 @@
 
 namespace motionrack::rack {
 
-/// What is wrong with the position of an axis, or with a stage.
+/// A problem with the position of an axis, or with a stage.
 struct TrustFinding {
     static constexpr std::size_t no_axis = ~std::size_t{0};
-    std::size_t axis = 0;  ///< of Rack::axes(); no_axis: a stage, whose loop was opened
+    std::size_t axis = 0;  ///< index in Rack::axes(); no_axis: a stage whose loop was opened
     Instant at{};
     std::string text;            ///< without a full stop
-    bool lost = false;           ///< the position is not to be trusted
+    bool lost = false;           ///< the position is not valid
     bool follows_badly = false;  ///< a following error above its warning limit
 };
 
 class TrustWatch {
   public:
-    /// Of a rack since its start; encoders count right here and now.
+    /// Call at the start of a rack; encoder counts are correct at that instant.
     explicit TrustWatch(Rack& rack);
-    /// What an axis has lost so far.
+    /// Step loss of an axis up to an instant.
     struct Mark {
-        Instant at{};  ///< what came before does not matter
+        Instant at{};  ///< earlier events are ignored
         std::int64_t lost_pulses = 0;
     };
     Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis)}; }
-    /// An axis was where it says at `from`: it was homed, or declared. What it has lost since is found in the next
-    /// look.
+    /// Takes the position of an axis as correct at `from`, after homing or setting it. The next look reports any loss
+    /// since then.
     void begin(std::size_t axis, const Mark& from);
-    /// What was found since the last look, each once until begin(). `standing`: nothing moves, so counters and rotors
-    /// can be compared and axes asked.
+    /// Returns the findings since the last look, each once until begin(). `standing`: nothing moves, so that counters
+    /// and rotors can be compared and axes queried.
     std::vector<TrustFinding> look(bool standing);
-    /// At standstill: false where an axis that positions by itself has lost its position; others are told where they
-    /// are.
+    /// Returns false if an axis that positions by itself has lost its position; sets the position of other axes. Call
+    /// at standstill.
     bool knows_itself(std::size_t axis);
 
   private:
     struct Watched {
         Mark from{Instant{-1}};
-        std::int64_t counted_wrongly = 0;  ///< when it began
-        bool counted = false;              ///< its card counts its encoder beside the pulses
+        std::int64_t counted_wrongly = 0;  ///< count error at the start
+        bool counted = false;              ///< the card counts the encoder separately from the pulses
         bool lost = false, told_counts = false;
     };
     bool is_counted(std::size_t axis) const;
@@ -65,8 +65,8 @@ class TrustWatch {
 
     Rack& rack_;
     std::vector<Watched> watched_;
-    std::uint64_t seen_ = 0;           ///< conditions
-    std::vector<TrustFinding> early_;  ///< for the next look
+    std::uint64_t seen_ = 0;           ///< conditions evaluated
+    std::vector<TrustFinding> early_;  ///< findings for the next look
 };
 
 }  // namespace motionrack::rack

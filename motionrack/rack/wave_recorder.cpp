@@ -1,4 +1,4 @@
-// Gathering changes and writing them in the order of time.
+// Collects changes and writes them in order of time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,8 +31,8 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 constexpr Duration max_pulse_width = microseconds(5);
-/// The end of a pulse is recorded when the next one comes, or when there was time for two; and so is each of the counts
-/// of an encoder that it makes.
+/// Delay of the record of a pulse's end: until the next pulse, or the time of two pulses. It also applies to the
+/// encoder counts caused by the pulse.
 constexpr Duration recorded_within = 2 * max_pulse_width;
 constexpr Duration direction_lead = nanoseconds(250);
 
@@ -57,7 +57,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
             high_ = true;
         }
     }
-    /// No pulse has come for long enough: the last one is over.
+    /// Ends the last pulse if no pulse has come for long enough.
     void settle(Instant now) {
         if (!high_ || now - last_ < recorded_within) return;
         recorder_.push(last_ + max_pulse_width, step_, 0);
@@ -95,7 +95,7 @@ std::int64_t WaveRecorder::Counter::value() const {
     return card->counter({{}, channel, encoder});
 }
 
-// ---- choosing
+// ---- selection
 
 WireTap::WireTap(sim::Kernel& kernel)
     : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")), followers_(kernel.wire_count()) {
@@ -162,7 +162,7 @@ std::size_t WaveRecorder::add(WaveSignal signal) {
     return signals_.size() - 1;
 }
 
-/// Lines of a bus that cards share have edges as close as its times let them come.
+/// Lines of a bus shared by cards have edges as close as its timing allows.
 Duration WaveRecorder::coarsest_unit() const {
     Duration unit = nanoseconds(100);
     for (const auto& card : rack_.cards())
@@ -275,14 +275,14 @@ void WaveRecorder::write_before(Instant end) {
     const auto rest =
         std::partition_point(buffer_.begin(), buffer_.end(), [end](const Event& event) { return event.at < end; });
     for (auto event = buffer_.begin(); event != rest; ++event) {
-        last_ = std::max(last_, event->at);  // behind drain() a pulse's end may come after a later change
+        last_ = std::max(last_, event->at);  // after drain() a pulse's end may follow a later change
         sink_->change(event->signal, event->value, last_);
         ++changes_;
     }
     buffer_.erase(buffer_.begin(), rest);
 }
 
-/// Parts of the rack keep that they are listened to, so this comes behind all that can fail.
+/// Parts of the rack store their listeners, so this follows everything that can fail.
 void WaveRecorder::listen() {
     for (const auto& [fork, ear] : heard_) fork->add(*ear);
     recording_ = true;

@@ -1,13 +1,13 @@
-// Wires, pulses, encoder lines and card values of a running rack, written to a file while it runs.
+// Records wires, pulses, encoder lines and card values of a running rack to a file while it runs.
 //
 //   kernel wires ──┐
 //   pulse edges ───┼──► events in a buffer ──drain(), between runs, in order of time──► WaveSink (VCD, CSV, HDF5)
 //   encoder edges ─┤
-//   LP, EP ────────┘ looked at every register_period
+//   LP, EP ────────┘ sampled every register_period
 //
-// A pulse of X.step lasts half the way to the next one, at most 5 us; X.dir changes 250 ns before the first pulse that
-// way. Pins that the card drives on demand (its pulse outputs) are recorded as they are, if a pattern names them and
-// there is a WireTap.
+// A pulse of X.step lasts half the interval to the next one, at most 5 us. X.dir changes 250 ns before the first pulse
+// in the new direction. Pins that the card drives on demand (its pulse outputs) are recorded directly if a pattern
+// names them and a WireTap exists.
 #pragma once
 
 #include <functional>
@@ -19,58 +19,58 @@
 
 namespace motionrack::rack {
 
-/// Makes pins that are driven on demand worth driving: listens to all of them, and wants those that are followed.
+/// Makes on-demand pins be driven: subscribes to the wires that have followers.
 class WireTap final : public sim::Device {
   public:
-    /// Before the rack is started and after everything else was built.
+    /// Call before the rack starts and after everything else is built.
     explicit WireTap(sim::Kernel& kernel);
-    /// Counted: a wire is wanted until each of its followers has left it.
+    /// Adds or removes a follower; a wire stays subscribed while it has followers.
     void follow(sim::WireId wire, bool wanted);
     void on_scheduled(Instant) override {}
 
   private:
     sim::Kernel& kernel_;
     sim::DeviceId id_;
-    std::vector<int> followers_;  ///< of each wire of the kernel
+    std::vector<int> followers_;  ///< follower count of each kernel wire
 };
 
 struct WaveSettings {
     std::string path;
     WaveFormat format = WaveFormat::vcd;
-    std::vector<std::string> signals;  ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp");
-                                       ///< empty: all but the pins driven on demand
-    /// Unit of a VCD file's time; 0: the coarsest that shows every edge of the signals: 100 ns, or that of the bus
-    /// whose lines are among them (10 ns at most).
+    std::vector<std::string> signals;  ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp"); empty:
+                                       ///< all except pins driven on demand
+    /// Time unit of a VCD file. 0: the coarsest unit that shows every edge of the signals: 100 ns, or that of a bus
+    /// whose lines are recorded (10 ns at most).
     Duration unit{0};
-    Duration register_period = milliseconds(1);  ///< how often LP and EP are looked at
-    WireTap* tap = nullptr;                      ///< pins driven on demand are recorded through it
-    std::string version = {};                    ///< of the program that records; stands in files of HDF5
-    /// Makes what takes the changes, instead of the file; may be empty.
+    Duration register_period = milliseconds(1);  ///< sampling period of LP and EP
+    WireTap* tap = nullptr;                      ///< source of pins driven on demand
+    std::string version = {};                    ///< version of the recording program, stored in HDF5 files
+    /// Creates a sink that replaces the file; may be empty.
     std::function<std::unique_ptr<WaveSink>(const std::vector<WaveSignal>& signals)> sink = {};
 };
 
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
-    /// Before the rack is started it becomes a device that looks at the registers by itself after begin(); in a running
-    /// rack its owner calls look(). Errors: io; refused (the unit); invalid_input if no signal fits the patterns. The
-    /// rack is as it was then.
+    /// Before the rack starts: creates a device that samples the registers by itself after begin(). In a running rack:
+    /// its owner calls look(). Errors: io; refused (the unit); invalid_input if no signal matches the patterns. On
+    /// error the rack is unchanged.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
 
-    /// After the rack was started, if the recorder was made before that.
+    /// Call after the rack has started, if the recorder was created before that.
     void begin();
-    /// Between runs: looks at the registers.
+    /// Samples the registers. Call between runs.
     void look() { look_at_cards(rack_.kernel().now()); }
-    /// Between runs: writes what has come together.
+    /// Writes the buffered changes. Call between runs.
     void drain();
-    /// Between runs: the same but for the last microseconds, of which more may come: the file does not depend on when
-    /// this is called.
+    /// Writes the buffered changes except those of the last microseconds, which may be incomplete. The file does not
+    /// depend on the instants of the calls. Call between runs.
     void drain_settled();
-    /// Ends the file and listens no more. Errors: io; it goes on then, so that it can be tried again.
+    /// Ends the file and stops listening. Errors: io; the recording then continues, so that finish() can be retried.
     Result<void> finish();
-    /// The last finish() failed.
+    /// Returns true if the last finish() failed.
     bool failed() const { return failed_; }
-    /// Whether finish() may be tried again then.
+    /// Returns true if finish() may be retried after a failure.
     bool can_end_again() const { return sink_->can_end_again(); }
     std::uint64_t changes() const { return changes_; }
     Duration register_period() const { return register_period_; }
@@ -82,20 +82,20 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     struct Event {
         Instant at{};
         std::uint32_t signal = 0;
-        std::uint32_t place = 0;  ///< among the events of its instant
+        std::uint32_t place = 0;  ///< order among the events of its instant
         std::int64_t value = 0;
     };
-    /// Edges are handed over some time later, so their place is by their signals; wires come before them, as they
-    /// changed. Both tracks of an encoder have the place of the first: where it turns by many counts at one instant,
-    /// their edges keep their order.
+    /// Edges are delivered with a delay, so their order follows their signals; wires precede them in the order of their
+    /// changes. Both tracks of an encoder share the place of the first. If it moves by many counts at one instant, its
+    /// edges keep their order.
     std::uint32_t place_of(std::size_t signal) const {
         return wires_begin_ <= signal && signal < wires_end_ ? 0 : static_cast<std::uint32_t>(signal + 1);
     }
-    /// Hears the pulses of one axis.
+    /// Listens to the pulses of one axis.
     class StepEar;
-    /// Hears the encoder of one axis.
+    /// Listens to the encoder of one axis.
     class LineEar;
-    /// LP (or EP) of a channel.
+    /// LP or EP of a channel.
     struct Counter {
         Card* card = nullptr;
         int channel = 0;
@@ -106,7 +106,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
 
     WaveRecorder(Rack& rack, const WaveSettings& settings);
     bool wanted(const std::string& name) const;
-    /// The first of its names that is wanted, or nullptr.
+    /// Returns the first of the wire's names that a pattern selects, or nullptr.
     const std::string* wanted_name(sim::WireId wire) const;
     std::size_t add(WaveSignal signal);
     Duration coarsest_unit() const;
@@ -126,18 +126,18 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::string> patterns_;
     WireTap* tap_;
     Duration register_period_;
-    Duration lag_{0};  // so much later an edge may come
+    Duration lag_{0};  // maximum delay of an edge
     sim::DeviceId id_{};
     bool is_device_ = false;
     bool recording_ = false;
     bool failed_ = false;
     std::vector<WaveSignal> signals_;
     std::unique_ptr<WaveSink> sink_;
-    std::size_t wires_begin_ = 0, wires_end_ = 0;  // the signals that are wires of the kernel
+    std::size_t wires_begin_ = 0, wires_end_ = 0;  // range of the signals that are kernel wires
     std::vector<std::int64_t> wire_signals_;       // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
-    std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< which ear listens to which edges
+    std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
     std::vector<sim::WireId> followed_;
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

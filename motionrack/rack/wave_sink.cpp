@@ -1,4 +1,4 @@
-// The formats of a recording.
+// Formats of a recording.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 class VcdSink final : public WaveSink {
   public:
-    /// Each scope is opened once, in the order in which it is met first.
+    /// Opens each scope once, in order of first use.
     VcdSink(trace::VcdWriter writer, const std::vector<WaveSignal>& signals)
         : writer_(std::move(writer)), signals_(signals), ids_(signals.size()) {
         std::vector<std::string> scopes;
@@ -73,7 +73,7 @@ class CsvSink final : public WaveSink {
     };
 
     void write(const Column& column, Instant at) {
-        // Whole ticks of 100 ps: exact, where a double of seconds would not be.
+        // Whole ticks of 100 ps are exact, a double of seconds is not.
         writer_.add(fmt::format("{}.{:010}", at.count() / 10'000'000'000, at.count() % 10'000'000'000));
         writer_.add(column.name);
         if (column.signal.unit == 1)
@@ -105,7 +105,7 @@ class Hdf5Sink final : public WaveSink {
 
   private:
     trace::RecordingWriter writer_;
-    Result<void> ended_;  // an error: the file is gone
+    Result<void> ended_;  // an error: the file is closed for good
 };
 
 Result<std::unique_ptr<WaveSink>> make_hdf5_sink(const WaveSinkSettings& settings,

@@ -1,4 +1,4 @@
-// Names of wires, and driving them.
+// Finds wires by name and forces them.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace motionrack::rack {
 
 namespace {
-constexpr double max_volts = 15;  // of an analog input
+constexpr double max_volts = 15;  // limit of an analog input
 }
 
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
@@ -86,7 +86,7 @@ void WireAccess::add_tracks() {
                     Kind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
 }
 
-/// The inputs that a link comes in at are no wires of their own while nobody drives them.
+/// The inputs at the end of a link are not separate wires unless they are forced.
 void WireAccess::add_encoders() {
     const RackConfig& config = rack_.config();
     for (const RackWire& joined : config.wires) {
@@ -149,7 +149,7 @@ void WireAccess::add_ideal_encoders() {
     }
 }
 
-/// The levels that the encoder shows at the channel (bit 0: A).
+/// Returns the levels of the encoder at the channel (bit 0: A).
 unsigned WireAccess::lines_at(const EncoderInput& input) const {
     if (input.link.axis == no_axis)
         return sim::lines_of(
@@ -223,7 +223,7 @@ void WireAccess::drive(const Wire& wire, int level) {
     if (wire.kind == Kind::counted) {
         EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
         if (input.driven == 0) {
-            // Its lines stay as it left them, so that cutting it off counts nothing.
+            // Its lines keep their levels, so that disconnecting it counts nothing.
             rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, true);
             kernel.settle();
         }

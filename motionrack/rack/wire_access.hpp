@@ -1,9 +1,9 @@
-// The wires of a running rack by their names, as a hand with a test lead has them: every pin can be looked at, inputs
-// and switches can be driven, and then what drove them before is cut off until they are released.
+// Access to the wires of a running rack by name. Every pin can be read. Inputs and switches can be forced, which
+// disconnects their source until they are released.
 //
-//   part ──X.limit_plus──► junction ──c1.xlmtp──► chip        set("X.limit_plus", 0): the switch is stuck
-//                                         ▲                  set("c1.xlmtp", 0): this pin alone
-//   encoder ══counts══► channel ◄── c1.xeca, c1.xecb          set("c1.xeca", 1): the encoder is cut off, the pins count
+//   part ──X.limit_plus──► connection ──c1.xlmtp──► chip      force("X.limit_plus", 0): the switch is stuck
+//                                         ▲                  force("c1.xlmtp", 0): this pin alone
+//   encoder ══counts══► channel ◄── c1.xeca, c1.xecb          force("c1.xeca", 1): encoder cut off, the pins count
 #pragma once
 
 #include <map>
@@ -16,50 +16,50 @@ namespace motionrack::rack {
 
 class WireAccess {
   public:
-    /// Any time; the rack must outlive it. One desk a rack.
+    /// May be created at any time; the rack must outlive it. One per rack.
     explicit WireAccess(Rack& rack);
 
-    /// The level of CARD.PIN, NAME.END or estop: 0 or 1, of analog pins V. Errors: invalid_input if there is no such
-    /// wire.
+    /// Returns the level of CARD.PIN, NAME.END or estop: 0 or 1, or V for analog pins. Errors: invalid_input for an
+    /// unknown wire.
     Result<double> get(std::string_view name) const;
-    /// Drives a wire from now on: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together: the
-    /// other one holds the level that it had, and the encoder is connected again when both are released. In a started
-    /// rack, between runs. Errors: invalid_input (no such wire), refused (an output, another value).
+    /// Forces a wire from this instant: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together:
+    /// the other one holds its level, and the encoder is reconnected when both are released. In a started rack, call
+    /// between runs. Errors: invalid_input (unknown wire), refused (an output, another value).
     Result<void> force(std::string_view name, double value);
-    /// What set would say.
+    /// Returns the result of force() without forcing.
     Result<void> check(std::string_view name, double value) const;
     bool knows(std::string_view name) const { return wires_.find(name) != wires_.end(); }
     struct Named {
         std::string_view name;
         bool volts = false;     ///< a voltage, else a level
-        bool drivable = false;  ///< set takes it
-        bool recorded = false;  ///< a recording has its changes, by this name
+        bool drivable = false;  ///< force() accepts it
+        bool recorded = false;  ///< a recording has its changes under this name
         int bits = 1;
     };
-    /// All wires in the order of their names.
+    /// All wires, sorted by name.
     std::vector<Named> names() const;
 
-    /// The wires are driven as those of `other`, whose rack has the same wiring and whose kernel state was copied.
+    /// Takes over the forced wires of `other`, whose rack has the same wiring and whose kernel state was copied.
     void copy_from(const WireAccess& other) { encoders_ = other.encoders_; }
 
   private:
     enum class Kind : std::uint8_t {
         plain,    ///< a wire of the kernel
-        counted,  ///< an input of a channel to which an encoder is connected as a whole
-        track,    ///< an encoder's own end
-        pulses    ///< a motor's own end
+        counted,  ///< a channel input to which an encoder is connected as a unit
+        track,    ///< an output of an encoder
+        pulses    ///< an input of a motor
     };
     struct Wire {
         Kind kind = Kind::plain;
-        sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives it, if any
-        int index = -1;                      ///< counted: of encoders_; track: of the axis
+        sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives the motor, if any
+        int index = -1;                      ///< counted: index in encoders_; track: index of the axis
         int which = 0;                       ///< 0: A, 1: B
-        double unit = 1;                     ///< of an analog pin: V for one unit of the level
-        int bits = 1;                        ///< of a wire that carries a whole number
-        std::string refused;                 ///< why it cannot be driven; empty: it can
+        double unit = 1;                     ///< volts per level unit (analog pins)
+        int bits = 1;                        ///< width of a wire that carries a whole number
+        std::string refused;                 ///< reason why it cannot be forced; empty: it can
     };
-    static constexpr int no_axis = -1;  ///< the ideal motor of a card
-    /// An encoder at a channel.
+    static constexpr int no_axis = -1;  ///< ideal motor of a card
+    /// An encoder connected to a channel.
     struct EncoderInput {
         EncoderLink link;
         unsigned driven = 0;  ///< bit 0: A, bit 1: B
@@ -81,7 +81,7 @@ class WireAccess {
     std::vector<EncoderInput> encoders_;
 };
 
-/// Of wires that carry a voltage, by their names: the volts of one unit of the level.
+/// Volts per level unit of the wires that carry a voltage, by wire name.
 std::map<std::string, double> volts_of_wires(const RackConfig& config);
 
 }  // namespace motionrack::rack
