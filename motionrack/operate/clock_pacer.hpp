@@ -1,11 +1,10 @@
-// How fast a rack's time goes beside the computer's: step for step with it, N times as fast, as fast as it can, or not
-// at all.
+// Paces a rack's virtual time against the computer's clock: real time, a multiple of it, unthrottled, or paused.
 //
 //   computer ────┬───────────┬───────────┬──────► s      rack's instants are due at  base + (instant - base) / factor
 //   rack     ────┴─2 ms──────┴─2 ms──────┴──────►        too early: the motion thread waits;
-//                                                        late: it hurries, and the lateness is counted
+//                                                        late: it catches up, and the lateness is counted
 //
-// Who is later than `given_up` does not hurry after it: the base moves, and what was lost is told.
+// Beyond a lateness of `given_up` it does not catch up: the base moves, and the lost time is reported.
 #pragma once
 
 #include <array>
@@ -18,25 +17,25 @@
 namespace motionrack::operate {
 
 enum class ClockMode : std::uint8_t {
-    real,   ///< `factor` seconds of the rack a second
-    free,   ///< as fast as the computer can
-    paused  ///< stands, but for steps
+    real,   ///< `factor` seconds of virtual time per second
+    free,   ///< unthrottled, as fast as the computer can
+    paused  ///< stopped, except for steps
 };
-/// "real", "free", "paused".
+/// Returns "real", "free", "paused".
 std::string_view name_of(ClockMode mode);
 
-/// How late slices were let go after they were due. Fixed memory.
+/// Distribution of the lateness of slices. Fixed memory.
 class Lateness {
   public:
     void add(Duration late);
     std::int64_t count() const { return count_; }
     Duration greatest() const { return greatest_; }
-    /// No more than `part` (0 .. 1) of all were later; rounded up to 20 us. 0 of none.
+    /// Lateness that the fraction `part` (0 .. 1) of all slices did not exceed, rounded up to 20 us; 0 without slices.
     Duration within(double part) const;
 
   private:
     static constexpr Duration width = microseconds(20);
-    std::array<std::int64_t, 5000> counts_ = {};  // the last one has all that were later
+    std::array<std::int64_t, 5000> counts_ = {};  // the last one counts all later slices
     std::int64_t count_ = 0;
     Duration greatest_{0};
 };
@@ -44,23 +43,23 @@ class Lateness {
 /// Only the motion thread uses it.
 class ClockPacer {
   public:
-    /// Factors are 0.001 .. 1000.
+    /// Factors must be 0.001 .. 1000.
     ClockPacer(live::Clock& clock, ClockMode mode, double factor);
 
-    /// True: the rack may run on from `now`. Waits 5 ms at most.
+    /// Returns true if the rack may run on from `now`. Waits 5 ms at most.
     bool pace(Instant now);
 
-    /// Errors: invalid_input, a factor out of its range.
+    /// Errors: invalid_input if a factor is out of range.
     Result<void> set(ClockMode mode, double factor);
-    /// Lets so much time go by, as fast as it can. Errors: refused unless paused; invalid_input below 100 ps or above
-    /// 3600 s.
+    /// Advances virtual time by this duration, as fast as possible. Errors: refused unless paused; invalid_input below
+    /// 100 ps or above 3600 s.
     Result<void> step(Duration duration);
 
     ClockMode mode() const { return mode_; }
     double factor() const { return factor_; }
-    /// Of every slice in mode real.
+    /// Lateness of every slice in mode real.
     const Lateness& lateness() const { return lateness_; }
-    /// Real time by which the rack fell behind for good.
+    /// Real time by which the rack fell behind permanently.
     Duration lost() const { return lost_; }
 
     static constexpr double min_factor = 0.001, max_factor = 1000;

@@ -1,4 +1,4 @@
-// Openings, and what is kept over them.
+// Detects openings of the door and stores states over them.
 #include <fmt/format.h>
 
 #include <motionrack/operate/door.hpp>

@@ -1,5 +1,5 @@
-// What a door does to a machine that people operate: opened it holds the feed and puts the spindle off, and nothing
-// begins to move until it is closed. Closing it moves nothing; a resume does, and brings the spindle back.
+// Door of an operated machine. Opening it holds the feed and switches the spindle off, and no motion starts until it is
+// closed. Closing it moves nothing; a resume starts motion and the spindle again.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -12,16 +12,16 @@ namespace motionrack::operate {
 
 class Door {
   public:
-    /// Of a rack that must outlive this. It heeds its door itself from now on.
+    /// The rack must outlive this. The machine handles the rack's door itself from now on.
     explicit Door(rack::Rack& rack);
 
     /// Refused while it is open: "The program was not begun: the door is open. ..."
     Result<void> check_closed(const char* what) const;
-    /// It was opened since the last look: the alarm, with what that does in this state.
+    /// Returns the alarm if the door was opened since the last look, with the effect in this state.
     std::optional<std::string> take_opening(MachineState state);
-    /// Spindle and coolant as they are, for resume().
+    /// Stores the present spindle and coolant states for resume().
     void keep_tools(const Status& status);
-    /// Gives them back, once.
+    /// Restores the stored states, once.
     void give_back_tools(Status& status);
     void forget_tools() { kept_.reset(); }
 

@@ -7,7 +7,7 @@
 
 namespace motionrack::operate {
 
-// ---- orders
+// ---- commands
 
 Result<void> Jogs::see(const JogOrigin& origin) {
     if (origin.sequence == 0) return {};
@@ -57,7 +57,7 @@ bool Jogs::held(char letter) const {
 
 // ---- motion
 
-/// What has ended by itself is not begun again by its lease: first it is looked at, then it is renewed.
+/// A jog that has ended by itself is not restarted by its lease: it is first checked, then renewed.
 std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     using control::AxisState;
     if (stop) one.axis->stop();
@@ -73,7 +73,7 @@ std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
 
 Result<void> Jogs::begin(const Order& order, const Take& take, Instant now) {
     const bool leased = !order.distance;
-    if (leased && order.speed != 0 && !held(order.letter)) return {};  // over before it began
+    if (leased && order.speed != 0 && !held(order.letter)) return {};  // over before its start
     MOTIONRACK_TRY(control::Axis * axis, take(order.letter));
     MOTIONRACK_CHECK(leased ? axis->jog(order.speed, now) : axis->move_by(*order.distance, order.speed));
     const bool known =

@@ -1,10 +1,9 @@
-// Jogs of single axes: orders, their leases, and the axes that move by them.
+// Jogs of single axes: commands, their leases, and the moving axes.
 //
-//   jog ══ jog ══ jog ──► goes on for the lease after its last order, to the end of its travel at most
-//                    └──► over: let go, its session has ended, something stopped it. Only a new jog moves it again.
+//   jog ══ jog ══ jog ──► continues for the lease after its last command, to the end of its travel at most
+//                    └──► ended: released, its session has ended, or a stop. Only a new jog moves the axis again.
 //
-// The lease runs by the clock of the people, whatever the rate of the rack's time; an axis' own hold time, by the
-// rack's.
+// The lease runs on the wall clock, whatever the rate of virtual time; an axis' own hold time runs on virtual time.
 #pragma once
 
 #include <cstdint>
@@ -19,44 +18,44 @@
 
 namespace motionrack::operate {
 
-/// Where an order to jog comes from.
+/// Origin of a jog command.
 struct JogOrigin {
-    std::string session = {};   ///< connection or token; "": nobody's
-    std::int64_t sequence = 0;  ///< grows from order to order of a session; 0: not numbered, the newest
-    bool renews = false;        ///< only prolongs a jog, and moves nothing where it has ended
+    std::string session = {};   ///< connection or token; "": no session
+    std::int64_t sequence = 0;  ///< increases with each command of a session; 0: not numbered, taken as the newest
+    bool renews = false;        ///< only extends a running jog, and moves nothing if the jog has ended
 };
 
 class Jogs {
   public:
     using Clock = std::function<Instant()>;
-    /// Gives an axis of the rack by its letter.
+    /// Returns an axis of the rack by its letter.
     using Take = std::function<Result<control::Axis*>(char letter)>;
-    /// What became of an axis that stands again.
+    /// End of the jog of an axis that is at standstill again.
     struct Ended {
         char letter = 'X';
-        bool position_valid = false;  ///< the axis trusts its position
-        Result<void> how;             ///< ErrorKind::machine: something stopped it; refused: it did not begin
+        bool position_valid = false;  ///< position validity according to the axis
+        Result<void> how;             ///< ErrorKind::machine: stopped by the machine; refused: not started
     };
 
-    /// `lease` is of `wall`, which is called on the motion thread.
+    /// `lease` is measured on `wall`, which is called on the motion thread.
     Jogs(Duration lease, Clock wall) : lease_(lease), wall_(std::move(wall)) {}
 
-    /// Notes that this order of its session was seen. Refused: a newer one was seen before.
+    /// Records the sequence number of a session's command. Refused if a newer one was received before.
     Result<void> see(const JogOrigin& origin);
-    /// Refused: as see(), and a renewal of a jog that has ended.
+    /// Refused as for see(), and for a renewal of an ended jog.
     Result<void> accept(char letter, const JogOrigin& origin);
-    /// Jogs, or goes on; a `speed` of 0 lets go.
+    /// Starts or continues a jog; a `speed` of 0 releases it.
     void hold(char letter, double speed, const std::string& session);
     /// Jogs by a distance.
     void move(char letter, double distance, double speed);
-    /// The session is gone: its jogs end.
+    /// Ends the jogs of a closed session.
     void end_of(const std::string& session);
-    /// Forgets orders and leases; step() ends what still moves.
+    /// Drops commands and leases; step() ends the remaining motion.
     void let_go();
 
     bool any() const { return !orders_.empty() || !moving_.empty(); }
-    /// Begins what was ordered, carries on or ends what moves, an axis that is to stop by a ramp; tells what stands. At
-    /// least every few ms.
+    /// Starts requested jogs, and continues or ends running ones; axes to stop decelerate with a ramp. Returns the axes
+    /// that have reached standstill. Call at least every few ms.
     std::vector<Ended> step(const Take& take, Instant now, const std::function<bool(char letter)>& stops);
 
   private:
@@ -68,7 +67,7 @@ class Jogs {
     struct Moving {
         char letter = 'X';
         control::Axis* axis = nullptr;
-        bool leased = false;  ///< goes on while its lease holds; else to the end of its distance
+        bool leased = false;  ///< continues while its lease holds; otherwise to the end of its distance
     };
     struct Lease {
         double speed = 0;
@@ -84,7 +83,7 @@ class Jogs {
     std::vector<Order> orders_;
     std::vector<Moving> moving_;
     std::map<char, Lease> leases_;
-    JogOrigin newest_;  ///< of the session that gave a numbered order last
+    JogOrigin newest_;  ///< latest numbered command and its session
 };
 
 }  // namespace motionrack::operate

@@ -16,7 +16,7 @@ using nlohmann::json;
 
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
-constexpr double min_shift = 0.02;  ///< mm or degrees; one that is held swings by a count
+constexpr double min_shift = 0.02;  ///< mm or degrees; a servo in position hold oscillates by a count
 constexpr Duration again_within = whole_seconds(1);
 constexpr Duration repeat_every = whole_seconds(10);
 constexpr std::int64_t max_repeats = 20;
@@ -64,7 +64,7 @@ void JournalWriter::see(const Status& status) {
 
 void JournalWriter::stopped(const StopReport& report) {
     const std::optional<StopReport> before = std::exchange(stopped_, report);
-    if (report.releases) return;  // an order like any other
+    if (report.releases) return;  // written as an ordinary command
     const bool again = before && !before->releases && before->source == report.source;
     if (again && report.at - before->at < again_within) return;
     if (idle(report.state) && !may_repeat(report.at)) return;
@@ -167,7 +167,7 @@ void JournalWriter::see_positions(const Status& status) {
     }
 }
 
-/// A servo may be pushed, or come to rest late, while the machine stands.
+/// Returns true if an axis has moved at standstill: a servo may be pushed, or settle late.
 bool JournalWriter::has_shifted(const Status& status) const {
     for (std::size_t i = 0; i < kept_axes_.size() && i < status.axes.size(); ++i)
         if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > min_shift) return true;
@@ -188,14 +188,14 @@ void JournalWriter::keep(const Status& status) {
 
 namespace {
 
-/// What the last run kept of the machine; empty where it kept nothing that can be read.
+/// Returns the stored machine state of the last run; empty if nothing readable was stored.
 json kept_of(const journal::LastRun& last) {
     const auto found = last.kept.find(kept_key);
     json kept = json::parse(found == last.kept.end() ? "{}" : found->second, nullptr, false);
     return kept.is_object() ? kept : json::object();
 }
 
-/// "; the machine's state was 'moving', 'part.ngc' ran and was at line 12, near X 3.000".
+/// Returns "; the machine's state was 'moving', 'part.ngc' ran and was at line 12, near X 3.000".
 std::string at_the_end(const json& kept, const std::string& where) {
     const auto text = [&](const char* key) {
         return kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>() : std::string();
@@ -233,7 +233,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
     std::string where;
     for (const InitialAxisState& one : out.axes)
         where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", one.letter, one.commanded);
-    // An axis without a record may have moved, too.
+    // An axis without a record may also have moved.
     for (const rack::RackAxis& axis : config.axes)
         if (!trusted && std::none_of(out.axes.begin(), out.axes.end(),
                                      [&](const InitialAxisState& one) { return one.letter == axis.letter; }))

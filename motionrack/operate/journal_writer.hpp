@@ -1,8 +1,8 @@
-// What a machine does, written into the journal; and what the next run makes of it.
+// Writes the machine's events to the journal, and restores the state of the last run from it.
 //
 //   Status, every slice ──see──► state, job, alarm, setting, position entries;
-//                                "machine" is kept: where the axes are, what runs
-//   LastRun ──read_last──► where the axes stood, a sentence about how it ended     (killed: nothing is trusted)
+//                                "machine" is stored: axis positions, running program
+//   LastRun ──read_last──► axis positions, a sentence about its end         (killed: no position is valid)
 #pragma once
 
 #include <functional>
@@ -19,17 +19,17 @@ namespace motionrack::operate {
 /// Only the motion thread uses it; the journal must outlive it.
 class JournalWriter {
   public:
-    /// Hears every entry, too. `data`: JSON.
+    /// Also called with every entry. `data`: JSON.
     using Told =
         std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
     explicit JournalWriter(journal::Journal& journal) : JournalWriter(&journal, {}) {}
     /// `journal` may be nullptr, `told` empty.
     JournalWriter(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
-    /// Of every picture; writes what is another than in the one before.
+    /// Call with every status; writes its differences from the previous one.
     void see(const Status& status);
-    /// Of every stop that somebody ordered: who, from where, how. What the same one orders again within a second is
-    /// the same stop: a page sends its STOP on two ways. Orders to stop a machine that is idle change nothing: of
-    /// them 20 at once are written, then one in 10 s of the rack, whoever gives them.
+    /// Writes a stop command with its user, address and kind. Further stops by the same source within a second count as
+    /// the same stop, since a page sends its STOP on two channels. Stops of an idle machine change nothing: 20 in a row
+    /// are written, then one per 10 s of virtual time, whatever their source.
     void stopped(const StopReport& report);
 
   private:
@@ -51,21 +51,21 @@ class JournalWriter {
     double feed_ = 1, rapid_ = 1;
     std::vector<bool> trusted_;
     std::int64_t last_alarm_ = 0;
-    std::set<std::int64_t> active_, open_;  ///< alarms whose cause is there; that nobody has acknowledged
+    std::set<std::int64_t> active_, open_;  ///< alarms with an active cause; alarms that are not acknowledged
     Instant kept_{};
-    std::vector<double> kept_axes_;  ///< by their counters
+    std::vector<double> kept_axes_;  ///< positions by their counters
     std::optional<StopReport> stopped_;
-    std::int64_t repeats_ = 0;  ///< orders to stop an idle machine
+    std::int64_t repeats_ = 0;  ///< stop commands to an idle machine
     Instant repeated_{};
 };
 
 struct LastKnownPositions {
-    std::vector<InitialAxisState> axes;  ///< those that this rack has and that stood where they may
-    /// How it ended, if it was cut off, and what is wrong with the journal; empty: it ended by itself, and all is well.
+    std::vector<InitialAxisState> axes;  ///< axes of this rack with a stored position in their travel
+    /// Describes the end of an interrupted run, and problems of the journal; empty: a clean end.
     std::string sentence;
 };
-/// Nothing is trusted after a run that was cut off, and nothing that does not fit its checksum. Axes without a record
-/// are left out where the rest is trusted.
+/// After an interrupted run no position is valid, nor is one with a wrong checksum. Axes without a record are left out;
+/// the others stay valid.
 LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfig& config);
 
 }  // namespace motionrack::operate

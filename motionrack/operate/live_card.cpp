@@ -1,4 +1,4 @@
-// Accesses and waits of a real card, and its stop.
+// Accesses, waits and the stop of a real card.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,11 +9,11 @@ namespace motionrack::operate {
 
 namespace {
 
-constexpr Duration live_piece = milliseconds(1);         // of the rack's time between two looks at the card
-constexpr Duration max_live_lag = milliseconds(50);      // the rack's time does not hurry after more
-constexpr Duration registers_every = milliseconds(500);  // at all registers
-constexpr Duration stop_patience = milliseconds(100);    // of a function that waits for an axis to stop
-constexpr int min_stop_waits = 10;                       // in it: a computer that is busy looks seldom
+constexpr Duration live_piece = milliseconds(1);         // virtual time between two looks at the card
+constexpr Duration max_live_lag = milliseconds(50);      // virtual time does not catch up beyond this
+constexpr Duration registers_every = milliseconds(500);  // period of reading all registers
+constexpr Duration stop_patience = milliseconds(100);    // limit for a function that waits for an axis to stop
+constexpr int min_stop_waits = 10;                       // minimum looks within it, for a busy computer
 constexpr int max_live_looks = 100;
 
 constexpr const char* by_its_wires =
@@ -34,7 +34,7 @@ Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::R
 }
 
 Result<void> LiveCard::open_port() {
-    port_.reset();  // its lock, too
+    port_.reset();  // with its lock
     MOTIONRACK_TRY(port_, live::CardPort::open(place_.spec, kind_.map()));
     lost_.reset();
     return {};
@@ -48,7 +48,7 @@ void LiveCard::write(std::uint32_t offset, std::uint16_t value) {
     lost_ = port_->trouble();
 }
 
-/// 0 is what an axis shows that stands.
+/// 0 is the value of an axis at standstill.
 std::uint16_t LiveCard::read(std::uint32_t offset) {
     if (lost_ || gives_up_) return 0;
     const std::uint16_t value = port_->read(offset);
@@ -82,7 +82,7 @@ bool LiveCard::wait(Duration timeout) {
         const Duration left = std::clamp(end - now(), Duration{0}, live_piece);
         const bool woken = !lost_ && port_->wait(left);
         if (lost_) clock_.sleep(left);
-        keep_up();  // also where the line stays active: orders come with the rack's time
+        keep_up();  // even if the line stays active: commands arrive with virtual time
         heed_stop();
         if (woken) return true;
         if (stop_requested() || now() >= end) return false;
@@ -98,7 +98,7 @@ void LiveCard::pass(Duration duration) {
     } while (now() < end);
 }
 
-/// A millisecond of the rack for each of the computer. What was not waited for is not made up for.
+/// Advances virtual time by a millisecond per millisecond of the computer. Missed waits are not made up for.
 void LiveCard::keep_up() {
     const Duration behind = now() - passed_;
     if (behind < live_piece) return;

@@ -1,12 +1,12 @@
-// A real card in the place of a virtual one of the rack, for as long as a service lasts.
+// A real card that replaces a virtual one of the rack during a service.
 //
-//   Service ──► library ──► LiveCard ──► live::CardPort ──► card      the card's time is the computer's
-//                              │ waits: 1 ms of the rack's time between two looks, so that orders, leases and the
-//                              │ status go on
+//   Service ──► library ──► LiveCard ──► live::CardPort ──► card      the card runs on the computer's time
+//                              │ waits: 1 ms of virtual time between two looks, so that commands, leases and the
+//                              │ status continue
 //                              └ after each call and twice a second: all registers, for the card's page
 //
-// A stop is written in the next look. What the computer refuses ends the service: reads give 0 then, so that functions
-// which wait for an axis end, and what they answer is replaced by the reason.
+// A stop is written at the next look. An access that the computer refuses ends the service. Reads return 0 then, so
+// that functions waiting for an axis end; their result is replaced by the reason.
 #pragma once
 
 #include <memory>
@@ -25,60 +25,60 @@
 
 namespace motionrack::operate {
 
-/// Where a real card is that stands for a card of the rack file.
+/// Address of a real card that replaces a card of the rack file.
 struct LivePlace {
-    std::string card;   ///< of the rack file
+    std::string card;   ///< name in the rack file
     std::string place;  ///< "port:/dev/port,offset=0x300,width=8"
     live::PortSpec spec = {};
 };
-/// Reads CARD=PLACE. Errors: invalid_input, with the form.
+/// Parses CARD=PLACE. Errors: invalid_input, with the format.
 Result<LivePlace> read_live_place(std::string_view text);
-/// Errors: invalid_input, no such card, or one that is named twice; refused, axes of the machine are on it, or a real
-/// card of its type cannot be driven.
+/// Errors: invalid_input for an unknown card, or a card named twice; refused if axes of the machine are on it, or if a
+/// real card of its type cannot be driven.
 Result<void> check_live_places(const rack::RackConfig& config, std::span<const LivePlace> places);
 
-/// All registers of a card, as they were read last.
+/// All registers of a card, as last read.
 struct LiveRegisters {
     rack::RegisterView view;
-    Instant at{};  ///< of the rack
+    Instant at{};  ///< virtual time
 };
 
-/// What came of a stop.
+/// Result of a stop.
 struct LiveStop {
-    bool stands = false;   ///< the axes were seen standing after it
-    std::string sentence;  ///< what an alarm says; empty: nothing
+    bool stands = false;   ///< the axes were seen at standstill afterwards
+    std::string sentence;  ///< text of an alarm; empty: no alarm
 };
 
 /// Only the motion thread uses it.
 class LiveCard final : public RegisterPort, public Interrupt {
   public:
-    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::CardPort::open; io, an access
-    /// that the computer refuses, and no card answers.
+    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::CardPort::open; io if the
+    /// computer refuses an access or no card answers.
     static Result<std::unique_ptr<LiveCard>> open(const LivePlace& place, rack::Rack& rack);
 
-    // ---- for the library
+    // ---- interface for the library
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t read(std::uint32_t offset) override;
     bool wait(Duration timeout) override;
     void pass(Duration duration) override;
     Instant now() const override { return clock_.now(); }
-    /// Also once the card is lost: functions that wait end then.
+    /// Also true once the card is lost, which ends waiting functions.
     bool stop_requested() const override { return lost_.has_value() || host_.stop_requested(); }
     std::unique_ptr<FunctionLibrary> make_library() { return kind_.library(*this, *this); }
 
-    // ---- for the service
+    // ---- interface for the service
     /// Reads all registers now; writes WR0, with NOP and read commands.
     void look();
-    /// The same, if the last look was half a second ago.
+    /// Calls look() if the last look was half a second ago.
     void look_now_and_then();
     const LiveRegisters& registers() const { return registers_; }
     const LivePlace& place() const { return place_; }
-    /// Why no access is made any more: the computer refused one, or no card answers.
+    /// Reason for which accesses have ended: the computer refused one, or no card answers.
     const std::optional<Error>& lost() const { return lost_; }
-    /// Why a function that has ended cannot be believed; nothing: it can.
+    /// Reason to distrust the result of an ended function; nothing: it is valid.
     std::optional<Error> doubt() const;
-    /// Writes the quick stop of all axes, and looks until they stand, 100 times a millisecond apart. A port that
-    /// refused an access before is opened once more for it.
+    /// Writes the quick stop of all axes, and looks up to 100 times, a millisecond apart, until they are at standstill.
+    /// A port that has refused an access is first opened once more.
     LiveStop stop(FunctionLibrary& library);
 
   private:
@@ -90,16 +90,16 @@ class LiveCard final : public RegisterPort, public Interrupt {
 
     LivePlace place_;
     const rack::CardKind& kind_;
-    Interrupt& host_;  ///< the rack's time
+    Interrupt& host_;  ///< virtual time
     live::MonotonicClock clock_;
-    std::unique_ptr<live::CardPort> port_;  ///< nullptr: it could not be opened again
+    std::unique_ptr<live::CardPort> port_;  ///< nullptr: it could not be reopened
     std::optional<Error> lost_;
     LiveRegisters registers_;
-    Instant looked_{};                ///< of this clock
-    Instant passed_{};                ///< up to here the rack's time has followed this clock
-    std::optional<Instant> stopped_;  ///< a function has waited with a stop in force since
-    int stop_waits_ = 0;              ///< since then
-    bool gives_up_ = false;           ///< for too long: an axis does not stop
+    Instant looked_{};                ///< last look, on this clock
+    Instant passed_{};                ///< instant of this clock up to which virtual time has followed
+    std::optional<Instant> stopped_;  ///< since when a function has waited with a stop in force
+    int stop_waits_ = 0;              ///< waits since then
+    bool gives_up_ = false;           ///< the wait was too long: an axis does not stop
 };
 
 }  // namespace motionrack::operate

@@ -1,4 +1,4 @@
-// Which cards of a rack a real one may stand for.
+// Checks which cards of a rack a real one may replace.
 #include <fmt/format.h>
 
 #include <algorithm>

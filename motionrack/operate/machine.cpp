@@ -1,4 +1,4 @@
-// Orders: what may be asked in which state.
+// Commands, and the states in which they are accepted.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,8 @@ StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, con
     return {at, by, state, fmt::format("{}{}{}: {}.", by.kind, who, from, what), false};
 }
 
-/// Of one with a source. The first of several says why it stands: a page sends its STOP on two ways.
+/// Reports a stop that has a source. The first of several gives the reason, since a page sends its STOP on two
+/// channels.
 void tell_stop(const StopReport& report, std::string& why,
                const std::vector<std::function<void(const StopReport&)>>& listeners) {
     if (report.source.kind.empty()) return;
@@ -103,9 +104,9 @@ void Machine::quit() {
     });
 }
 
-// ---- what may be asked
+// ---- preconditions of commands
 
-/// At standstill and enabled.
+/// Requires standstill and an enabled machine.
 Result<void> Machine::ready(const char* what) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
@@ -126,7 +127,7 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
     return fail(ErrorKind::invalid_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
-/// Enabled, and what was declared of positions is carried out: it holds of where the axes stood.
+/// Requires enabled axes without a pending set position, which applies to the position at its command.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
         return not_now(
@@ -138,7 +139,7 @@ Result<void> Machine::axes_may_move(const char* what, std::string_view axes) con
     return {};
 }
 
-/// And every axis is enabled and knows where it is.
+/// Also requires that every axis is enabled and has a valid position.
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
     MOTIONRACK_CHECK(door_.check_closed(what));
@@ -258,7 +259,7 @@ void Machine::reset(const StopOrigin& by) {
 
 namespace {
 
-/// The axis refuses it, too, but only when the order is begun: who gave it has his answer then.
+/// Checks the speed at the command; the axis would reject it only at the start of the jog, after the answer.
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_velocity) return {};
     return not_now(
@@ -325,7 +326,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
         ++moving;
         move.rapid_override = std::min(move.rapid_override, speed / limits[i].max_velocity);
     }
-    // Axes that position one by one cannot keep a speed along a line together.
+    // Axes that position one by one cannot hold a common velocity along a line.
     move.kind = moving > 1 && rack_.config().point_to_point() ? control::MoveKind::rapid : control::MoveKind::feed;
     move.path = control::PathControl::continuous;
     move.tolerance_mm = rack_.config().controller.default_path_tolerance_mm;

@@ -1,18 +1,18 @@
-// A rack that people operate while it runs.
+// A rack that is operated while it runs.
 //
-//   any thread ──post──► [ inbox ] ──► motion thread: Machine::run ──► Stream, axes, homing ──► cards
-//                                            │ every 2 ms of virtual time: pace, inbox, picture ──► on_status
+//   any thread ──post──► [ inbox ] ──► motion thread: Machine::run ──► StreamExecutor, axes, homing ──► cards
+//                                            │ every 2 ms of virtual time: pace, inbox, status ──► on_status
 //
 //   disabled ──enable──► standstill ──line, program──► moving ◄──hold, resume──► hold
 //                            │  ▲ ├──jog──► jogging      │ a limit, an alarm, the emergency stop, a watchdog: from
 //                            │  └─┴──home─► homing       ▼ every state, as the rack's stop latch says; stop(), too
 //                            ├◄───────reset────────── error stop
-//                            └──service──► service: somebody calls a card's functions, see service.hpp
+//                            └──service──► service: manual calls of a card's functions, see service.hpp
 //
-// A reset moves nothing; what was under way is forgotten, and something new must be ordered.
+// A reset moves nothing; pending motion is dropped, and a new command is needed.
 //
-// Only the motion thread touches the rack. What a front end posts runs there between two runs of the kernel, often in
-// the middle of a drive: so orders only note what is wanted, and the motion thread's loop does it.
+// Only the motion thread touches the rack. Posted work runs there between two runs of the kernel, often in the middle
+// of a motion. So commands only record requests, and the motion thread's loop executes them.
 #pragma once
 
 #include <atomic>
@@ -40,124 +40,123 @@
 namespace motionrack::operate {
 
 struct MachineSettings {
-    /// Called every slice on the motion thread, which hears what was posted and asks again until it is true: the world
-    /// may run on. It waits a few ms at most. Empty: as fast as possible.
+    /// Called in every slice on the motion thread, which processes its inbox and calls again until the result is true:
+    /// virtual time may advance. It may wait a few ms. Empty: unthrottled.
     std::function<bool(Instant now)> pace = {};
-    std::function<Instant()> wall = {};  ///< the clock of the people, for leases of jogs; empty: the rack's own time
-    Duration jog_lease = milliseconds(250);             ///< of that clock: a jog that was not renewed for so long ends
+    std::function<Instant()> wall = {};                 ///< wall clock for leases of jogs; empty: virtual time
+    Duration jog_lease = milliseconds(250);             ///< wall-clock time after which a jog without renewal ends
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
-    std::function<void(const control::gcode::CanonCall&)> on_event = {};  ///< the machine passes an event of a program
-    std::vector<InitialAxisState> standing = {};  ///< axes that do not begin where the rack's file says
-    std::string alarm = {};                       ///< the machine begins with it, if there is one
-    std::vector<LivePlace> live = {};             ///< cards for which real ones stand, in service only
+    std::function<void(const control::gcode::CanonCall&)> on_event = {};  ///< for each event of a program
+    std::vector<InitialAxisState> standing = {};  ///< axes with another position than the rack file's
+    std::string alarm = {};                       ///< initial alarm; empty: none
+    std::vector<LivePlace> live = {};             ///< cards replaced by real ones, in service only
     Duration slice = milliseconds(2);
-    Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
-    std::size_t max_alarms = 100;       ///< those that are over and acknowledged go, then the oldest
+    Duration quiet = milliseconds(20);  ///< pause after which a sender's input counts as complete
+    std::size_t max_alarms = 100;       ///< ended and acknowledged alarms are removed first, then the oldest
 };
 
 class Machine {
   public:
-    /// Builds and starts the rack. Axes of a rack without any home switch stand where its file says; the others'
-    /// positions are not trusted; but see `standing`. Errors: as Rack::path_axes.
+    /// Builds and starts the rack. In a rack without home switches the axes start at the rack file's positions.
+    /// Otherwise their positions are not valid, except those in `standing`. Errors: as Rack::path_axes.
     static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
     ~Machine();
 
     // ---- from any thread
-    /// Runs `work` on the motion thread, soon and in order.
+    /// Runs `work` on the motion thread, in order and without delay.
     void post(std::function<void()> work);
-    /// The loop ends after the present slice; motion that runs is stopped first.
+    /// Ends the loop after the present slice; stops any motion first.
     void quit();
 
     // ---- the motion thread
-    /// Works until quit().
+    /// Runs the loop until quit().
     void run();
-    /// Somebody else who is to see every slice's status, and to hear of every stop and reset of a kind within the
-    /// order; on the motion thread. Before run().
+    /// Adds listeners, called on the motion thread: for every slice's status, and for every stop and reset with a kind,
+    /// within the command. Call before run().
     void listen(std::function<void(const Status&)> call, std::function<void(const StopReport&)> on_stop = {}) {
         listeners_.push_back(std::move(call));
         if (on_stop) stop_listeners_.push_back(std::move(on_stop));
     }
 
-    // ---- orders, posted; refused ones (ErrorKind::refused) change nothing
-    /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody.
+    // ---- commands, posted; refused ones (ErrorKind::refused) change nothing
+    /// Enables or disables these axes; empty: all. Disabling stops any motion first; a disabled axis is never moved.
     /// Errors: invalid_input.
     Result<void> enable(bool on, std::string_view axes = {});
-    /// Checks a program whole, then begins it. Errors: invalid_input, its first problem with line and column.
+    /// Checks a whole program, then starts it. Errors: invalid_input: its first problem with line and column.
     Result<void> begin_program(std::string text, std::string name);
-    /// One line, behind those that are there. Refused: a program runs, no room.
+    /// Appends one line to the pending ones. Refused: a program runs, no room.
     control::gcode::Outcome<void> line(std::string_view text, std::int32_t number);
     bool has_room() const { return stream_->has_room() && !program_runs_; }
     Result<void> hold();
     Result<void> resume();
-    /// The STOP order: sets the rack's stop latch, so that everything decelerates, goes off and stays so until a reset;
-    /// programs and lines are forgotten. Never refused. Who listens to stops hears of one with a source at once, and
-    /// the status says who it was.
+    /// STOP command: sets the rack's stop latch. All axes decelerate and stay stopped until a reset; programs and lines
+    /// are dropped. Never refused. A stop with a source is reported to stop listeners immediately, and the status names
+    /// its source.
     void stop(const StopOrigin& by = {});
-    /// Decelerates whatever moves, and forgets programs and lines; no reset is needed afterwards. Never refused. Told
-    /// as a stop is.
+    /// Decelerates all motion, and drops programs and lines; needs no reset. Never refused. Reported like a stop.
     void cancel(const StopOrigin& by = {});
-    /// Ends an error stop and forgets programs and modes; work offsets and positions stay. Stops if something moves.
+    /// Ends an error stop, and drops programs and modal state; work offsets and positions stay. Stops any motion.
     void reset(const StopOrigin& by = {});
-    /// Jogs at `speed` a second (sign: direction; 0 lets go) for as long as it is called again within the lease, and no
-    /// further than to the end of its travel. Refused also: an order that is older than another one of its session, and
-    /// one that only renews where the jog has ended.
+    /// Jogs at `speed` per second (sign: direction; 0 releases) while it is called again within the lease, to the end
+    /// of the travel at most. Also refused: a command older than another one of its session, and a renewal of an ended
+    /// jog.
     Result<void> jog(char axis, double speed, const JogOrigin& origin = {});
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
-    /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run;
-    /// cancel() ends them. Modes stay as they are. Errors: refused, also where no axis may go; invalid_input, an axis
-    /// that the machine has not, or no speed.
+    /// Jogs along a straight line in machine coordinates at `speed` along it, after the running jogs of this kind;
+    /// cancel() ends them. Modal state is unchanged. Errors: refused, also outside the travel; invalid_input for an
+    /// unknown axis or a missing speed.
     Result<void> jog_to(const control::Point& target, double speed);
-    /// Homes these axes; empty: all that have a home switch.
+    /// Homes these axes; empty: all axes with a home switch.
     Result<void> home(std::string axes);
-    /// Declares where an axis stands; it is trusted then. Refused while something moves.
+    /// Sets the position of an axis, which is valid then. Refused while something moves.
     Result<void> set_position(char axis, double position);
     void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
     void set_single_step(bool on) { stream_->set_single_step(single_step_ = on); }
-    /// Switches the coolant, as M7, M8 and M9 do, but at once.
+    /// Switches the coolant immediately, otherwise like M7, M8 and M9.
     void set_coolant(bool mist, bool flood);
-    /// Work offsets, G28 and G30 become 0. Refused while something moves.
+    /// Clears work offsets, G28 and G30. Refused while something moves.
     Result<void> clear_offsets();
-    /// False: there is no such alarm.
+    /// Returns false if the alarm is unknown.
     bool acknowledge(std::int64_t alarm);
-    /// What the machine does can no longer be recorded: no program, line or homing is begun, and nothing held goes on,
-    /// until this program is started anew. What moves decelerates, in a program with a hold; jogs are taken. Raises an
-    /// alarm that stays, the first time.
+    /// Blocks starts because the machine's actions can no longer be recorded. Until the process restarts, no program,
+    /// line or homing starts and nothing resumes. Motion decelerates, a program by a feed hold; jogs remain possible.
+    /// The first call raises a permanent alarm.
     void forbid_starts(std::string source, std::string text);
-    /// Errors: refused, after forbid_starts.
+    /// Errors: refused after forbid_starts.
     Result<void> may_start(const char* what) const;
-    /// What this place of an axis is called in the active work coordinates, as G10 L20 does; mm or degrees.
+    /// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
+    /// degrees.
     Result<void> set_work_zero(char axis, double value);
-    /// One access of the host to a card, done by the loop while the machine stands; `ready` hears what was read, later.
-    /// A card that moves axes is not trusted after a write: they must be homed, or declared. Refused: the machine does
-    /// not stand still, the access is none of this card.
+    /// Performs one host access to a card, in the loop while the machine is at standstill; `ready` later receives the
+    /// value read. After a write, positions of a card that moves axes are not valid: they must be homed or set.
+    /// Refused: the machine is not at standstill, the card does not support the access.
     struct BusAccess {
         std::string card;
         int bits = 16;                       ///< a width of the card's bus
         std::uint32_t address = 0;           ///< on the host's bus
-        std::optional<std::uint32_t> value;  ///< written; without one it is read, with all effects
+        std::optional<std::uint32_t> value;  ///< to write; none: read, with side effects
     };
     Result<void> access(const BusAccess& access, std::function<void(std::uint32_t)> ready);
 
-    // ---- looking, on the motion thread
+    // ---- queries, on the motion thread
     const Status& status() const { return status_; }
     MachineState state() const { return state_; }
-    /// A stop, a reset or a declared position is not carried out yet.
+    /// Returns true while a stop, a reset or a set position is pending.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
-    /// Whether the positions of this axis mean places of the machine.
+    /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
     double feed_override() const { return feed_; }
     double rapid_override() const { return rapid_; }
-    /// How the last homing went, if there was one.
+    /// Result of the last homing, if any.
     const std::optional<rack::HomingOutcome>& last_homing() const { return homed_; }
     const control::StreamExecutor& stream() const { return *stream_; }
     Jogs& jogs() { return jogs_; }
-    /// Calls of a card's function library by hand.
+    /// Manual calls of a card's function library.
     Service& service() { return service_; }
     rack::Rack& rack() { return rack_; }
     rack::WireAccess& wires() { return desk_; }
-    /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if
-    /// there is one.
+    /// For recordings of on-demand pins, for periodic samples, and for the grating bus, if present.
     rack::WireTap& tap() { return tap_; }
     rack::PeriodicSampler& probe() { return probe_; }
     const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }
@@ -198,35 +197,35 @@ class Machine {
     rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;
     std::unique_ptr<control::StreamExecutor> stream_;
-    bool group_holds_ = false;  ///< the card's axes; else each by itself
-    bool hands_over_ = false;   ///< a card is being set up for the other ones: its counters mean nothing
+    bool group_holds_ = false;  ///< true: the axis group drives; false: single axes
+    bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless
     Trust trust_;
     Door door_;
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false;
-    std::optional<std::uint64_t> reset_wanted_;  ///< with StopLatch::trips() when it was ordered
-    bool stop_taken_ = false;                    ///< what the stop latch stops was told to
-    std::string no_starts_;                      ///< why nothing may be begun; empty: it may
-    std::string ordered_by_;                     ///< the STOP that is in force, in words; empty: nobody gave one
-    // the program, or lines one by one
+    std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command
+    bool stop_taken_ = false;                    ///< the axes have received the stop of the stop latch
+    std::string no_starts_;                      ///< reason that blocks starts; empty: starts are permitted
+    std::string ordered_by_;                     ///< description of the stop command in force; empty: none
+    // program, or single lines
     std::string program_, program_name_;
     std::optional<control::gcode::ProgramFlow> walk_;
-    bool over_ = false;  ///< the last line was read, and what may wait for the next one still waits
+    bool over_ = false;  ///< the last line was read, but motion that waits for a next line is pending
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;
     Instant last_line_{};
     double feed_ = 1, rapid_ = 1;
-    // by hand
+    // manual operation
     Jogs jogs_;
     std::optional<std::string> home_wanted_;
-    std::vector<Declared> positions_wanted_;  ///< until all of them are taken
+    std::vector<Declared> positions_wanted_;  ///< pending until all of them are set
     std::optional<rack::HomingOutcome> homed_;
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
     std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
     Service service_{*this};
-    // told
+    // status and listeners
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;
     std::vector<std::function<void(const StopReport&)>> stop_listeners_;
@@ -235,13 +234,13 @@ class Machine {
     std::vector<std::function<void()>> inbox_;
 };
 
-/// Its time and interrupt line, for whoever waits.
+/// Returns the rack's time and interrupt line for waits.
 inline Interrupt& host_of(rack::Rack& rack) {
     return rack.cards().front()->host();
 }
-/// Some axis of this rack.
+/// Returns true if an axis of this rack can be homed.
 bool can_home(const rack::RackConfig& config);
-/// Errors: invalid_input, beginning with `what` was not done.
+/// Errors: invalid_input, with a message that `what` was not done.
 Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter);
 
 }  // namespace motionrack::operate

@@ -1,5 +1,5 @@
-// What a person does by hand: touching off, and accesses to the cards' own buses. Only cards that measure and move
-// nothing are accessed while the machine moves.
+// Manual operation: touch off, and accesses to the cards' own buses. While the machine moves, only cards that measure
+// and move nothing are accessed.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ Result<void> Machine::access(const BusAccess& access, std::function<void(std::ui
     return {};
 }
 
-/// The world runs on meanwhile, and orders come.
+/// Virtual time advances meanwhile, and commands arrive.
 void Machine::access_bus() {
     for (auto& [access, ready] : std::exchange(accesses_, {})) {
         rack::Card& card = *rack_.card(access.card);

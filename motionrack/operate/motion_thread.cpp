@@ -1,4 +1,4 @@
-// The motion thread: one thing at a time, until it is done, with everybody heard every slice.
+// The motion thread: executes one action at a time to its end, and processes the inbox in every slice.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@ bool can_home(const rack::RackConfig& config) {
                        [&](const rack::RackAxis& axis) { return config.can_home(axis); });
 }
 
-// ---- who holds the card's axes
+// ---- driver of the card's axes
 
 namespace {
 
-/// Where an axis stands at the start. `known`: nobody could find out by homing.
+/// Returns the initial state of an axis. `known`: the position cannot be found by homing.
 InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& told, bool known) {
     for (const InitialAxisState& one : told)
         if (one.letter == axis.letter) return one;
@@ -78,10 +78,10 @@ Result<control::Axis*> Machine::take_axis(char letter) {
 
 void Machine::run() {
     while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
-    publish_status();  // where it has come to rest
+    publish_status();  // includes the final positions
 }
 
-/// Between two runs of the kernel, perhaps in the middle of a drive.
+/// Runs between two runs of the kernel, possibly in the middle of a motion.
 void Machine::slice() {
     bool on = false;
     while (!on) {
@@ -100,7 +100,7 @@ void Machine::slice() {
     }
 }
 
-/// In every slice, whatever moves or waits.
+/// Called in every slice, in any state.
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.look();
@@ -120,24 +120,24 @@ void Machine::take_stop() {
 
 namespace {
 
-/// Whoever asked for the stop needs no alarm.
+/// A commanded stop needs no alarm.
 std::string alarm_source(const rack::StopLatch& latch) {
     return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
 }
 
-/// The alarm that is raised next says it of these axes, too.
+/// The alarm that is raised next also covers these axes.
 void supersede(std::vector<Alarm>& alarms, std::string_view axes) {
     for (Alarm& alarm : alarms)
         if (alarm.axis != '\0' && axes.find(alarm.axis) != std::string_view::npos)
             alarm.active = false, alarm.acknowledged = true;
 }
 
-/// An axis that a search for home, or its own card, has left without a position says so itself.
+/// An axis left without a position by homing or by its own card reports that itself.
 bool says_lost(const std::string& text) {
     return text.find("not trusted") != std::string::npos;
 }
 
-/// What stopped the machine, or who, and what to do.
+/// Describes the cause or source of the stop, and the remedy.
 std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_by) {
     const bool ordered = latch.is_ordered() && !ordered_by.empty();
     return fmt::format("{} {}", ordered ? ordered_by : latch.sentence(), latch.advice());
@@ -161,7 +161,7 @@ void Machine::step() {
     host_of(rack_).pass(settings_.slice);
 }
 
-/// Everything stands. Without a source there is no alarm: who asked for the stop needs none.
+/// Enters the error stop at standstill. Without a source no alarm is raised, since the stop was commanded.
 void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
     std::string lost;
@@ -185,14 +185,14 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     enter(MachineState::error_stop, std::move(text));
 }
 
-/// Nothing moves any more after a stop.
+/// Waits for standstill after a stop.
 void Machine::wait_for_standstill() {
     stop_wanted_ = false;
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();
-    if (latch.latched() && state_ != MachineState::error_stop)  // what was lost is lost, whoever resets at once
+    if (latch.latched() && state_ != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
-    const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // of what came later nobody knew
+    const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // no cause since then
     const Result<void> reset = asked ? latch.reset() : Result<void>();
     if (!reset) status_.reason = reset.error().message;
     if (asked && reset) {
@@ -233,7 +233,7 @@ void Machine::drive() {
     const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
-    if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a card's stop ends a hold, too
+    if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a stop by a card also ends a hold
     switch (*driven) {
         case control::ExecutionState::waiting:
             host_of(rack_).pass(milliseconds(1));
@@ -257,7 +257,7 @@ void Machine::drive() {
     }
 }
 
-// ---- by hand
+// ---- manual operation
 
 void Machine::jog_all() {
     const auto take = [this](char letter) { return take_axis(letter); };
@@ -266,7 +266,7 @@ void Machine::jog_all() {
         if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
         status_.reason = one.how.error().message;
         if (one.position_valid || !trust_.of(one.letter)) continue;
-        trust_.lose(one.letter);  // it stopped without a ramp, or does not know its counts
+        trust_.lose(one.letter);  // it stopped without a ramp, or has lost its counts
         supersede(status_.alarms, {&one.letter, 1});
         jogs_.let_go();
         stop_wanted_ = true;
@@ -296,7 +296,7 @@ void Machine::home_all() {
 void Machine::change_positions() {
     Result<void> done;
     for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
-        const Declared declared = positions_wanted_[i];  // others may come meanwhile
+        const Declared declared = positions_wanted_[i];  // more may arrive meanwhile
         const Result<control::Axis*> axis = take_axis(declared.letter);
         done = axis ? trust_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
     }
@@ -305,9 +305,9 @@ void Machine::change_positions() {
     if (!done) status_.reason = done.error().message;
 }
 
-// ---- what is told
+// ---- reported status
 
-/// What moves, or was to move, in a few words.
+/// Describes the running or pending action in a few words.
 std::string Machine::at_work() const {
     if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->current_line());
     if (service_.on()) return "the service of card " + service_.card();

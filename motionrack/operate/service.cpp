@@ -1,4 +1,4 @@
-// Who may begin a service, what ends it, and what the machine has afterwards.
+// Start and end conditions of a service, and the state of the machine afterwards.
 #include <fmt/format.h>
 
 #include <motionrack/operate/machine.hpp>
@@ -11,7 +11,7 @@ namespace motionrack::operate {
 namespace {
 
 constexpr Duration look_at_stop_every = milliseconds(1);
-/// So often a stop is looked at; pulses end with the command.
+/// Limit of the looks after a stop; pulses end with the command.
 constexpr int max_looks = 100;
 
 }  // namespace
@@ -32,7 +32,7 @@ std::string Service::axes_of(const std::string& card) const {
     return letters;
 }
 
-// ---- orders
+// ---- commands
 
 Result<void> Service::check_begin(const std::string& card) const {
     static constexpr const char* what = "The service was not begun";
@@ -113,7 +113,7 @@ void Service::step() {
     if (stop_) finish();
 }
 
-/// The controller lets go of the card; what it knew of its axes is void from here on, whatever comes.
+/// Takes the card from the controller. Its positions of these axes are invalid from here on, in any case.
 void Service::take() {
     rack::Card& card = *machine_.rack_.card(card_);
     std::string lost;
@@ -191,7 +191,8 @@ void Service::watch_live() {
     if (live_->lost()) stop_ = true;
 }
 
-/// What a real card's axes may still do is an alarm. It stays until they were seen standing after another service.
+/// Possible remaining motion of a real card is an alarm. It stays until its axes are seen at standstill after another
+/// service.
 void Service::stop_axes() {
     if (!live_) {
         library_->stop_now();
@@ -208,7 +209,7 @@ void Service::stop_axes() {
     machine_.status_.alarms.back().stays = !stop.stands;
 }
 
-/// Nothing of the card moves afterwards, and the controller has it as it wants it.
+/// Ends all motion of the card and initialises it for the controller.
 void Service::finish() {
     if (library_) {
         stop_axes();

@@ -1,12 +1,11 @@
-// Service of a card: orders call the functions of its library one by one, and the controller drives nothing.
+// Service of a card: single calls of its library functions, while the controller drives nothing.
 //
-//   standstill ──begin──► service: chip reset, its axes not trusted ══ call, call, .. ══ end ──► standstill, home again
-//                            │ STOP, emergency stop, alarm, limit switch ──► axes stop at once ──► error stop
-//                            └ control lost, client gone, disabling, door, end of the program ──► axes stop at once
+//   standstill ──begin──► service: chip reset, its axes invalid ══ call, call, .. ══ end ──► standstill, home again
+//                            │ STOP, emergency stop, alarm, limit switch ──► axes stop immediately ──► error stop
+//                            └ control lost, client gone, disabling, door, end of the program ──► immediate stop
 //
-// A card that moves no axis of the machine needs no standstill of its own: its first call begins the service. Axes stop
-// without a ramp, because a ramp would be the one that the calls have written. A real card may stand for such a card:
-// see live_card.hpp.
+// A card without axes of the machine needs no standstill: its first call starts the service. Axes stop without a ramp,
+// because the calls themselves write the ramp settings. A real card may replace such a card: see live_card.hpp.
 #pragma once
 
 #include <atomic>
@@ -25,52 +24,53 @@ namespace motionrack::operate {
 
 class Machine;
 
-/// The functions of a card's library. Errors: invalid_input, with the cards that there are; refused, it has no library.
+/// Functions of a card's library. Errors: invalid_input, listing the available cards; refused if it has no library.
 Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::string& card);
 
-/// Only the motion thread uses it: orders note, step() does.
+/// Used only by the motion thread: commands record requests, step() executes them.
 class Service {
   public:
     struct Call {
         std::string card, function;
         std::map<std::string, std::int64_t, std::less<>> arguments;
     };
-    /// Hears a sentence once the service has begun, or has ended.
+    /// Called with a sentence once the service has started or ended.
     using Told = std::function<void(Result<std::string>)>;
     using Answered = std::function<void(Result<CallAnswer>)>;
 
     explicit Service(Machine& machine) : machine_(machine) {}
-    /// A real card's axes stop first.
+    /// Stops the axes of a real card first.
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
 
-    /// The machine must stand, enabled where the card moves one of its axes. Refused else, also while a stop is in
-    /// force and where the card has no library.
+    /// Starts a service. The machine must be at standstill, and enabled if the card moves one of its axes. Also refused
+    /// while a stop is in force, or if the card has no library.
     Result<void> begin(const std::string& card, const StopOrigin& by, const std::string& session, Told ready);
-    /// Stops the axes and gives the card back. Refused: there is no service.
+    /// Stops the axes and returns the card to the controller. Refused without a service.
     Result<void> end(Told ready);
-    /// One function; checked now, called by the loop, `ready` hears what it gave. Refused: no service of a card that
-    /// moves axes of the machine, another card's service, a call that still works. Errors: invalid_input, refused.
+    /// Requests one function call: checked now, executed by the loop; `ready` receives the result. Refused: no service
+    /// of a card that moves axes of the machine, another card's service, a running call. Errors: invalid_input,
+    /// refused.
     Result<void> call(Call call, const StopOrigin& by, const std::string& session, Answered ready);
-    /// The session that began it is gone, or has lost control.
+    /// Handles the end of the session that started the service, or its loss of control.
     void end_of(const std::string& session);
-    /// Functions that wait return, and the loop ends the service.
+    /// Makes waiting functions return; the loop then ends the service.
     void break_off() { stop_ = stop_ || on(); }
 
     bool on() const { return !card_.empty(); }
     const std::string& card() const { return card_; }
     const std::string& session() const { return session_; }
-    /// The function that works at this moment; empty: none.
+    /// Function being executed; empty: none.
     const std::string& working() const { return working_; }
-    /// The cards for which real ones stand, and the place of one; nullptr: it is virtual.
+    /// Cards replaced by real ones, and the address of one; nullptr: the card is virtual.
     std::span<const LivePlace> live_places() const;
     const LivePlace* live_place(std::string_view card) const;
-    /// The real card that is in service; nullptr: there is none.
+    /// Real card in service; nullptr: none.
     const LiveCard* live() const { return live_.get(); }
-    /// What the last service took from the axes, with a blank in front; once.
+    /// Returns once, with a leading blank, the loss caused by the last service.
     std::string take_note() { return std::exchange(note_, {}); }
-    /// One turn of the loop, while it is on.
+    /// One iteration of the loop while the service is active.
     void step();
 
   private:
@@ -79,7 +79,7 @@ class Service {
         std::string name;
         Answered ready;
     };
-    /// The letters of the machine's axes that it moves.
+    /// Letters of the machine's axes that the card moves.
     std::string axes_of(const std::string& card) const;
     Result<void> check_begin(const std::string& card) const;
     Result<void> take_library();
@@ -95,7 +95,7 @@ class Service {
     std::atomic<bool> stop_{false};
     Told begun_, ended_;
     std::unique_ptr<LiveCard> live_;
-    std::unique_ptr<FunctionLibrary> library_;  ///< last of the two: it writes to the card
+    std::unique_ptr<FunctionLibrary> library_;  ///< destroyed first of the two: it writes to the card
     std::optional<Pending> pending_;
 };
 

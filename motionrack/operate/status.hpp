@@ -1,4 +1,4 @@
-// What people see of a machine that they operate: one picture of it at one instant.
+// Status of an operated machine: one snapshot at one instant.
 #pragma once
 
 #include <array>
@@ -12,95 +12,96 @@
 namespace motionrack::operate {
 
 enum class MachineState : std::uint8_t {
-    disabled,  ///< takes no motion until an axis is enabled
+    disabled,  ///< accepts no motion until an axis is enabled
     standstill,
     homing,
-    moving,  ///< drives lines of G-code
+    moving,  ///< executes lines of G-code
     jogging,
-    hold,  ///< stands in a program, which goes on with resume
+    hold,  ///< feed hold of a program, which resume continues
     stopping,
-    error_stop,  ///< stopped by the machine; reset ends it
-    service      ///< somebody calls the functions of a card's library; the controller drives nothing
+    error_stop,  ///< stopped by the machine; a reset ends it
+    service      ///< manual calls of a card's library functions; the controller drives nothing
 };
-/// "standstill", "error stop".
+/// Returns "standstill", "error stop".
 std::string_view name_of(MachineState state);
-/// Whether nothing moves in it and nothing waits to go on.
+/// Returns true if nothing moves and no motion is pending in this state.
 constexpr bool idle(MachineState state) {
     return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::error_stop;
 }
-/// Whether nothing moves in it.
+/// Returns true if nothing moves in this state.
 constexpr bool is_stationary(MachineState state) {
     return idle(state) || state == MachineState::hold;
 }
 
-/// An alarm as ISA-18.2 has them: it is there until it was acknowledged and its cause is gone.
+/// An alarm according to ISA-18.2: active until it is acknowledged and its cause is gone.
 struct Alarm {
-    std::int64_t number = 0;  ///< from 1
+    std::int64_t number = 0;  ///< starts at 1
     Instant at{};
     std::string source;  ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine",
                          ///< "position", "following error", "stage", "journal"
     std::string text;
     bool active = true, acknowledged = false;
-    bool stays = false;  ///< no reset ends its cause
-    char axis = '\0';    ///< that is not trusted, or stays behind: an alarm that stops the machine for it replaces this
+    bool stays = false;  ///< a reset does not end its cause
+    char axis = '\0';    ///< axis that is invalid or has a following error; an alarm that stops the machine for it
+                         ///< replaces this one
 };
 
 struct AxisStatus {
     char letter = 'X';
     bool rotary = false;          ///< degrees instead of mm
-    bool position_valid = false;  ///< the positions mean places of the machine
+    bool position_valid = false;  ///< the positions are valid
     bool enabled = false;
-    double commanded = 0;      ///< what the card's pulses say
-    double actual = 0;         ///< what the encoder says; commanded without one
-    double true_position = 0;  ///< where the table really is, whatever any counter says
-    double speed = 0;          ///< a second, signed
-    std::int64_t pulses = 0;   ///< the card's counters
+    double commanded = 0;      ///< position by the card's pulses
+    double actual = 0;         ///< position by the encoder; `commanded` without one
+    double true_position = 0;  ///< true position of the table, independent of any counter
+    double speed = 0;          ///< per second, signed
+    std::int64_t pulses = 0;   ///< counters of the card
     std::int64_t counts = 0;
 };
 
-/// Who asks for a stop, and how.
+/// Source and kind of a stop request.
 struct StopOrigin {
-    std::string who = {};      ///< "anna"; empty: nobody who is known by name
-    std::string address = {};  ///< "192.168.1.5", "127.0.0.1:4711", a path; empty: this program itself
-    std::string kind = {};     ///< "STOP", "Reset", "^X", "Disabling", "Shutdown"; empty: nobody needs to hear of it
+    std::string who = {};      ///< "anna"; empty: unknown user
+    std::string address = {};  ///< "192.168.1.5", "127.0.0.1:4711", a path; empty: this process itself
+    std::string kind = {};     ///< "STOP", "Reset", "^X", "Disabling", "Shutdown"; empty: not reported
     bool operator==(const StopOrigin&) const = default;
 };
 
-/// A stop or a reset that was ordered. Who streams lines must not go on by itself afterwards: what it sends next was
-/// meant to be driven behind what was dropped.
+/// A commanded stop or reset. A client that streams lines must not continue by itself afterwards: its next lines were
+/// meant to follow the dropped ones.
 struct StopReport {
     Instant at{};
     StopOrigin source;
-    MachineState state = MachineState::standstill;  ///< in which it came
+    MachineState state = MachineState::standstill;  ///< state at the command
     std::string text;                               ///< "STOP by anna (192.168.1.5): line 12 was stopped."
-    bool releases = false;  ///< a reset of a machine that stood: who was stopped before may go on
+    bool releases = false;                          ///< a reset at standstill: clients stopped before may continue
 };
 
-/// Where an axis stands when a machine is made.
+/// State of an axis when a machine is created.
 struct InitialAxisState {
     char letter = 'X';
-    double true_position = 0;  ///< of the table
-    double commanded = 0;      ///< as the card's counter has it
+    double true_position = 0;  ///< true position of the table
+    double commanded = 0;      ///< position by the card's counter
     bool position_valid = false;
 };
 
 struct Status {
     Instant at{};
-    std::int64_t sequence = 0;  ///< of this picture, from 1
+    std::int64_t sequence = 0;  ///< number of this status, from 1
     MachineState state = MachineState::disabled;
-    std::string reason;  ///< the sentence that stopped it last, or why it holds
+    std::string reason;  ///< reason of the last stop, or of the hold
     std::vector<AxisStatus> axes;
-    std::string program;    ///< name; empty: none was begun
-    std::int32_t line = 0;  ///< being driven
+    std::string program;    ///< name; empty: none started
+    std::int32_t line = 0;  ///< current line
     std::int32_t lines = 0;
     bool program_runs = false, single_step = false;
-    control::gcode::Spindle spindle = control::gcode::Spindle::off;  ///< as the last program or line has passed it
+    control::gcode::Spindle spindle = control::gcode::Spindle::off;  ///< state set by the last executed program or line
     double spindle_rpm = 0;
     bool mist = false, flood = false;
     double feed_override = 1, rapid_override = 1;
-    std::string homing;         ///< "X SLOW_WAIT, Y HOMED": how far the last homing came
-    std::string service;        ///< the card that is in service; empty: none
-    bool real = false;          ///< it is a real one, which moves
+    std::string homing;         ///< "X SLOW_WAIT, Y HOMED": progress of the last homing
+    std::string service;        ///< card in service; empty: none
+    bool real = false;          ///< the card in service is a real one, which moves
     std::vector<Alarm> alarms;  ///< oldest first
 };
 

@@ -1,4 +1,4 @@
-// Trust gained and lost.
+// Gains and losses of position validity.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace motionrack::operate {
 
 namespace {
 
-/// What a stop at once does to a motor that was fast shows some milliseconds later.
+/// Delay after which the effect of an immediate stop on a fast motor shows.
 constexpr Duration look_every = milliseconds(20);
 
 }  // namespace
@@ -40,7 +40,7 @@ void Trust::begin_at_home(char letter, Instant since) {
     begin(letter, {since, watch_.mark(number(letter)).lost_pulses});
 }
 
-/// The counter of a card that was reset means nothing at once. While a stop comes, its own alarm tells of it.
+/// The counters of a reset card are meaningless immediately. During a stop, the stop's own alarm reports this.
 void Trust::lose_reset(bool comes_to_rest, std::vector<Alarm>& out) {
     const rack::StopLatch& latch = rack_.stop_latch();
     if (std::exchange(trips_, latch.trips()) == latch.trips() || !latch.tripped_by(rack::StopSource::watchdog)) return;
@@ -57,7 +57,7 @@ void Trust::lose_reset(bool comes_to_rest, std::vector<Alarm>& out) {
     }
 }
 
-/// While axes search home nothing is known of them yet; while a stop comes its own alarm says what is lost by it.
+/// During homing positions are not known yet; during a stop, the stop's own alarm reports the losses.
 std::vector<Alarm> Trust::look(Instant now, MachineState state) {
     std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;
@@ -75,7 +75,7 @@ std::vector<Alarm> Trust::look(Instant now, MachineState state) {
             continue;
         }
         const char letter = rack_.axes()[found.axis].config.letter;
-        if (!of(letter)) continue;  // known, and its counters mean nothing
+        if (!of(letter)) continue;  // invalid already, and its counters are meaningless
         if (found.lost) lose(letter);
         Alarm& alarm = out.emplace_back();
         alarm.source = found.follows_badly ? "following error" : "position";

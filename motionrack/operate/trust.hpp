@@ -1,4 +1,4 @@
-// Which positions of a machine mean places of it: gained by homing and declaring, lost as in a program that is run.
+// Position validity of a machine's axes: gained by homing or setting the position, lost as in a program run.
 #pragma once
 
 #include <array>
@@ -11,40 +11,40 @@
 
 namespace motionrack::operate {
 
-/// Somebody says where an axis stands; its card takes that over a little later.
+/// A set position of an axis; its card takes it over slightly later.
 struct Declared {
     char letter = 'X';
     double position = 0;
-    rack::TrustWatch::Mark stood;  ///< when it was said
+    rack::TrustWatch::Mark stood;  ///< state at the command
 };
 
-/// Axes by their letters, which the rack has.
+/// Identifies axes of the rack by letter.
 class Trust {
   public:
-    /// Nothing is trusted. The rack must outlive this.
+    /// All positions start as invalid. The rack must outlive this.
     explicit Trust(rack::Rack& rack) : rack_(rack), watch_(rack) {}
 
     bool of(char letter) const { return trusted_[index(letter)]; }
     void lose(char letter) { trusted_[index(letter)] = false; }
     Declared declared(char letter, double position) const { return {letter, position, watch_.mark(number(letter))}; }
-    /// It is trusted then; what it has lost since it was declared is lost. Errors: as Axis::set_position.
+    /// Makes a set position valid, less any loss since the command. Errors: as Axis::set_position.
     Result<void> take(control::Axis& axis, const Declared& declared);
-    /// It is trusted, and where it says since then.
+    /// Makes the position of a homed axis valid from `since`.
     void begin_at_home(char letter, Instant since);
-    /// What was lost since the last look, counts wrongly or stays behind: alarms with source, text and axis. Now
-    /// and then, between drives.
+    /// Returns alarms with source, text and axis for losses, count errors and following errors since the last look.
+    /// Call regularly between motions.
     std::vector<Alarm> look(Instant now, MachineState state);
-    /// At standstill: takes the trust from axes that do not know their positions any more. Their letters: "X, Y".
+    /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "X, Y".
     std::string lose_unknown();
 
   private:
     std::size_t index(char letter) const;
-    std::size_t number(char letter) const;  ///< in Rack::axes()
+    std::size_t number(char letter) const;  ///< index in Rack::axes()
     void begin(char letter, const rack::TrustWatch::Mark& from);
     void lose_reset(bool comes_to_rest, std::vector<Alarm>& out);
 
     rack::Rack& rack_;
-    std::uint64_t trips_ = 0;  ///< of the stop latch, looked at
+    std::uint64_t trips_ = 0;  ///< evaluated trips of the stop latch
     rack::TrustWatch watch_;
     std::array<bool, control::axis_count> trusted_ = {};
     Instant due_{};
