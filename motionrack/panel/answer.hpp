@@ -1,4 +1,4 @@
-// Who asks, and what is answered: the words between the panel and whoever carries them over a network.
+// Callers and answers: the interface between the panel and its network front ends.
 #pragma once
 
 #include <motionrack/auth/role.hpp>
@@ -13,26 +13,26 @@ namespace motionrack::panel {
 struct Caller {
     std::string user;
     auth::Role role = auth::Role::none;
-    std::string session;       ///< one connection or token: what holds the control lease
-    std::string address = {};  ///< where it came from, for the journal
+    std::string session;       ///< one connection or token: holder of the control lease
+    std::string address = {};  ///< origin of the request, for the journal
 };
 
-/// `status` as in HTTP: 200, 400 invalid_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine,
+/// `status` as in HTTP: 200, 400 invalid_input, 401 no token, 403 denied, 404 unknown name, 409 refused, 500 machine,
 /// 503 gone.
 struct Answer {
     int status = 200;
     nlohmann::json body;  ///< {"done":true, ...} or {"error":{"trouble","message","line","column"}}
 };
 
-/// {"done":true} and the members of `fields`.
+/// Returns {"done":true} and the members of `fields`.
 Answer done(nlohmann::json fields = nlohmann::json::object());
 /// `trouble`: invalid_input, refused, denied, machine, io, limit.
 Answer refused_answer(int status, std::string_view trouble, std::string message);
 Answer error_answer(const Error& error);
 
-/// Something that happened, for everybody who looks.
+/// An event, sent to all observers.
 struct Event {
-    std::int64_t number = 0;  ///< from 1
+    std::int64_t number = 0;  ///< starts at 1
     Instant at{};
     std::string kind;  ///< alarm, state, job, order, setting, stop
     std::string text;
@@ -40,7 +40,7 @@ struct Event {
 };
 nlohmann::json to_json(const Event& event);
 
-/// As JSON text; what is no UTF-8 is replaced.
+/// Returns JSON text; invalid UTF-8 is replaced.
 std::string text_of(const nlohmann::json& value);
 
 }  // namespace motionrack::panel

@@ -1,4 +1,4 @@
-// A thread for what takes long and needs no rack: planning, encoding, reading the journal.
+// A thread for long work without the rack: planning, encoding, reading the journal.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@ class BackgroundWorker {
     static constexpr std::size_t max_waiting = 32;
 
     BackgroundWorker() : thread_([this] { work(); }) {}
-    /// What waits is dropped.
+    /// Drops pending work.
     ~BackgroundWorker() {
         {
             const std::lock_guard<std::mutex> alone(lock_);
@@ -26,7 +26,7 @@ class BackgroundWorker {
     BackgroundWorker(const BackgroundWorker&) = delete;
     BackgroundWorker& operator=(const BackgroundWorker&) = delete;
 
-    /// Any thread, never waits. False: too much waits already, and `work` was not taken.
+    /// May be called from any thread; never waits. Returns false, without accepting `work`, if too much is pending.
     bool post(std::function<void()> work) {
         {
             const std::lock_guard<std::mutex> alone(lock_);

@@ -1,4 +1,4 @@
-// One card, whatever it is.
+// A card of any type as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ json register_json(const std::string& name, const RegisterInfo& reg, std::uint32
     return {{"name", name}, {"register", reg.name}, {"word", word}, {"fields", std::move(fields)}};
 }
 
-/// "RR0", or "x.RR1" of one axis, as the virtual card calls it.
+/// Returns "RR0", or "x.RR1" for one axis, as on the virtual card.
 std::string live_name(const std::string& axis, std::string_view name) {
     if (axis.empty()) return std::string(name);
     return fmt::format("{}.{}", static_cast<char>(std::tolower(static_cast<unsigned char>(axis.front()))), name);

@@ -1,4 +1,4 @@
-// What single kinds of card have beside registers: the slope table of a DataBoard 4002, the frames of the grating bus.
+// Special views of single card types: the slope table of a DataBoard 4002, the frames of the grating bus.
 #include <fmt/format.h>
 
 #include <motionrack/panel/card_view.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 namespace db = databoard4002;
 
-/// The intervals of one half as steps: Hz over the distance, counts.
+/// Intervals of one half as steps: Hz over the distance in counts.
 json half_of(const char* name, const db::SlopeTable& table, int first) {
     json points = json::array();
     std::int64_t from = 0;
@@ -31,7 +31,7 @@ json half_of(const char* name, const db::SlopeTable& table, int first) {
 
 constexpr std::size_t shown_scales = 32;
 
-/// Those with a loop. One that a stop has brought to rest waits until somebody starts it.
+/// Stages with a control loop. After a stop, a stage waits for a start command.
 json looped_stages(rack::Rack& rack) {
     const Instant now = rack.kernel().now();
     json out = json::array();

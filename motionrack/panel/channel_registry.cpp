@@ -1,4 +1,4 @@
-// The list of channels, and reading those that somebody looks at.
+// Lists channels and reads the subscribed ones.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// "position_mm" -> "mm", "speed_deg_s" -> "deg/s"; from the end of a quantity's name.
+/// Returns "mm" for "position_mm", "deg/s" for "speed_deg_s": the end of a quantity's name.
 std::string_view unit_of(std::string_view name) {
     static constexpr std::pair<std::string_view, std::string_view> endings[] = {
         {"_mm_s", "mm/s"}, {"_deg_s", "deg/s"}, {"_mm", "mm"}, {"_deg", "deg"}, {"_nm", "nm"},
@@ -51,7 +51,7 @@ std::vector<std::string> register_names(const rack::CardType& type, const Regist
 
 ChannelRegistry::ChannelRegistry(operate::Machine& machine) : service_(machine.service()) {
     add_axes(machine);
-    add_wires(machine);  // before the quantities: where a switch and its wire have one name, it is the wire's
+    add_wires(machine);  // before the quantities: the wire wins if a switch has the same name
     add_quantities(machine.rack());
     add_cards(machine.rack());
 }

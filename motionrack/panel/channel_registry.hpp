@@ -1,4 +1,4 @@
-// Numbers that people can look at while the machine runs, by name.
+// Numeric channels by name, readable while the machine runs.
 //
 //   "X.commanded"  "X.position_mm"  "c1.xlmtp"  "estop"  "c1.x.LP"  "c1.fout_hz"
 //    status         quantity         wire                 inspect     card's quantity
@@ -16,10 +16,10 @@
 
 namespace motionrack::panel {
 
-/// When a channel can be looked at.
+/// When a channel can be read.
 enum class ChannelReader : std::uint8_t {
     edges,    ///< a digital wire: a recording has every change
-    anytime,  ///< also within a run of the kernel: reading it does not allocate
+    anytime,  ///< also within a run of the kernel: reading does not allocate
     slices    ///< between runs
 };
 std::string_view name_of(ChannelReader looks);
@@ -29,27 +29,27 @@ struct Channel {
     std::string unit;
     std::string text;  ///< one sentence
     ChannelReader looks = ChannelReader::slices;
-    std::function<double()> read;  ///< on the motion thread; without effects
+    std::function<double()> read;  ///< on the motion thread; without side effects
 };
 
-/// "c1" of "c1.x.LP".
+/// Returns "c1" for "c1.x.LP".
 std::string_view card_part(std::string_view name);
 
-/// Names by which a card's inspect knows a register: one, or one a channel.
+/// Names under which a card's inspect() knows a register: one name, or one per channel.
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg);
 
 class ChannelRegistry {
   public:
-    /// Those of the virtual chip are left out where a real card stands for it.
+    /// Channels of a virtual chip are left out if a real card replaces it.
     explicit ChannelRegistry(operate::Machine& machine);
 
     /// All channels by name.
     const std::map<std::string, Channel, std::less<>>& all() const { return channels_; }
-    /// nullptr if there is none.
+    /// Returns nullptr if the channel is unknown.
     const Channel* find(std::string_view name) const;
-    /// Errors: invalid_input with the name that there is not, more than Panel::max_channels.
+    /// Errors: invalid_input with the unknown name, or for more than Panel::max_channels.
     Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
-    /// Reads the sets that somebody holds, and forgets the others.
+    /// Reads the sets in use, and removes the others.
     void show(std::int64_t sequence, Instant at);
 
   private:

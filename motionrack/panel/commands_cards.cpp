@@ -1,4 +1,4 @@
-// Orders to cards, wires and the clock, as a person with a screwdriver gives them.
+// Commands to cards, wires and the clock, for manual tests.
 #include <fmt/format.h>
 
 #include <array>
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Refused for a card for which a real one stands: what is done to the virtual one would be taken for its own.
+/// Refused for a card replaced by a real one, since effects on the virtual card would be mistaken for its own.
 Result<void> check_virtual(PanelContext& desk, std::string_view name, std::string_view what) {
     const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
     if (live == nullptr) return {};

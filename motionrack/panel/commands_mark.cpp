@@ -1,5 +1,5 @@
-// Marking with a laser card of the rack while the rack runs: a job becomes a list, which the card works off over what
-// its scan head sees.
+// Marks with a laser card of the rack while the rack runs: a job becomes a list, which the card executes with the
+// positions of its scan head.
 //
 //   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──►
 //   work piece
@@ -19,17 +19,17 @@ namespace {
 
 using Commands = std::vector<rtc5::Command>;
 
-/// What the card gets.
+/// Lists for the card.
 struct Lists {
     std::shared_ptr<const rtc5::Table> table;
     Commands main;
-    Commands arming;  ///< before the first part; empty: the list is begun at once
+    Commands arming;  ///< before the first part; empty: the list starts immediately
     double tracking_us = 0;
     bool follows = false;
     std::vector<std::string> notes;
 };
 
-/// The rack knows its optics, laser and belt better than the job.
+/// Replaces the job's optics, laser and belt by the rack's, which are more accurate.
 void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, const std::string& card) {
     for (const rack::RackScanner& scanner : config.scanners) {
         if (scanner.card != card) continue;
@@ -48,7 +48,7 @@ void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, c
     }
 }
 
-/// In the worker.
+/// Runs in the worker.
 Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, const std::string& text,
                        const std::string& drawing, bool on_parts) {
     mark::JobRead read = mark::read_job(text, "job");
@@ -86,7 +86,7 @@ Result<void> not_stopped(PanelContext& desk) {
     return fail(ErrorKind::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
 }
 
-/// On the motion thread, between runs.
+/// Call on the motion thread, between runs.
 Result<json> begin_marking(PanelContext& desk, const std::string& card, const Lists& lists) {
     MOTIONRACK_CHECK(not_stopped(desk));
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
@@ -106,7 +106,7 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
         engine.set_control_mode(0);
         MOTIONRACK_CHECK(engine.execute_list(1));
     } else {
-        // Each part's edge starts list 1; starts reset the encoders only if a correction has asked for it before.
+        // Each part's edge starts list 1; starts reset the encoders only after a correction has requested it.
         MOTIONRACK_CHECK(mark::put_all(engine, 2, lists.arming));
         engine.set_extstartpos(0);
         engine.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start);
@@ -134,7 +134,7 @@ void mark(PanelContext& desk, const json& fields, Ready ready) {
     });
 }
 
-/// Starts are no longer taken, and what runs ends.
+/// Blocks further starts and ends the running list.
 Result<json> stop(PanelContext& desk, const json& fields) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_card(desk, card));

@@ -1,4 +1,4 @@
-// Orders that move the machine by hand, stop it, and take control of it.
+// Commands that move the machine manually, stop it, and take control of it.
 #include <fmt/format.h>
 
 #include <array>
@@ -56,7 +56,7 @@ constexpr std::array motion = {
     OperationHandler{"jog_stop",
                      [](PanelContext& desk, const Caller& caller, const json& fields) -> Result<json> {
                          static_cast<void>(
-                             desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is never too old
+                             desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is accepted at any age
                          if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
                          return json::object();
                      }},

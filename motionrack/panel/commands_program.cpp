@@ -1,4 +1,4 @@
-// Orders about programs, lines, their speed, and alarms.
+// Commands for programs, lines, overrides and alarms.
 #include <fmt/format.h>
 
 #include <array>
@@ -10,7 +10,7 @@ using nlohmann::json;
 
 namespace {
 
-/// How a program that begins at this moment is read.
+/// Reader state of a program that starts now.
 struct Reading {
     control::gcode::Settings settings;
     double accel_reserve = 0;
@@ -19,7 +19,7 @@ Reading reading_of(PanelContext& desk) {
     return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->accel_reserve()};
 }
 
-/// The plan is there a little later than the motion.
+/// The plan is ready slightly after the start of motion.
 void plan_aside(PanelContext& desk, const Reading& reading, std::string text, std::string name) {
     desk.plan.reset();
     desk.worker.post([&desk, number = ++desk.programs, reading, text = std::move(text), name = std::move(name)] {

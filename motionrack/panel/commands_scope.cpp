@@ -1,4 +1,4 @@
-// Orders and queries of the scope.
+// Commands and queries of the scope.
 #include <array>
 #include <motionrack/panel/panel_context.hpp>
 
@@ -22,7 +22,7 @@ Result<json> arm(PanelContext& desk, const json& fields) {
     return accepted(desk.scope.arm(settings));
 }
 
-/// The data are written as JSON beside the motion.
+/// Writes the data as JSON in the worker, in parallel with motion.
 void look(PanelContext& desk, const json& fields, Ready ready) {
     const ScopeSettings& settings = desk.scope.settings();
     json out = {{"state", name_of(desk.scope.state())},

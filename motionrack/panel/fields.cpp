@@ -1,4 +1,4 @@
-// Checking what was sent against the tables: unknown names, missing and wrong fields, each with a sentence.
+// Checks input against the specs: unknown names, missing and wrong fields, each with a sentence.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -16,7 +16,7 @@ tl::unexpected<Error> wrong(const OperationSpec& row, std::string_view what) {
     return fail(ErrorKind::invalid_input, fmt::format("{} was not done: {}", row.name, what));
 }
 
-/// Whether a text is one of "a|b|c".
+/// Returns true if the text is one of "a|b|c".
 bool one_of(std::string_view words, std::string_view text) {
     for (;;) {
         const std::size_t bar = words.find('|');
@@ -50,7 +50,7 @@ Result<void> check_text(const OperationSpec& row, const FieldSpec& field, const 
     return {};
 }
 
-/// Whole numbers that a double holds exactly.
+/// Limit of whole numbers that a double holds exactly.
 constexpr double max_whole = 9e15;
 
 Result<void> check_numbers(const OperationSpec& row, const FieldSpec& field, const json& value) {

@@ -1,4 +1,4 @@
-// The tables as OpenAPI 3.0 and as a page.
+// The operation specs as OpenAPI 3.0 and as a page.
 #include <fmt/format.h>
 
 #include <motionrack/panel/answer.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// "a|b" as a list.
+/// Splits "a|b" into a list.
 json words_of(std::string_view words) {
     json list = json::array();
     for (;;) {

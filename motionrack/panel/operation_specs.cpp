@@ -1,4 +1,4 @@
-// The tables of orders and queries.
+// Tables of commands and queries.
 #include <algorithm>
 #include <array>
 #include <motionrack/panel/operation_specs.hpp>

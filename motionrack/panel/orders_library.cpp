@@ -1,4 +1,4 @@
-// Calls of a card's function library by hand: what there is, the service in which it is called, one call.
+// Manual calls of a card's function library: list of functions, the service for the calls, single calls.
 #include <fmt/format.h>
 
 #include <array>
@@ -38,7 +38,7 @@ Result<json> library_of(PanelContext& desk, const json& fields) {
     return json{{"functions", std::move(out)}};
 }
 
-// ---- orders
+// ---- commands
 
 operate::StopOrigin origin_of(const Caller& caller) {
     return {caller.user, caller.address, {}};
@@ -58,8 +58,8 @@ void service(PanelContext& desk, const Caller& caller, const json& fields, const
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
-/// Of a call that the library refused, or that ended otherwise, and of the begin of one that waits: whatever becomes of
-/// the program meanwhile, what it drove is known.
+/// Records a call that was rejected or has ended, and the start of a call that waits. So the journal shows its motion
+/// even if the program ends meanwhile.
 void note_call(PanelContext& desk, const Caller& caller, const std::string& function, const std::string& what) {
     const json data = {{"order", "call"}, {"user", caller.user}};
     const Event& event = desk.book.add(

@@ -1,4 +1,4 @@
-// Asking: checked in the caller's thread, done on the motion thread.
+// Requests are checked in the caller's thread and executed on the motion thread.
 #include <fmt/format.h>
 
 #include <motionrack/base/fnv.hpp>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Characters of a call's arguments in the journal: those of each function fit.
+/// Maximum length of a call's arguments in the journal; those of each function fit.
 constexpr std::size_t max_argument_bytes = 400;
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string session_mark(std::string_view session) {
     return fmt::format("{:016x}", fnv_of(session));
 }
 
-/// The motion thread's side.
+/// Part of the panel on the motion thread.
 class Panel::Inside {
   public:
     Inside(Panel& panel, operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
@@ -52,7 +52,7 @@ class Panel::Inside {
         show(machine.status());
     }
 
-    /// Every slice: what changed is told; now and then a picture.
+    /// Call every slice: reports changes, and publishes a status periodically.
     void look(const operate::Status& status) {
         loss_.look();
         look_for_control();
@@ -83,7 +83,7 @@ class Panel::Inside {
     PanelContext& desk() { return desk_; }
 
   private:
-    /// A service ends with the control of the session that began it.
+    /// Ends a service when the session that started it loses control.
     void look_for_control() {
         operate::Service& service = desk_.machine.service();
         if (!service.on()) return;
@@ -97,7 +97,7 @@ class Panel::Inside {
         desk_.channels.show(status.sequence, status.at);
     }
 
-    /// What cards and parts have reported: lost steps, missed edges.
+    /// Reports conditions of cards and parts: lost steps, missed edges.
     void tell_conditions(std::chrono::steady_clock::time_point real) {
         if (real - looked_ < 20 * desk_.settings.picture_every) return;
         looked_ = real;
@@ -115,7 +115,7 @@ class Panel::Inside {
         told_ = first + all.size();
     }
 
-    /// Orders that were done are events; the answer waits for the journal.
+    /// Executed commands become events; their answer waits for the journal.
     void finish(const OperationSpec& row, const Caller& caller, const json& fields, const Reply& reply,
                 Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
@@ -129,11 +129,11 @@ class Panel::Inside {
              }});
     }
 
-    /// Orders come into the journal behind what the machine became by them: what is answered is what a next run will
-    /// know.
+    /// Commands enter the journal after their effects on the machine, so that the next run knows everything that was
+    /// answered.
     void answer_orders() {
         for (Taken& one : std::exchange(taken_, {})) {
-            // It has an entry as a stop; one more of each would let strangers fill the journal.
+            // A stop has an entry already; a second one would let strangers fill the journal.
             if (one.row->name == "stop" && one.caller.user.empty()) {
                 one.safe(0);
                 continue;
@@ -159,7 +159,7 @@ class Panel::Inside {
         return out;
     }
 
-    /// An order that was carried out; `safe` hears when it is in the journal.
+    /// An executed command; `safe` is called when its entry is in the journal.
     struct Taken {
         const OperationSpec* row;
         Caller caller;

@@ -1,4 +1,4 @@
-// What several orders share.
+// Shared functions of the commands.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/panel/panel_context.hpp>

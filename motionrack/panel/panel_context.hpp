@@ -1,5 +1,5 @@
-// What orders and queries work on: the machine, who holds it, and what the panel remembers. Only the motion thread uses
-// it.
+// Context of commands and queries: the machine, the control lease, and the panel's stored data. Used only by the motion
+// thread.
 #pragma once
 
 #include <deque>
@@ -18,7 +18,7 @@
 
 namespace motionrack::panel {
 
-/// Answers once; whoever is forgotten is told that the machine is gone.
+/// Answers once; a reply that is destroyed unanswered reports that the machine is gone.
 class Reply {
   public:
     explicit Reply(std::function<void(Answer)> call) : call_(std::make_shared<Call>(std::move(call))) {}
@@ -37,7 +37,7 @@ class Reply {
     std::shared_ptr<Call> call_;
 };
 
-/// Events since the start, the last of them kept.
+/// Events since the start; only the most recent ones are stored.
 class EventLog {
   public:
     static constexpr std::size_t most = 1000;
@@ -51,16 +51,15 @@ class EventLog {
     std::vector<std::function<void(const Event&)>> listeners_;
 };
 
-/// Where the machine was, in bounded memory: places nearer than `apart` to the one before are left out.
+/// Actual path of the machine in bounded memory; positions nearer than `apart` to the previous one are left out.
 class ActualPath {
   public:
     static constexpr std::size_t most = 20'000;
     static constexpr double apart = 0.05;
     struct ActualPoint {
         Instant at{};
-        control::Point place = {};  ///< as the encoders say
-        double error =
-            0;  ///< how far it was from where the card sent it: mm of X Y Z, or degrees where only others moved
+        control::Point place = {};  ///< by the encoders
+        double error = 0;  ///< deviation from the commanded position: mm of X Y Z, or degrees if only other axes moved
     };
     void add(const operate::Status& status);
     void clear() { points_.clear(); }
@@ -87,14 +86,14 @@ struct PanelContext {
     ChannelRegistry channels;
     Scope scope;
     ActualPath driven;
-    std::shared_ptr<const ProgramPlan> plan;  ///< of the program that was begun last; nullptr until it is made
-    std::int64_t programs = 0;                ///< begun so far: whose plan it is
-    std::string program;                      ///< its text
-    std::string letters;                      ///< of the axes
-    nlohmann::json facts;                     ///< of the rack
-    BackgroundWorker worker;                  ///< last, so that it ends first: its work posts to the machine
+    std::shared_ptr<const ProgramPlan> plan;  ///< plan of the last started program; nullptr until it is ready
+    std::int64_t programs = 0;                ///< programs started: number of the plan
+    std::string program;                      ///< text of the last started program
+    std::string letters;                      ///< letters of the axes
+    nlohmann::json facts;                     ///< constant data of the rack
+    BackgroundWorker worker;                  ///< destroyed first: its work posts to the machine
 
-    /// Runs `work` on the worker; `ready` hears what it gives on the motion thread. Refused: too much waits.
+    /// Runs `work` on the worker; `ready` receives the result on the motion thread. Refused if too much is pending.
     template <class Made>
     void run_async(std::function<Result<Made>()> work, std::function<void(Result<Made>)> ready) {
         const bool taken = worker.post([this, work = std::move(work), ready]() mutable {
@@ -104,16 +103,16 @@ struct PanelContext {
             ready(fail(ErrorKind::refused,
                        "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
     }
-    /// The same of what is the answer itself.
+    /// Overload for work whose result is the answer itself.
     void run_async(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {
         run_async<nlohmann::json>(std::move(work), std::move(ready));
     }
 };
 
-/// One order or query: gives the answer's members.
+/// Handler of a command or query; returns the answer's members.
 using HandlerFunction = Result<nlohmann::json> (*)(PanelContext& desk, const Caller& caller,
                                                    const nlohmann::json& fields);
-/// One that ends later.
+/// Handler that answers later.
 using Ready = std::function<void(Result<nlohmann::json>)>;
 using AsyncHandlerFunction = void (*)(PanelContext& desk, const Caller& caller, const nlohmann::json& fields,
                                       Ready ready);
@@ -130,12 +129,12 @@ std::span<const OperationHandler> library_doers();
 std::span<const OperationHandler> scope_doers();
 std::span<const OperationHandler> mark_doers();
 std::span<const OperationHandler> looking_doers();
-/// An order that answers nothing but that it was taken.
+/// Converts the result of a command whose answer has no members.
 Result<nlohmann::json> accepted(const Result<void>& result);
-/// A number of the fields that may be missing.
+/// Returns a number of the fields, or `otherwise` if it is missing.
 double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
-/// The letter of a field that names an axis of the rack. Errors: invalid_input.
+/// Returns the axis letter in the field. Errors: invalid_input unless the rack has that axis.
 Result<char> axis_of(PanelContext& desk, const nlohmann::json& fields);
 
 }  // namespace motionrack::panel

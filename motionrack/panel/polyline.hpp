@@ -1,4 +1,4 @@
-// A line through many places in bounded memory: when there are too many, every second one goes.
+// Polyline of many points in bounded memory: drops every second point when it is full.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace motionrack::panel {
 
-/// A place and the line of the program that leads there.
+/// A point, and the program line that leads to it.
 struct PathPoint {
     control::Point at = {};
     std::int32_t line = 0;
-    bool feed = true;  ///< else a traverse leads there
+    bool feed = true;  ///< false: reached by a rapid
 };
 
 class Polyline {
@@ -29,13 +29,13 @@ class Polyline {
         points_.resize(kept);
         step_ *= 2;
     }
-    /// The last place is there in any case.
+    /// Returns the points, always with the last one.
     std::vector<PathPoint> points() const {
         std::vector<PathPoint> out = points_;
         if (pending_) out.push_back(last_);
         return out;
     }
-    /// Of how many places one was kept.
+    /// One of this number of points is stored.
     std::size_t step() const { return step_; }
 
   private:

@@ -1,4 +1,4 @@
-// The dry run: the reader and the planner of the machine, with nothing behind them.
+// Dry run: the machine's reader and planner without execution.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
@@ -29,7 +29,7 @@ std::size_t axis_of(char letter) {
                                     control::axis_letters.begin());
 }
 
-/// Plans moves and sums them up.
+/// Plans moves and sums up the results.
 class Sums {
   public:
     Sums(ProgramPlan& plan, const control::gcode::Settings& settings, const control::MachineLimits& limits)

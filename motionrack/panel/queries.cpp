@@ -1,4 +1,4 @@
-// Queries about the machine, its rack and what happened.
+// Queries about the machine, its rack and its events.
 #include <algorithm>
 #include <array>
 #include <motionrack/panel/card_view.hpp>
@@ -33,7 +33,7 @@ Result<json> card_of(PanelContext& desk, const json& fields) {
     return card_now(desk.machine, *card);
 }
 
-/// Planned and driven, as JSON.
+/// Planned and actual path as JSON.
 json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoint>& driven, const std::string& letters,
                std::int64_t number) {
     json out = plan != nullptr ? to_json(*plan, letters) : json::object();
@@ -53,7 +53,7 @@ json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoin
     return out;
 }
 
-/// Written beside the motion. `have`: number of the plan that is known; `since`: only what was driven later.
+/// Runs in the worker. `have`: number of the known plan; `since`: only later points of the actual path.
 void write_path(PanelContext& desk, const json& fields, Ready ready) {
     const Instant since = from_seconds(number_of(fields, "since", -1));
     std::vector<ActualPath::ActualPoint> driven;
@@ -65,7 +65,7 @@ void write_path(PanelContext& desk, const json& fields, Ready ready) {
                    std::move(ready));
 }
 
-/// Once the worker is through with what came before: the plan of a program that has just begun.
+/// Waits until the worker has finished earlier work: the plan of a program that has just started.
 void path_of(PanelContext& desk, const json& fields, Ready ready) {
     desk.run_async([]() -> Result<json> { return json(); },
                    [&desk, fields, ready = std::move(ready)](Result<json> through) {

@@ -38,7 +38,7 @@ json names_of(const Parts& parts) {
     return out;
 }
 
-/// Stages, tracks and scan heads, with what there is to say of them.
+/// Describes stages, conveyors and scan heads.
 json parts_of(const rack::RackConfig& config) {
     json out = json::array();
     for (const rack::RackStage& stage : config.stages)
@@ -110,7 +110,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
     }
     const parts::MarkingStation& station = scanner->station();
     const std::span<const parts::MarkedPoint> points = station.workpiece().points();
-    // Of too many points every nth is shown, but each stroke's first and last.
+    // Reduces the points to every nth, but keeps the first and last of each stroke.
     const std::size_t step = points.size() / std::max<std::size_t>(most, 2) + 1;
     json strokes = json::array();
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -1,4 +1,4 @@
-// The rack as JSON: what it is made of, which never changes while it runs; and what scan heads have marked.
+// The rack as JSON: its components, which are constant while it runs, and the marks of scan heads.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>
@@ -9,8 +9,8 @@ namespace motionrack::panel {
 
 nlohmann::json rack_facts(operate::Machine& machine);
 
-/// What lies under a scan head, thinned to `most` points. Errors: invalid_input, with the scan heads that there are. On
-/// the motion thread.
+/// Work piece under a scan head, reduced to `most` points. Errors: invalid_input, listing the scan heads. Call on the
+/// motion thread.
 Result<nlohmann::json> workpiece_now(operate::Machine& machine, const std::string& scanner, std::size_t most);
 
 }  // namespace motionrack::panel

@@ -9,7 +9,7 @@ namespace motionrack::panel {
 
 namespace {
 
-/// What stops the machine, takes or gives back control of it, or moves it out of the way by hand.
+/// Commands that stop the machine, take or release control of it, or move it out of the way manually.
 constexpr std::array<std::string_view, 12> taken_without_record = {
     "stop", "hold",   "reset",    "mark_stop",    "press_estop",     "acknowledge",
     "jog",  "jog_by", "jog_stop", "take_control", "release_control", "keep_control"};

@@ -1,4 +1,4 @@
-// What the panel does where the journal fails: the machine holds, and what would begin something is refused.
+// Reactions of the panel to a journal failure: the machine holds, and starts are refused.
 #pragma once
 
 #include <motionrack/panel/panel_context.hpp>
@@ -8,12 +8,12 @@ namespace motionrack::panel {
 class RecordLoss {
   public:
     explicit RecordLoss(PanelContext& desk) : desk_(desk) {}
-    /// Every slice. The first time that the journal has failed: holds the machine, raises its alarm, and lets no card
-    /// begin a list by itself.
+    /// Call every slice. On the first failure of the journal: holds the machine, raises its alarm, and prevents cards
+    /// from starting lists by themselves.
     void look();
-    /// Errors: refused. What looks, stops, lets go or jogs is taken although it is not recorded.
+    /// Errors: refused. Queries, stops, releases and jogs are accepted although they are not recorded.
     Result<void> may(const OperationSpec& row) const;
-    /// The answer to an order that was taken, whose entry in the journal is `kept`.
+    /// Returns the answer to an accepted command whose journal entry is `kept`.
     static Answer answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept);
 
   private:

@@ -1,4 +1,4 @@
-// Gathering, triggering, and cutting a capture out.
+// Collects data, detects the trigger, and extracts a capture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::string_view name_of(ScopeState state) {
     return "";
 }
 
-/// Takes the recorder's changes; they come between runs, in order.
+/// Receives the recorder's changes, between runs and in order.
 class Scope::Sink final : public rack::WaveSink {
   public:
     Sink(Scope& scope, std::vector<rack::WaveSignal> signals) : scope_(scope), signals_(std::move(signals)) {}
@@ -121,7 +121,7 @@ void Scope::begin_numbers() {
     machine_.probe().begin(settings_.period, [this](Instant now) { sample(now); });
 }
 
-/// Within the kernel's run.
+/// Called within the kernel's run.
 void Scope::sample(Instant) {
     double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
     for (const Number& number : numbers_)
@@ -148,7 +148,7 @@ void Scope::restart(Instant now) {
     full_ = false;
 }
 
-/// The trigger's channel went from one value to another.
+/// Evaluates a change of the trigger channel.
 void Scope::look_at(Instant at, double before, double value) {
     last_value_ = value;
     const bool above = value >= settings_.level, was = before >= settings_.level;
@@ -159,7 +159,7 @@ void Scope::look_at(Instant at, double before, double value) {
     triggered_at_ = at;
 }
 
-/// A change of a wire.
+/// Handles a change of a wire.
 void Scope::see(Instant at, std::size_t channel, double value) {
     if (channel == trigger_place_ && state_ == ScopeState::armed)
         look_at(at, last_value_.value_or(base_[channel]), value);
@@ -174,7 +174,7 @@ void Scope::see(Instant at, std::size_t channel, double value) {
     edges_.push_back({at, channel, value});
 }
 
-/// Among the samples since the last slice.
+/// Searches the samples since the last slice.
 void Scope::look_for_trigger() {
     const auto column = std::find_if(numbers_.begin(), numbers_.end(),
                                      [this](const Number& number) { return number.place == trigger_place_; });

@@ -1,12 +1,11 @@
-// A scope in the rack: wires with every edge at its instant, numbers at equal distances of time, from before a trigger
-// until after it.
+// Scope of the rack: wires with every edge, numbers as periodic samples, from before a trigger until after it.
 //
-//   wires ────► WaveRecorder ──slice──► edges   ─┐
-//   numbers ──► Probe, every period ──► samples ─┴─ trigger ──► Capture, shared, never changed
+//   wires ────► WaveRecorder ──slice──► edges             ─┐
+//   numbers ──► PeriodicSampler, every period ──► samples ─┴─ trigger ──► Capture, shared, immutable
 //
 //   idle ──arm──► armed ──trigger──► triggered ──length is full──► done (single), armed again (run)
 //
-// Memory is bounded and taken when it is armed: nothing is allocated within a run of the kernel.
+// Memory is bounded and allocated when the scope is armed: nothing is allocated within a run of the kernel.
 #pragma once
 
 #include <deque>
@@ -27,29 +26,29 @@ std::string_view name_of(ScopeState state);
 
 struct ScopeSettings {
     std::vector<std::string> channels;  ///< 1 .. max_channels
-    std::string trigger;                ///< one of them; empty: at once
+    std::string trigger;                ///< one of the channels; empty: immediately
     TriggerEdge edge = TriggerEdge::rise;
     double level = 0.5;
-    Duration period = microseconds(100);  ///< of the numbers
-    Duration length = milliseconds(100);  ///< of all that is kept
-    Duration pre = milliseconds(10);      ///< of it, before the trigger
-    bool again = false;                   ///< run: armed again after each capture
+    Duration period = microseconds(100);  ///< sampling period of the numbers
+    Duration length = milliseconds(100);  ///< total length of a capture
+    Duration pre = milliseconds(10);      ///< part of it before the trigger
+    bool again = false;                   ///< run mode: armed again after each capture
 };
 
-/// What a channel showed.
+/// Trace of a channel.
 struct ScopeTrace {
     std::string name, unit;
-    bool edges = false;             ///< every change, else samples
-    double before = 0;              ///< of edges: the level at the begin
+    bool edges = false;             ///< true: every change; false: samples
+    double before = 0;              ///< edges: level at the start of the capture
     std::vector<double> at, value;  ///< edges: s from the trigger
 };
 
 struct Capture {
-    std::int64_t number = 0;                  ///< from 1
-    double trigger_s = 0;                     ///< the rack's time
-    double from_s = 0, to_s = 0;              ///< from the trigger
-    double first_sample_s = 0, period_s = 0;  ///< of the numbers, from the trigger
-    bool full = false;                        ///< there were more edges than fit; the latest are left out
+    std::int64_t number = 0;                  ///< starts at 1
+    double trigger_s = 0;                     ///< virtual time
+    double from_s = 0, to_s = 0;              ///< relative to the trigger
+    double first_sample_s = 0, period_s = 0;  ///< of the numbers, relative to the trigger
+    bool full = false;                        ///< more edges than fit; the latest are left out
     std::vector<ScopeTrace> traces;           ///< in the order of the settings
 };
 nlohmann::json to_json(const Capture& capture);
@@ -61,16 +60,15 @@ class Scope {
     Scope(operate::Machine& machine, ChannelRegistry& channels);
     ~Scope();
 
-    /// Errors: invalid_input, a channel that there is not, a trigger that is no channel of it; refused, too many
-    /// samples.
+    /// Errors: invalid_input for an unknown channel or a trigger outside the channels; refused for too many samples.
     Result<void> arm(const ScopeSettings& settings);
     void stop();
-    /// Every slice of a running machine.
+    /// Call every slice of a running machine.
     void slice(Instant now);
 
     ScopeState state() const { return state_; }
     const ScopeSettings& settings() const { return settings_; }
-    /// The last one; nullptr if there is none.
+    /// Last capture; nullptr: none.
     std::shared_ptr<const Capture> capture() const { return capture_; }
 
   private:
@@ -82,8 +80,8 @@ class Scope {
     };
     struct Number {
         const Channel* channel = nullptr;
-        std::size_t place = 0;  ///< in the settings' list
-        double slow = 0;        ///< what it showed at the last slice, if it can be looked at only then
+        std::size_t place = 0;  ///< index in the settings' list
+        double slow = 0;        ///< value at the last slice, for a channel that can be read only then
     };
 
     Result<void> listen_to_wires(const std::vector<std::string>& wires);
@@ -107,9 +105,9 @@ class Scope {
     ScopeState state_ = ScopeState::idle;
     std::unique_ptr<rack::WaveRecorder> recorder_;
     bool probing_ = false;
-    // edges
-    std::vector<std::size_t> places_;  ///< of the recorder's signals in the settings' list; npos: not asked for
-    std::vector<double> base_;         ///< levels before the oldest edge that is kept
+    // wires
+    std::vector<std::size_t> places_;  ///< settings index of each recorder signal; npos: not selected
+    std::vector<double> base_;         ///< levels before the oldest stored edge
     std::deque<Edge> edges_;
     bool full_ = false;
     // numbers, in a ring of rows
@@ -117,7 +115,7 @@ class Scope {
     std::vector<double> samples_;
     std::int64_t rows_ = 0, written_ = 0, seen_ = 0;
     Instant first_sample_{};
-    // trigger
+    // trigger state
     std::size_t trigger_place_ = 0;
     std::optional<double> last_value_;
     Instant armed_at_{}, triggered_at_ = never;

@@ -1,5 +1,5 @@
-// What the motion thread shows: pictures of the machine and values of channels. Made between two runs of the kernel,
-// shared, never changed.
+// Published data of the motion thread: status of the machine and values of channels. Created between two runs of the
+// kernel, shared, immutable.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ namespace motionrack::panel {
 /// The machine at one instant.
 class StatusSnapshot {
   public:
-    /// `write` makes the JSON text; it must not look at anything that changes.
+    /// `write` creates the JSON text; it must not read data that changes.
     StatusSnapshot(operate::Status status, std::function<std::string(const operate::Status&)> write)
         : status_(std::move(status)), write_(std::move(write)) {}
 
     std::int64_t sequence() const { return status_.sequence; }
     Instant at() const { return status_.at; }
     const operate::Status& status() const { return status_; }
-    /// JSON text; encoded once, by the first who asks, in his thread.
+    /// JSON text; encoded once, in the thread of the first caller.
     const std::string& status_text() const;
 
   private:
@@ -33,9 +33,9 @@ class StatusSnapshot {
     mutable std::string text_;
 };
 
-/// The numbers of a list of channels at one instant, in the list's order. NaN: it cannot be said at present.
+/// Values of a list of channels at one instant, in the list's order. NaN: not available at present.
 struct Values {
-    std::int64_t sequence = 0;  ///< of the picture that they belong to
+    std::int64_t sequence = 0;  ///< number of the status that they belong to
     Instant at{};
     std::vector<double> numbers;
 };

@@ -1,4 +1,4 @@
-// What the page shows always.
+// Data that the page always shows.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/operate/clock_pacer.hpp>
@@ -13,14 +13,14 @@ using nlohmann::json;
 
 namespace {
 
-/// Ends of an axis; switches are low while they act.
+/// Signals of an axis; switches are low while they act.
 constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0},
                                      {"hard_plus", "limit_plus", 0},
                                      {"home", "home", 0},
                                      {"cam", "cam", 0},
                                      {"index", "enc_z"}};
 
-/// What the motion thread noted for one picture.
+/// Data collected by the motion thread for one status.
 struct Noted {
     std::vector<std::vector<std::pair<std::string_view, bool>>> leds;  // by axis
     bool estop_pressed = false;
@@ -37,7 +37,7 @@ json clock_of(const operate::ClockPacer* pacer) {
             {"lost_s", to_seconds(pacer->lost())}};
 }
 
-/// "X SLOW_WAIT, Y HOMED" by axis.
+/// Splits "X SLOW_WAIT, Y HOMED" by axis.
 json phases_of(const std::string& states) {
     json out = json::object();
     for (std::size_t at = 0; at + 2 < states.size();) {
@@ -52,7 +52,7 @@ json phases_of(const std::string& states) {
 
 namespace {
 
-/// A servo comes to rest somewhere in what its card lets go; pulses and counts differ by their rounding.
+/// In-position window. A servo settles within its position window; pulses and counts differ by rounding.
 double near_of(const rack::RackAxis& axis) {
     const double counts = axis.counts_per_unit();
     const double rounding = 2 * std::max(1 / axis.pulses_per_unit(), counts > 0 ? 1 / counts : 0);
@@ -61,13 +61,13 @@ double near_of(const rack::RackAxis& axis) {
 
 }  // namespace
 
-/// What does not change.
+/// Constant data.
 struct StatusWriter::Facts {
     struct Axis {
         std::string unit;
         bool can_home = false;
         double min = 0, max = 0, max_velocity = 0;
-        double near = 0;  // in position: so near to where the card wants it
+        double near = 0;  // in-position window around the commanded position
         struct Led {
             std::string_view name;
             std::string wire;

@@ -1,4 +1,4 @@
-// The status as the page gets it: a picture of the machine as JSON text.
+// Status of the machine as JSON text for the page.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ struct PanelContext;
 class StatusWriter {
   public:
     explicit StatusWriter(operate::Machine& machine);
-    /// Notes on the motion thread what only that may look at; gives what makes the text, in any thread.
+    /// Collects on the motion thread the data reserved to it; returns a function that creates the text in any thread.
     std::function<std::string(const operate::Status&)> writer(PanelContext& desk) const;
 
   private:
