@@ -1,4 +1,4 @@
-// $ commands, and in which states they are taken.
+// $ commands, and the states in which they are accepted.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -96,7 +96,7 @@ int GrblSession::command_at_rest(const std::string& text) {
     }
 }
 
-/// 10=3
+/// Parses 10=3.
 int GrblSession::store(std::string_view text) {
     double number = 0, value = 0;
     if (!take_number(text, number)) return error_bad_number;
@@ -114,7 +114,7 @@ int GrblSession::store(std::string_view text) {
     return changed.error;
 }
 
-/// 0=G54. It is read, but not driven.
+/// Parses 0=G54. The line is checked but not executed.
 int GrblSession::store_startup_line(std::string_view text) {
     double number = 0;
     if (!take_number(text, number)) return error_bad_number;
@@ -159,13 +159,13 @@ int GrblSession::check_mode() {
     return error_none;
 }
 
-// ---- lock and home
+// ---- unlock and homing
 
-/// The operator says that the axes are where they are shown to be.
+/// The operator confirms the displayed axis positions.
 int GrblSession::unlock() {
     if (state() != State::alarm) return error_none;
     if (!control()) return error_locked;
-    if (machine_.state() == MachineState::error_stop) machine_.reset();  // of a STOP; all else needs the sender's reset
+    if (machine_.state() == MachineState::error_stop) machine_.reset();  // after a STOP; others need the sender's reset
     alarm_ = stopped_ = false;
     doing_ = Doing{Doing::What::unlocking};
     return answer_later;
@@ -190,7 +190,7 @@ int GrblSession::home() {
     return answer_later;
 }
 
-/// Axes without a switch stand where they are shown to, as after power-up of a Grbl.
+/// Axes without a switch keep their displayed positions, as after power-up of a Grbl.
 bool GrblSession::finish_homing() {
     const Result<void>& ended = machine_.last_homing()->ended;
     if (ended) {

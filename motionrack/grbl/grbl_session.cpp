@@ -1,4 +1,4 @@
-// Lines of a sender, one at a time, each with its one answer.
+// Processes lines of a sender one at a time, with one answer each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ using operate::MachineState;
 
 namespace {
 
-/// Those that the machine has for reasons of its own are a lock.
+/// Problems specific to the machine map to a lock.
 int decimal_of(const Problem& problem) {
     return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
 }
@@ -74,7 +74,7 @@ void GrblSession::greet() {
 
 // ---- lines
 
-/// Takes lines for as long as nothing makes them wait.
+/// Processes lines until one has to wait.
 void GrblSession::work() {
     while (true) {
         if (doing_ && !finish()) return;
@@ -92,7 +92,7 @@ void GrblSession::work() {
     }
 }
 
-/// The machine is in nobody's hands but the lines'.
+/// Returns true if only lines drive the machine.
 bool GrblSession::settled() const {
     const MachineState state = machine_.state();
     return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
@@ -150,7 +150,7 @@ int GrblSession::gcode(const std::string& text) {
     return answer_later;
 }
 
-/// A line for the machine, which begins in G0 as a Grbl does.
+/// Gives a line to the machine, which starts in G0 like a Grbl.
 control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::int32_t n_word) {
     if (!control()) {
         Problem problem;
@@ -183,9 +183,9 @@ bool GrblSession::control() {
     return taken.has_value();
 }
 
-// ---- what others do
+// ---- actions of other clients
 
-/// A reset of a machine that stands has forgotten the modes in which waiting lines were meant.
+/// A reset at standstill has cleared the modes that waiting lines relied on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
     const bool waits = held_ || door_ || line_ || doing_;
@@ -200,8 +200,8 @@ void GrblSession::lose_control(const std::string& to) {
     lock(fmt::format("{} has taken control", to.empty() ? "Somebody" : to));
 }
 
-/// Lines that wait are answered as all later ones: a line of which only the end is forgotten would be another line. A
-/// homing is alarmed when it has ended, a line past the travel as well.
+/// Waiting lines are answered like all later ones: a line whose end alone is dropped would become another line. A
+/// homing gives its alarm when it has ended, as does a line past the travel.
 void GrblSession::lock(std::string_view why) {
     const bool locked_before = std::exchange(stopped_, true) || critical_;
     held_ = door_ = hold_seen_ = false;
@@ -213,9 +213,9 @@ void GrblSession::lock(std::string_view why) {
     if (doing_ && !alarms_later) finish_answer(error_locked);
 }
 
-// ---- answers that had to wait
+// ---- deferred answers
 
-/// Whether the line before is done with.
+/// Returns true if the previous line is finished.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
     if (critical_ || (state == MachineState::error_stop && doing_->what != Doing::What::homing)) return false;
@@ -283,7 +283,7 @@ void GrblSession::answer(int error) {
         put(fmt::format("error:{}\r\n", error));
 }
 
-/// In ASCII, and without what ends a message.
+/// Sends ASCII only, without the characters that end a message.
 void GrblSession::say(std::string_view text) {
     put("[MSG:");
     for (const char c : text) out_ += c >= ' ' && c <= '~' && c != '[' && c != ']' ? c : '?';

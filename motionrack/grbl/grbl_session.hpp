@@ -1,14 +1,14 @@
-// One Grbl port: bytes of a sender in, bytes for it out, motion by an operate::Machine.
+// One Grbl port: receives bytes from a sender, returns bytes, and moves an operate::Machine.
 //
-//   bytes ─┬─ real-time ones ──► at once: hold, resume, stop, overrides, "<Idle|MPos:..>"
+//   bytes ─┬─ real-time ones ──► immediately: hold, resume, stop, overrides, "<Idle|MPos:..>"
 //          └─ lines ─► InputParser ─► one at a time ─┬─ $ commands ──► answers
 //                                               └─ G-code, $J= ─► Machine::line, jog_to
 //   each line: one "ok" or "error:N"
 //
-//   no line is taken while a hold, a stop, a homing or the alarm of a limit lasts; then bytes wait, 128 of them
+//   no line is accepted during a hold, a stop, a homing or a limit alarm; then bytes wait, 128 of them
 //
-// Runs on the motion thread: receive() among what is posted, tick() once a slice. No network, no waiting, no access to
-// cards.
+// Runs on the motion thread: receive() as posted work, tick() once per slice. Uses no network, never waits, and does
+// not access cards.
 #pragma once
 
 #include <array>
@@ -25,43 +25,43 @@
 namespace motionrack::grbl {
 
 struct SessionSettings {
-    int axes = 3;  ///< 3: X Y Z; 4: A too, as grblHAL reports it
-    /// Good: this sender may move the machine at present. Empty: always.
+    int axes = 3;  ///< 3: X Y Z; 4: also A, in grblHAL's report format
+    /// Succeeds if this sender may move the machine now. Empty: always.
     std::function<Result<void>()> take_control = {};
-    /// Good: a reset of this sender may stop what the machine does at present. Empty: always.
+    /// Succeeds if a reset by this sender may stop the present action of the machine. Empty: always.
     std::function<Result<void>()> may_stop = {};
-    /// Who this sender is, for those who hear of its reset.
+    /// Identity of this sender, for reports of its reset.
     std::function<operate::StopOrigin()> source = {};
-    bool onlookers_reset = false;  ///< resets of those who look on are this sender's
-    /// A setting was changed, as a sentence.
+    bool onlookers_reset = false;  ///< resets by observers count as this sender's
+    /// Called with a sentence when a setting has changed.
     std::function<void(const std::string&)> on_setting = {};
 };
 
-/// As senders see the machine.
+/// Machine states as defined by Grbl.
 enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
 
 class GrblSession {
   public:
-    static constexpr std::size_t planner_blocks = 15;  ///< that a sender can fill
+    static constexpr std::size_t planner_blocks = 15;  ///< number of blocks a sender can fill
 
-    /// A machine that nobody has enabled is enabled by the first line that moves it: a Grbl has no such state. The
+    /// The first line that moves the machine enables it if it was never enabled, since Grbl has no such state. The
     /// machine must outlive this.
     GrblSession(operate::Machine& machine, SessionSettings settings);
 
-    /// Somebody has connected: what was left of the one before is forgotten, the machine goes on. Sends the banner.
+    /// Handles a new connection: drops pending data of the previous one and sends the banner. The machine continues.
     void greet();
     void receive(std::string_view bytes);
-    /// From one who may only look on: reports, holds and ends of jogs are served, resets where the settings say so; all
-    /// else is thrown away.
+    /// Receives bytes from an observer: serves reports, holds and ends of jogs, and resets if the settings permit;
+    /// discards everything else.
     void observe(std::string_view bytes);
-    /// Somebody has stopped or reset the machine: lines of the sender are refused until it unlocks or resets, for they
-    /// were meant to be driven behind what was dropped. At once, within the order.
+    /// Handles a stop or reset by another client: rejects the sender's lines until it unlocks or resets, since they
+    /// were meant to follow the dropped lines. Called within the command.
     void stopped(const operate::StopReport& report);
-    /// Another has taken control: the same, if the sender was at work.
+    /// Handles the loss of control to another client: the same, if the sender was working.
     void lose_control(const std::string& to);
-    /// Every slice: lines that had to wait, answers that are due, alarms.
+    /// Call every slice: processes pending lines, due answers and alarms.
     void tick();
-    /// What is to be sent, whole lines; empties it.
+    /// Returns the pending output, whole lines, and clears it.
     std::string take_output() { return std::exchange(out_, {}); }
 
     State state() const;
@@ -75,14 +75,14 @@ class GrblSession {
     Overrides overrides() const;
 
   private:
-    /// A line that was carried out, and whose answer waits.
+    /// An executed line whose answer is pending.
     struct Doing {
         enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
-        bool silent = false;  ///< the one who asked has gone
+        bool silent = false;  ///< its connection has closed
         bool program_ends = false;
-        bool declared = false;  ///< unlocking: the positions; homing: those of the axes without a switch
+        bool declared = false;  ///< positions to set are set (unlocking, homing)
     };
-    /// Which part of the banner is due.
+    /// Pending part of the banner.
     enum class Boot : std::uint8_t { done, greeting, reset };
 
     // session.cpp: lines
@@ -152,28 +152,28 @@ class GrblSession {
     std::array<std::string, 2> startup_lines_;
     std::string build_text_, out_;
     InputParser intake_;
-    std::optional<Line> line_;  ///< the next one, which has to wait
+    std::optional<Line> line_;  ///< next line, while it has to wait
     std::optional<Doing> doing_;
     std::optional<control::gcode::Interpreter> check_;  ///< check mode
     std::int32_t line_number_ = 0;
-    std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< of lines that may be driven yet
+    std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< N words of lines that are not executed yet
     Boot boot_ = Boot::done;
-    int homing_alarm_ = alarm_homing_reset;  ///< of a homing that is broken off
-    bool alarm_ = false;                     ///< until it is unlocked or homed
+    int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
+    bool alarm_ = false;                     ///< until unlocking or homing
     bool critical_ = false;                  ///< until a reset
-    bool stopped_ = false;                   ///< by somebody else, until it is unlocked or reset
-    bool resets_ = false;                    ///< the stop that is told is its own
-    bool never_enabled_ = false;             ///< the machine, by anybody
+    bool stopped_ = false;                   ///< stopped by another client, until unlocking or reset
+    bool resets_ = false;                    ///< the reported stop is the session's own
+    bool never_enabled_ = false;             ///< the machine has never been enabled
     bool held_ = false, door_ = false, asleep_ = false;
-    bool hold_seen_ = false;        ///< the machine has come to its hold
-    bool jogging_ = false;          ///< the machine jogs, or brakes after it
-    bool stop_told_ = false;        ///< the machine's present error stop
+    bool hold_seen_ = false;        ///< the machine has reached its hold
+    bool jogging_ = false;          ///< the machine jogs, or decelerates after a jog
+    bool stop_told_ = false;        ///< the present error stop of the machine was reported
     std::int64_t probes_told_ = 0;  ///< see control::ProbeReport::count
-    bool was_g80_ = false;          ///< no motion mode because a line said so
+    bool was_g80_ = false;          ///< no motion mode, because of G80
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;
     int spindle_override_ = 100;
-    int until_offset_ = 0, until_overrides_ = 0;  ///< reports
+    int until_offset_ = 0, until_overrides_ = 0;  ///< countdown of reports
     control::Point told_offset_ = {};
     Overrides told_overrides_;
     std::string told_accessories_;

@@ -1,4 +1,4 @@
-// Bytes to lines.
+// Assembles lines from bytes.
 #include <motionrack/grbl/input_parser.hpp>
 #include <utility>
 
@@ -11,7 +11,7 @@ std::optional<Realtime> realtime_of(std::uint8_t byte) {
 }
 
 bool InputParser::put(std::uint8_t byte) {
-    if (byte > 0x7F) return true;  // thrown away, as of an UTF-8 text
+    if (byte > 0x7F) return true;  // discarded, as in UTF-8 text
     if (waiting_.size() >= waiting_most) return false;
     waiting_.push_back(static_cast<char>(byte));
     return true;

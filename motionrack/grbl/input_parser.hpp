@@ -1,9 +1,10 @@
-// What comes down a Grbl port: bytes that act at once wherever they stand, and lines.
+// Input of a Grbl port: real-time bytes, which act immediately at any position, and lines.
 //
-//   G1X10 ? F600 \n  ──►  '?' acts now ─ "G1X10F600" is a line
+//   G1X10 ? F600
+//   ──►  '?' acts now ─ "G1X10F600" is a line
 //
-// As in Grbl 1.1h, 128 bytes wait for their turn, what comes beyond them is lost without a word; a line's buffer has 80
-// bytes, its end among them.
+// As in Grbl 1.1h, 128 bytes can wait; further bytes are lost without a message. A line's buffer holds 80 bytes,
+// including its end.
 #pragma once
 
 #include <array>
@@ -72,18 +73,19 @@ std::optional<Realtime> realtime_of(std::uint8_t byte);
 
 inline constexpr std::size_t waiting_most = 128, line_most = 79;
 
-/// A line as Grbl's parser sees it: no blanks, no comments, upper case.
+/// A line after Grbl's preprocessing: no blanks, no comments, upper case.
 struct Line {
     std::string text;
     bool too_long = false;
 };
 
-/// Bytes that wait for their turn, and the line that is being read from them.
+/// Waiting bytes, and the line that is being read from them.
 class InputParser {
   public:
-    /// One byte that is not a real-time one: false if there was no room and it is lost.
+    /// Adds one byte that is not a real-time byte. Returns false if the buffer was full and the byte is lost.
     bool put(std::uint8_t byte);
-    /// Reads on to the end of the present line; nothing: its end has not come yet. Each CR and each LF ends a line.
+    /// Reads on to the end of the present line; returns nothing if the end has not arrived. Each CR and each LF ends a
+    /// line.
     std::optional<Line> next();
     std::size_t room() const { return waiting_most - waiting_.size(); }
     void clear() { *this = InputParser(); }

@@ -10,12 +10,12 @@ namespace {
 
 constexpr char reset_byte = '\x18';
 
-/// What a sender may begin with before its first line; a sender that looks for a Grbl says nothing else at first.
+/// Bytes that a sender may send before its first line; a sender that searches for a Grbl sends only these at first.
 bool is_greeting(char c) {
     return c == '?' || c == '!' || c == '~' || c == '\r' || c == '\n' || c == reset_byte;
 }
 
-/// Letters with their numbers, as in "G1X-1.5F600" and "M115".
+/// Returns true for letters with numbers, as in "G1X-1.5F600" and "M115".
 bool is_words(std::string_view text) {
     const char *at = text.data(), *const end = text.data() + text.size();
     while (at < end) {
@@ -26,14 +26,14 @@ bool is_words(std::string_view text) {
     return true;
 }
 
-/// A comment is one, too. "[ESP..]" asks what is behind a serial line, of what may be a wireless one.
+/// A comment also counts. "[ESP..]" asks a possibly wireless serial adapter for its identity.
 bool is_line_of_a_sender(const Line& line) {
     const std::string& text = line.text;
     if (line.too_long) return false;
     return text.empty() || text[0] == '$' || text == "%" || text.rfind("[ESP", 0) == 0 || is_words(text);
 }
 
-/// Text as a sender writes it: in comments also that of other alphabets.
+/// Returns true for text as senders write it; comments may use other alphabets.
 bool is_text(std::string_view bytes) {
     bool comment = false;
     for (const char c : bytes) {
@@ -55,7 +55,7 @@ Introduction::Verdict Introduction::hear(std::string_view bytes) {
     if (!is_text(bytes_)) return Verdict::stranger;
     if (std::all_of(bytes_.begin(), bytes_.end(), is_greeting)) return bytes_.empty() ? Verdict::open : Verdict::sender;
     InputParser lines;
-    bool begun = false;  // a line: something stands in it
+    bool begun = false;  // a line with content
     for (const char c : bytes_) {
         if (realtime_of(static_cast<std::uint8_t>(c))) continue;
         lines.put(static_cast<std::uint8_t>(c));

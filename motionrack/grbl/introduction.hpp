@@ -1,12 +1,12 @@
-// Whether who has connected is a G-code sender: before that is known nothing that it says acts.
+// Decides whether a new connection is a G-code sender; before that, its input has no effect.
 //
 //   first bytes ─┬─ only ? ! ~ ^X and ends of lines ─┐
-//                ├─ a first line as a Grbl has them ─┴─► sender: all of them go on to a session
-//                ├─ the begin of such a line ──────────► open: they wait for more
+//                ├─ a first line as sent to a Grbl ──┴─► sender: all bytes are passed to a session
+//                ├─ the start of such a line ─────────► open: the bytes wait for more
 //                └─ anything else ─────────────────────► stranger: TLS, HTTP, SSH, binary; nothing was done
 //
-// A page in a browser, from wherever it is, can open a connection to any port of this computer, but not choose how it
-// begins: with the 16 hex of a TLS hello, with the method of HTTP, with zeros of STUN.
+// A browser page of any origin can open a connection to any port of this computer, but cannot choose its first bytes:
+// the 16 hex of a TLS hello, the method of HTTP, the zeros of STUN.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ namespace motionrack::grbl {
 class Introduction {
   public:
     enum class Verdict : std::uint8_t { open, sender, stranger };
-    /// So many bytes without the end of a line are no sender's.
+    /// Limit of bytes without a line end from a sender.
     static constexpr std::size_t max_open_bytes = 512;
 
-    /// Needs an open verdict so far.
+    /// Requires an open verdict.
     Verdict hear(std::string_view bytes);
-    /// All that was said so far; empties it.
+    /// Returns all bytes received and clears them.
     std::string take_bytes() { return std::exchange(bytes_, {}); }
 
   private:

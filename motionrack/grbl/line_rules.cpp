@@ -11,7 +11,7 @@ using control::gcode::Interpreter;
 
 namespace {
 
-/// G codes that act once, and for which Grbl lets all motion before them come to its end.
+/// Returns true for non-modal G codes before which Grbl completes all previous motion.
 bool stands_first(int tenths) {
     constexpr std::array<int, 8> codes = {40, 100, 281, 301, 920, 921, 922, 923};
     return std::find(codes.begin(), codes.end(), tenths) != codes.end();
@@ -22,7 +22,7 @@ control::gcode::Spindle spindle_of(int code) {
     return code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
 }
 
-/// error_none: it is a jog.
+/// Returns error_none if the block is a valid jog.
 int fault_of_jog(const Block& block, int axes) {
     using namespace control::gcode;
     constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;

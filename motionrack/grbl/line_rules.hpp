@@ -1,4 +1,4 @@
-// What a Grbl makes of a line that the machine's reader understands otherwise.
+// Grbl's rules for lines that the machine's reader interprets differently.
 #pragma once
 
 #include <motionrack/control/gcode/interpreter.hpp>
@@ -7,18 +7,19 @@
 
 namespace motionrack::grbl {
 
-/// Grbl's words are fewer than those of the machine's reader. `axes`: that are shown.
+/// Returns true if Grbl supports all words of the block; it has fewer than the machine's reader. `axes`: number of
+/// reported axes.
 bool grbl_has(const control::gcode::Block& block, int axes);
-/// What Grbl does only when all motion before it is done.
+/// Returns true if Grbl executes the block only after all previous motion.
 bool must_stand_first(const control::gcode::Block& block, const control::gcode::Interpreter& interpreter, bool laser);
 
-/// A jog's target and feed; or `error`, one of Grbl's numbers.
+/// Target and feed of a jog; or `error`, a Grbl error number.
 struct JogLine {
     int error = error_none;
     control::Point target = {};
     double feed = 0;
 };
-/// $J=G91 G21 X10 F600. What it means is read by a copy of the reader, so that it leaves no traces.
+/// Parses $J=G91 G21 X10 F600. Works on a copy of the interpreter, so that its state does not change.
 JogLine read_jog(const std::string& text, control::gcode::Interpreter reader, int axes);
 
 }  // namespace motionrack::grbl

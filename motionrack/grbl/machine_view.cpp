@@ -14,7 +14,7 @@ bool is_moving(const operate::Machine& machine) {
     return state == MachineState::moving || state == MachineState::stopping || state == MachineState::jogging;
 }
 
-/// Contacts open when they act; an end that is not there does not.
+/// Contacts open when they act; a missing contact is inactive.
 bool contact_open(operate::Machine& machine, const std::string& wire) {
     const Result<double> level = machine.wires().get(wire);
     return level && *level == 0;

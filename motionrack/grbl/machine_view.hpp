@@ -1,4 +1,4 @@
-// What a Grbl tells of a machine, and of its wires.
+// State of a machine and its wires as reported by Grbl.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>
@@ -6,19 +6,19 @@
 
 namespace motionrack::grbl {
 
-/// On its way into a hold, or simply on its way.
+/// Returns true while the machine moves, including the deceleration into a hold.
 bool is_moving(const operate::Machine& machine);
-/// A limit switch of this axis acts.
+/// Returns true while a limit switch of this axis is active.
 bool limit_active(operate::Machine& machine, char letter);
-/// The contact that is there at this wire is open.
+/// Returns true if a contact exists at this wire and is open.
 bool contact_open(operate::Machine& machine, const std::string& wire);
-/// Something stopped the machine that nobody ordered.
+/// Returns true after a stop that was not commanded.
 bool has_alarm(const operate::Machine& machine);
-/// A STOP is in force, and nothing else stopped the machine: a sender ends it with $X.
+/// Returns true if a STOP is in force and was the only cause: a sender ends it with $X.
 bool is_stop_ordered(operate::Machine& machine);
-/// ALARM:N of a machine that stopped by itself.
+/// Returns N of ALARM:N for a machine that stopped by itself.
 int alarm_of_stop(operate::Machine& machine);
-/// Along the path, mm/min; degrees/min where only rotary axes move.
+/// Feed along the path, mm/min; degrees/min if only rotary axes move.
 double feed_now(const operate::Machine& machine);
 
 }  // namespace motionrack::grbl

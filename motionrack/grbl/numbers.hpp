@@ -1,14 +1,14 @@
-// Grbl's numbers of errors and alarms, beside those that a line of G-code can have (control::gcode::GrblStatus).
+// Grbl's error and alarm numbers, except those of G-code lines (control::gcode::GrblStatus).
 #pragma once
 
 namespace motionrack::grbl {
 
 enum Error : int {
-    answer_later = -1,  ///< the line's answer waits for something
+    answer_later = -1,  ///< the answer to the line is deferred
     error_none = 0,
     error_letter = 1,  ///< a G-code word does not begin with a letter
     error_bad_number = 2,
-    error_unknown = 3,  ///< no such $ command or setting, or not one that can be changed
+    error_unknown = 3,  ///< unknown $ command or setting, or a read-only one
     error_negative = 4,
     error_no_homing = 5,
     error_short_pulse = 6,
@@ -27,11 +27,11 @@ enum Alarm : int {
     alarm_hard_limit = 1,
     alarm_soft_limit = 2,
     alarm_reset = 3,          ///< stopped in motion
-    alarm_probe_initial = 4,  ///< the probe touches before the move, or does not before one that leads away
-    alarm_probe_contact = 5,  ///< it did not touch, or leave, on the way
+    alarm_probe_initial = 4,  ///< the probe is triggered before the move, or released before a move away
+    alarm_probe_contact = 5,  ///< no contact, or no release, during the move
     alarm_homing_reset = 6,
     alarm_homing_door = 7,
-    alarm_homing_pull_off = 8,  ///< the switch was found, but not its edge
+    alarm_homing_pull_off = 8,  ///< the switch was found, but its edge was not
     alarm_homing_no_switch = 9
 };
 

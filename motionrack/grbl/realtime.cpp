@@ -1,4 +1,4 @@
-// Bytes that act at once, and what the machine does by itself.
+// Real-time bytes, and spontaneous changes of the machine.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -115,7 +115,7 @@ void GrblSession::hold() {
     }
 }
 
-/// The machine has no door: it is shut again at once, and the sender resumes.
+/// The machine has no door: it counts as closed again immediately, and the sender resumes.
 void GrblSession::open_door() {
     const State now = state();
     if (now == State::home) {
@@ -138,8 +138,8 @@ void GrblSession::resume() {
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
 }
 
-/// What another drives goes on, but where the settings say otherwise.
-/// A stop that is in force ends only with a reset that the sender asks for, not with what resets a Grbl by itself.
+/// Motion of another client continues, unless the settings say otherwise. A stop in force ends only with a reset that
+/// the sender requests, not with an implicit reset of the Grbl.
 void GrblSession::reset(bool is_asked_for) {
     const MachineState state = machine_.state();
     const bool stands = operate::idle(state);
@@ -174,7 +174,7 @@ void GrblSession::begin_again(bool after_reset) {
     if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
 }
 
-// ---- what the machine does
+// ---- changes of the machine
 
 void GrblSession::watch_machine() {
     const MachineState state = machine_.state();
@@ -183,7 +183,7 @@ void GrblSession::watch_machine() {
     if (state == MachineState::hold) {
         hold_seen_ = held_ || door_;
     } else if (hold_seen_ && state != MachineState::stopping) {
-        held_ = door_ = hold_seen_ = false;  // somebody else went on, or stopped it
+        held_ = door_ = hold_seen_ = false;  // resumed or stopped by another client
     }
     while (!n_words_.empty() && n_words_.front().first < machine_.stream().current_line()) n_words_.pop_front();
     const control::ProbeReport& probe = machine_.stream().last_probe();
@@ -201,7 +201,7 @@ void GrblSession::watch_machine() {
     }
 }
 
-/// Drives are switched on by who wants to move them, not by who connects.
+/// Drives are enabled by the client that moves them, not by a connection.
 void GrblSession::energise() {
     if (never_enabled_) (void)machine_.enable(true);
 }

@@ -1,4 +1,4 @@
-// What is told of the machine: the status report and the answers to $G and $#.
+// Status report, and the answers to $G and $#.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using operate::MachineState;
 
 namespace {
 
-// A report that is told every so many status reports: while something moves, and while not.
+// A field sent once per a number of status reports, in motion and at standstill.
 struct Every {
     int busy, idle;
 };
@@ -50,7 +50,7 @@ std::string GrblSession::state_text(State now) const {
     return "";
 }
 
-/// "1.000,2.000,3.000"; degrees stay degrees in inches.
+/// Returns "1.000,2.000,3.000"; degrees stay degrees in inches.
 std::string GrblSession::values(const control::Point& point) const {
     std::string out;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
@@ -87,7 +87,7 @@ void GrblSession::report() {
     put(">\r\n");
 }
 
-/// Work offset and overrides: after a change, and now and then; overrides never beside the offset.
+/// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
 std::string GrblSession::counted_reports(State now) {
     const control::Point& offset = interpreter().frame().offset;
     const Overrides overrides_now = overrides();
@@ -113,7 +113,7 @@ std::string GrblSession::counted_reports(State now) {
     return out;
 }
 
-/// P: the probe touches; limit switches of the axes; R: the emergency stop, which a Grbl has at its reset pin.
+/// P: probe contact; limit switches by axis; R: the emergency stop, which a Grbl has at its reset pin.
 std::string GrblSession::pins() const {
     std::string out;
     if (const Result<double> probe = machine_.wires().get("probe"); probe && *probe != 0) out += 'P';
@@ -174,7 +174,7 @@ std::string GrblSession::parameters_text() const {
     return out + probe_text();
 }
 
-/// Machine coordinates of the last contact; 0 at the end: there was none.
+/// Machine coordinates of the last contact; the final 0 means no contact.
 std::string GrblSession::probe_text() const {
     const control::gcode::WorkFrame& frame = interpreter().frame();
     return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);

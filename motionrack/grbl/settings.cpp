@@ -1,4 +1,4 @@
-// The table of settings.
+// Table of settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ double mask(const RackConfig& config, Is is) {
     return bits;
 }
 
-/// Of the first axis that can be homed; 0: none can.
+/// Value of the first axis that can be homed; 0: none.
 template <class Get>
 double of_homing(const RackConfig& config, Get get) {
     for (const RackAxis& axis : config.axes)

@@ -1,4 +1,4 @@
-// The numbered settings: most are what the rack file says, some belong to the session.
+// Numbered settings: most come from the rack file, some belong to the session.
 #pragma once
 
 #include <motionrack/rack/config.hpp>
@@ -15,21 +15,21 @@ struct SessionSettingValues {
     double inches = 0;      ///< $13: reports in inches
     double max_rpm = 1000;  ///< $30
     double min_rpm = 0;     ///< $31
-    double laser = 0;       ///< $32: changes of S do not wait for the motion before them
+    double laser = 0;       ///< $32: changes of S do not wait for the previous motion
 };
 
-/// Exactly one of `rack` and `own` is there.
+/// Exactly one of `rack` and `own` is set.
 struct Setting {
     int number;
     int decimals;
     std::string_view what;
     double (*rack)(const rack::RackConfig& config);
     double SessionSettingValues::*own;
-    double most = 0;  ///< own: 0 .. this
+    double most = 0;  ///< maximum of an own setting; its minimum is 0
 };
 std::span<const Setting> settings();
 
-/// One number an axis: `first` for X, and so on.
+/// A number per axis: `first` for X, and so on.
 struct AxisSetting {
     int first;
     std::string_view what;
@@ -37,10 +37,10 @@ struct AxisSetting {
 };
 std::span<const AxisSetting> axis_settings();
 
-/// "$0=10\r\n" .., all of them, for so many axes.
+/// Returns all settings for this number of axes as lines: "$0=10" ..
 std::string settings_text(const rack::RackConfig& config, const SessionSettingValues& own, int axes);
 
-/// How an attempt to change a setting ended: Grbl's error number, 0 if it is done, and what to tell.
+/// Result of a change of a setting: Grbl's error number, 0 on success, and the message.
 struct Changed {
     int error = 0;
     std::string note;
