@@ -1,4 +1,4 @@
-// What the controller must not do is found in the pulses alone, and told once with its worst.
+// Breaches are found in the pulses alone, and each is reported once with its maximum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2 of 640 pulses a mm
+constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2 at 640 pulses per mm
 
-/// The greatest jump that is found in a motion whose pulses at `t` s are `place(t)`, and how many.
+/// Returns the largest step found in a motion whose pulses at `t` s are `place(t)`, and the number of steps.
 template <class Place>
 JumpWatch::Jump look(Place place, int& times, Duration period = milliseconds(1)) {
     JumpWatch watch(start_hz, accel_hz, period);

@@ -1,4 +1,4 @@
-// The table of keys: every key's range, the templates and the reference page that are written from it.
+// Table of keys: every key's range, and the templates and the reference page written from it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ std::vector<FieldCase> all_fields() {
     return out;
 }
 
-/// A rack in which only that field is given besides what must be; the field stands in line 3.
+/// A rack with only that field besides the required ones; the field is in line 3.
 std::string rack_with_field(const FieldCase& c, const std::string& value) {
     std::string out = fmt::format("\n[{}]\n{} = {}\n", c.header, with_unit(c.field->key, c.unit), value);
     const auto needs = [&](std::string_view header, std::string_view key, std::string_view text) {
@@ -189,7 +189,7 @@ TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
     for (const FieldCase& c : all_fields()) {
         const bool servo = c.header.find(".servo") != std::string::npos;
         if ((servo && c.axis != 'X') || c.type == "ioflex02" || c.type == "rtc5" || c.type.rfind("grating", 0) == 0)
-            continue;  // no template has a rotary servo or these cards
+            continue;  // templates contain neither a rotary servo nor these cards
         const std::string& text = servo || c.type == "databoard4002" ? carriage : router;
         const std::string key = with_unit(c.field->key, c.unit);
         std::size_t at = text.find('\n' + key + " = ");
@@ -230,7 +230,7 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
     for (const CardType& type : card_types()) {
         for (const PinType& pin : type.channel_pins)
             EXPECT_THAT(page, HasSubstr(fmt::format("`{}{}`", type.channel_name(0), pin.name)));
-        // Where the settings say how many pins there are, the first and the last of both kinds stand for all.
+        // If the settings determine the number of pins, the first and the last of both kinds represent all.
         const bool numbered = type.chip_pin_count != nullptr;
         for (std::size_t i = 0; i < type.chip_pins.size(); ++i)
             if (!numbered || i < 2 || i + 2 >= type.chip_pins.size()) {

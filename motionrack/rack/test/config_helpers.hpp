@@ -1,4 +1,4 @@
-// What the tests of the rack-file reader share.
+// Shared helpers of the rack file reader's tests.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The rack-file reader: bad files and where they are wrong, what a rack is, wires, hostile texts.
+// The rack file reader: invalid files and the location of their errors, valid racks, wires, hostile texts.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<std::string> wire_names(const RackConfig& config) {
     return out;
 }
 
-/// What drives the input `to`, or "" if nothing does.
+/// Returns the driver of input `to`, or "".
 std::string driver_of(const RackConfig& config, const std::string& to) {
     for (const RackWire& wire : config.wires) {
         if (config.end_name(wire.to) == to) return config.end_name(wire.from);
@@ -31,12 +31,12 @@ std::string driver_of(const RackConfig& config, const std::string& to) {
     return {};
 }
 
-// ---- Bad files
+// ---- Invalid files
 
 struct BadFile {
     std::string text;
     Place place;
-    std::vector<std::string> words;  ///< the error there has all of them
+    std::vector<std::string> words;  ///< the error there contains all of them
 };
 
 const std::vector<BadFile>& bad_files() {
@@ -201,7 +201,7 @@ TEST(RackFile, ListsAllMistakesAtOnceInTheOrderOfTheFile) {
 }
 
 TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
-    // Judged by its default (300), initial_position_mm would be outside; but what max_limit_mm should be is not known.
+    // With the default (300), initial_position_mm would be outside; but the intended max_limit_mm is unknown.
     const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
     EXPECT_EQ(reading.errors[0].place, (Place{6, 16}));
@@ -239,7 +239,7 @@ TEST(RackFile, WarnsOfWhatAMachineCanDoButNobodyWants) {
                 HasSubstr("within the travel (min_limit_mm is 0)"));
 }
 
-// ---- What a rack is
+// ---- Valid racks
 
 TEST(RackFile, GivesThePlannerItsLimits) {
     const RackConfig config = good(rack_with(

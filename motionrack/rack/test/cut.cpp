@@ -1,4 +1,4 @@
-// Two racks of one story, and their first difference.
+// Runs two racks of one story and finds their first difference.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ void carry_out(Session& session, const Order& order) {
     }
 }
 
-/// Looks at a value of each kind of card, and of the machine; a rack has some of them.
+/// Reads a value of each kind of card, and of the machine; a rack has some of them.
 void ask(Session& session) {
     for (const char* part : {"X.position_mm", "g2.age_us", "table.position_mm"}) static_cast<void>(session.part(part));
     constexpr std::array<std::array<const char*, 2>, 6> values = {{{"c1", "RR0"},
@@ -45,7 +45,7 @@ void ask(Session& session) {
     for (const char* wire : {"c1.xpp", "bus.data", "s.xout"}) static_cast<void>(session.wire(wire));
 }
 
-/// In up to six pieces, some of no length, some that end with a card's clock; in between the rack is asked.
+/// Advances in up to six pieces, some of zero length, some ending at a card's clock; reads values in between.
 void pass_in_pieces(Session& session, std::uint64_t ns, Random& random) {
     constexpr std::uint64_t clock = 125;
     const std::uint64_t begin = session.now_ns();
@@ -69,7 +69,7 @@ std::vector<std::string> told(Session& session, std::uint64_t after) {
     return out;
 }
 
-/// Which devices are not in the same state, and from which byte on.
+/// Returns the devices whose state differs, and the first differing byte.
 std::string difference(Session& one, Session& other) {
     std::string out;
     sim::Kernel &a = one.rack().kernel(), &b = other.rack().kernel();
@@ -83,7 +83,7 @@ std::string difference(Session& one, Session& other) {
     return out.empty() ? " the kernel" : out;
 }
 
-/// The first line that is not in both.
+/// Returns the first line that differs.
 std::string difference(const std::string& one, const std::string& other) {
     std::istringstream a(one), b(other);
     std::string left, right;
@@ -102,7 +102,7 @@ struct World {
         EXPECT_TRUE(!records || session->start_trace(path, "*"));
     }
     ~World() { fs::remove(path); }
-    /// Runs end with each of them, and go on.
+    /// Runs are broken at each of them and continue.
     void hear_conditions() {
         hears = true;
         session->on_condition([](const Session::Told&) {});

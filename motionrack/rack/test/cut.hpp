@@ -1,7 +1,8 @@
-// However time is cut into calls, the same history: what random racks go through, and the comparison of two of them.
+// The event trace does not depend on how time is divided into calls: stories of random racks, and the comparison of two
+// racks.
 //
-//   seed ──► story: steps of orders and time ──┬──► rack that passes each step's time in one call ──┐ hash, conditions,
-//                                              └──► in pieces, asked and copied in between ────────┴ recordings: equal
+//   seed ──► story: commands and time steps ───┬──► rack that passes each step's time in one call ──┐ hash, conditions,
+//                                              └──► in pieces, read and copied in between ─────────┴ recordings: equal
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,16 +23,16 @@ inline std::uint64_t below(Random& random, std::uint64_t end) {
     return random() % end;
 }
 
-/// From `min` to `max`, each order of magnitude as often as another.
+/// Draws from `min` to `max`, each order of magnitude with the same probability.
 inline std::uint64_t spread(Random& random, double min, double max) {
     const double part = static_cast<double>(below(random, 1'000'001)) * 1e-6;
     return static_cast<std::uint64_t>(min * std::pow(max / min, part));
 }
 
-/// The same for each of the racks: one access of the host, a switch, a fault.
+/// The same for each of the racks: one host access, a switch, a fault.
 struct Order {
     enum Kind { write, read, wire, fault } kind = write;
-    std::string on;         ///< a card, a wire, or the part that a fault belongs to
+    std::string on;         ///< a card, a wire, or the target of a fault
     std::string what = {};  ///< the fault
     int bits = 16;
     std::uint32_t address = 0, value = 0;
@@ -54,16 +55,16 @@ inline Order fault(std::string what, std::string of) {
 
 struct Step {
     Orders orders;
-    std::uint64_t ns = 0;  ///< that pass after them
+    std::uint64_t ns = 0;  ///< time that passes after them
 };
 
-/// A rack file, and the orders of a host and of the world around it.
+/// A rack file, and the commands of a host and its surroundings.
 struct Story {
     std::string text;
     std::vector<Step> steps;
 };
 
-/// A kind of rack: the story of a seed.
+/// A kind of rack: creates the story of a seed.
 struct Bench {
     const char* name;
     Story (*story)(std::uint64_t seed);
@@ -77,12 +78,12 @@ inline void PrintTo(const Bench& bench, std::ostream* out) {
 std::vector<Bench> benches();
 std::vector<Bench> mcx314_benches();
 
-/// The text of a rack with an MCX314, c1, and its axes X and B; `settings`: lines of the card.
+/// Text of a rack with an MCX314, c1, and its axes X and B; `settings`: lines of the card.
 std::string mcx314_machine(std::string_view settings = "");
-/// Something that is done to a card, perhaps by several accesses. The MCX314 is c1, with the axes X and B.
+/// A random operation of a card, possibly with several accesses. The MCX314 is c1, with the axes X and B.
 Orders anything_to_pulse_chip(Random& random);
 
-/// Gives each step a time of its own, up to `max_ns`.
+/// Gives each step its own duration, up to `max_ns`.
 std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders,
                            double max_ns = 3e7);
 

@@ -1,5 +1,5 @@
-// Orders to an MCX314: drives, S-curves, paths and home searches on machines of two axes, with faults; and the
-// register programs that its chip is compared with its twin by, which reach all of its modes.
+// Commands to an MCX314: drives, S-curves, paths and homing on machines of two axes, with faults; and the register
+// programs of the comparison between the chip and its twin, which reach all of its modes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void data(Orders& out, std::uint64_t axes, std::uint64_t code, std::uint64_t val
     command(out, axes, code);
 }
 
-/// WR1 .. WR3 of some axes.
+/// Writes WR1 .. WR3 of some axes.
 void mode(Orders& out, std::uint64_t axes, std::uint32_t number, std::uint64_t value) {
     command(out, axes, 0x0F);
     out.push_back(bus("c1", 16, 2 * number, value));
@@ -40,7 +40,7 @@ void speeds(Orders& out, std::uint64_t axes, Random& random) {
     data(out, axes, 0x05, drawn(random, 1, 8'000));
 }
 
-/// A line or an arc, to be queued behind the one that runs if there is one.
+/// Writes a line or an arc, queued behind the running one if there is one.
 void path(Orders& out, Random& random) {
     for (unsigned axis = 1; axis <= 2; axis <<= 1) {
         data(out, axis, 0x06, below(random, 4'000) - 2'000);
@@ -50,7 +50,7 @@ void path(Orders& out, Random& random) {
     command(out, 0, drawn(random, 0x30, 0x33));
 }
 
-/// Words of a bit pattern, at times without an end, and its drive.
+/// Writes words of a bit pattern, sometimes without an end, and its drive.
 void pattern(Orders& out, Random& random) {
     command(out, 0, 0x36);
     for (std::uint64_t words = drawn(random, 1, 3); words > 0; --words) {
@@ -67,7 +67,7 @@ void pattern(Orders& out, Random& random) {
     command(out, 0, 0x34);
 }
 
-/// A search that only the MCX314As makes; the original refuses it.
+/// Starts a homing that only the MCX314As supports; the original refuses it.
 void search_home(Orders& out, std::uint64_t axes, Random& random) {
     data(out, axes, 0x60, random());
     data(out, axes, 0x61, drawn(random, 1, 1'000));
@@ -124,7 +124,7 @@ Order order_of(const Op& op) {
     }
 }
 
-/// Program `seed`, of a chip alone or on a machine, with accesses that take no time.
+/// Register program `seed`, of a chip alone or on a machine, with accesses that take no time.
 Story register_program(std::uint64_t seed, ChipOptions options) {
     constexpr std::uint64_t tick_ns = 125;
     const mcx314::twin::Program program = mcx314::twin::make_program(0xC07, seed, options);
@@ -178,13 +178,13 @@ Orders anything_to_pulse_chip(Random& random) {
             speeds(out, axes, random);
             break;
         case 1:
-        case 2:  // so many pulses
+        case 2:  // a fixed number of pulses
             mode(out, axes, 3, below(random, 8) | below(random, 2) << 7);
             data(out, axes, 0x06, below(random, 4'000));
             data(out, axes, 0x07, below(random, 4'000));
             command(out, axes, drawn(random, 0x20, 0x21));
             break;
-        case 3:  // without end, and a change of speed
+        case 3:  // endless, and a change of velocity
             command(out, axes, drawn(random, 0x22, 0x23));
             data(out, axes, 0x05, drawn(random, 1, 4'000));
             break;

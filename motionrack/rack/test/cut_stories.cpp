@@ -1,4 +1,4 @@
-// Orders to each kind of card, one at a time, drawn at random.
+// Commands to each kind of card, one at a time, drawn at random.
 #include <fmt/format.h>
 
 #include <array>
@@ -65,7 +65,7 @@ Orders ioflex02(Random& random) {
             const auto place = 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40));
             return {bus("p1", 16, place, below(random, 16))};
         }
-        case 2: {  // both lines at once: no step of an encoder
+        case 2: {  // both lines at the same instant: not a step of an encoder
             const double a = bit(), b = bit();
             return {level("p1.a0", a), level("p1.b0", b)};
         }
@@ -83,7 +83,7 @@ Orders rtc5(Random& random) {
     return {level(pin, static_cast<double>(below(random, 2)))};
 }
 
-/// Tracks of scales, and lines of the bus that are held; most are let go again.
+/// Forces tracks of scales and lines of the bus; most are released again.
 Order line_of_bus(Random& random) {
     if (below(random, 2) == 0) {
         const std::string wire = fmt::format("decoder.{}{}", "ab"[below(random, 2)], below(random, 2));
@@ -122,7 +122,7 @@ Orders grating_bus(Random& random) {
     const char* const card = below(random, 2) == 0 ? "g1" : "g2";
     switch (below(random, 8)) {
         case 0:
-        case 1:  // claims, releases, clears, now and then resets
+        case 1:  // claims, releases, clears, sometimes resets
             return {bus(card, 16, 0, below(random, below(random, 4) == 0 ? 16 : 8))};
         case 2:
             return {look(card, 16, 2 * static_cast<std::uint32_t>(below(random, 32)))};
@@ -188,7 +188,7 @@ constexpr const char* encoder_wires = R"([wires]
 "s.enc1_b" = "B.enc_a"
 )";
 
-/// Every third with a loop through the frames; the others with frames so close that many calls end within one.
+/// Every third seed has a loop through the frames; in the others frames are so close that many calls end within one.
 Story grating_story(std::uint64_t seed) {
     Random random(seed);
     const bool servo = seed % 3 == 0;

@@ -1,4 +1,4 @@
-// However time is cut into calls, the same history: of each card that is driven at random, with its machine.
+// The event trace does not depend on how time is divided into calls: for each card, driven at random, with its machine.
 #include <motionrack/rack/test/cut.hpp>
 
 namespace motionrack::rack::cut {

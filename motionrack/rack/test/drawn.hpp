@@ -1,4 +1,4 @@
-// Whole numbers drawn at random, the same on every machine.
+// Random whole numbers, the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace motionrack::rack {
 
 using Random = std::mt19937_64;
 
-/// From `min` to `max`, both included.
+/// Draws from `min` to `max`, both included.
 inline std::int64_t drawn(Random& random, std::int64_t min, std::int64_t max) {
     return min + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(max - min + 1));
 }

@@ -1,13 +1,13 @@
-// The edges of wires, as a recording has them, against the counters of the cards that make or count them, over random
-// moves that end as they may.
+// Edges of wires in a recording against the counters of the cards that generate or count them, over random moves with
+// random ends.
 //
 //   card           wires of the recording      counter
 //   mcx314         xpp, xpm; both kinds        x.LP
 //   databoard4002  fout, sign                  POSITION
 //   grating_bus    frame_done                  FRAMES
 //
-// No counter of a card has the edges of out0 .. out31 (IOFLEX02), laser_on and busy (RTC5), int, rst and relay
-// (DataBoard 4002), out0 .. out7 and drive (MCX314): their registers have levels.
+// The edges of out0 .. out31 (IOFLEX02), laser_on and busy (RTC5), int, rst and relay (DataBoard 4002), out0 .. out7
+// and drive (MCX314) have no counter; registers show their levels.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ enum class Wires {
 };
 
 struct EdgesSeen {
-    std::int64_t count = 0;              ///< position: forwards less backwards
-    std::int64_t first = 0, second = 0;  ///< edges of either wire
+    std::int64_t count = 0;              ///< position: forward minus backward
+    std::int64_t first = 0, second = 0;  ///< edges of each wire
 };
 
 /// Adds up the edges of two wires.
@@ -55,7 +55,7 @@ class EdgeCount final : public WaveSink {
 
   private:
     int step(bool is_first, bool is_high) const {
-        // Forwards A leads B.
+        // Forwards, A leads B.
         if (wires_ == Wires::tracks) return (is_first_high_ != is_second_high_) == is_first ? 1 : -1;
         if (!is_high) return 0;
         if (wires_ == Wires::both_ways) return is_first ? 1 : -1;
@@ -69,7 +69,7 @@ class EdgeCount final : public WaveSink {
     bool is_first_high_, is_second_high_;
 };
 
-/// A rack of which two wires are recorded; its first card drives.
+/// A rack with two recorded wires; its first card drives.
 class Counted {
   public:
     Counted(const std::string& text, const std::string& first, const std::string& second, Wires wires)
@@ -102,7 +102,7 @@ class Counted {
 /// Moves one axis of an MCX314, the first card of a rack, by its registers.
 class Mcx314Moves {
   public:
-    /// `wr2`: of the axis.
+    /// `wr2`: value for the axis.
     Mcx314Moves(Counted& bench, char axis, std::uint32_t wr2, std::int64_t max_speed, std::int64_t max_pulses)
         : bench_(bench),
           axis_(std::string("xyzu").find(axis)),
@@ -112,7 +112,7 @@ class Mcx314Moves {
         write(0, select() | 0x0F);
         write(0x04, wr2);
     }
-    /// Drives with random numbers, perhaps stopped on the way, until the axis stands.
+    /// Drives with random numbers, possibly with a stop, until the axis is at standstill.
     void make(Random& random) {
         command(0x00, drawn(random, 16'000, 800'000));
         command(0x02, drawn(random, 50, 8'000));
@@ -184,7 +184,7 @@ inline void count_databoard4002(std::uint64_t moves) {
             case 0:
                 command('Q', 0, 0);
                 break;
-            case 1:  // a new order on the way, perhaps the other way round
+            case 1:  // a new command during the move, possibly in the other direction
                 command('N', drawn(random, -60, 60), 3);
                 command('G', 0, 0);
                 break;
@@ -192,13 +192,13 @@ inline void count_databoard4002(std::uint64_t moves) {
                 break;
         }
         for (int wait = 0; bench.value("MOVING") != 0 && wait < 400; ++wait) bench.pass(milliseconds(20));
-        bench.pass(milliseconds(25));  // the last pulse is over
+        bench.pass(milliseconds(25));  // the last pulse has ended
         ASSERT_EQ(bench.seen.count, bench.value("POSITION")) << "move " << i;
     }
     EXPECT_NE(bench.seen.first, 0);
 }
 
-/// Pulses of frame_done against the frames that the card has published, at random instants and with random claims.
+/// Pulses of frame_done against the frames published by the card, at random instants and with random claims.
 inline void count_grating_bus(std::uint64_t moves, const char* card) {
     Random random(seed_from_environment());
     const std::string name = card;

@@ -1,5 +1,5 @@
-// The edges of a card's wires, as a recording has them, are the card's counter: whatever the moves, and however they
-// end. MOTIONRACK_SEED=N picks the moves, MOTIONRACK_MOVES=N how many.
+// The recorded edges of a card's wires agree with the card's counter, for all moves and all ends of moves.
+// MOTIONRACK_SEED=N selects the moves, MOTIONRACK_MOVES=N sets their number.
 #include <motionrack/rack/test/encoder_edges.hpp>
 
 namespace motionrack::rack {

@@ -1,8 +1,8 @@
-// The edges of an axis' encoder tracks, as a recording has them, against all cards that count the tracks by wire, over
-// random moves that end as they may.
+// Recorded edges of an axis' encoder tracks against all cards that count the tracks by wire, over random moves with
+// random ends.
 //
 //   wires of the recording    card             inputs             counter
-//   X.enc_a, X.enc_b          ioflex02         p1.a0, p1.b0       POSITION, and edges of either track
+//   X.enc_a, X.enc_b          ioflex02         p1.a0, p1.b0       POSITION, and edges of each track
 //                             grating_decoder  d1.a0, d1.b0       COUNT
 //                             grating_bus      its bus            COUNT of the frame published last
 //                             rtc5             s1.enc0_a, enc0_b  ENCODER0
@@ -16,10 +16,10 @@
 
 namespace motionrack::rack {
 
-/// How an axis of the machine is built.
+/// Mechanics of an axis of the machine.
 struct EncoderAxis {
-    std::int64_t counts_per_rev = 4'000;  ///< of 3,200 pulses
-    bool loses_steps = false;             ///< the motor follows not every rate that the card drives it with
+    std::int64_t counts_per_rev = 4'000;  ///< per 3,200 pulses
+    bool loses_steps = false;             ///< the motor does not follow every rate of its card
 };
 
 inline std::string encoder_machine(const EncoderAxis& axis) {
@@ -60,7 +60,7 @@ class EncoderReaders {
     }
 
   private:
-    /// The IOFLEX02 counts the edges of either track, modulo 65,536.
+    /// The IOFLEX02 counts the edges of each track, modulo 65,536.
     void expect_each_edge() {
         constexpr std::uint32_t base = 0x2300, strobe = 0x10, axis = 0x18;
         Card& card = *bench_.rack.card("p1");
@@ -81,7 +81,7 @@ inline void count_encoder(std::uint64_t moves, char letter, const EncoderAxis& a
     const std::string name(1, letter);
     Counted bench(encoder_machine(axis), name + ".enc_a", name + ".enc_b", Wires::tracks);
     EncoderReaders readers(bench, letter);
-    // No more than 5 million counts a second, which the encoder's electronics can show.
+    // At most 5 million counts per second, the limit of the encoder's electronics.
     const std::int64_t max_speed = std::min<std::int64_t>(8'000, 10'000 * 3'200 / axis.counts_per_rev);
     Mcx314Moves driving(bench, letter == 'X' ? 'x' : 'y', 0, max_speed, 400);
     for (std::uint64_t i = 0; i < moves && !testing::Test::HasFailure(); ++i) {

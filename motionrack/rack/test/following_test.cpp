@@ -1,5 +1,4 @@
-// Following errors of axes with an encoder: what is told, what stops the machine, what is refused in a rack
-// file.
+// Following errors of axes with an encoder: warnings, stops of the machine, and rejected settings in a rack file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +15,7 @@ std::string axis_with(const std::string& keys) {
     return "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n" + keys;
 }
 
-/// X goes to 40 mm at 10 mm/s.
+/// Moves X to 40 mm at 10 mm/s.
 JobOutcome run_with(const std::string& keys, const std::vector<std::string>& faults) {
     JobRequest request;
     request.config = good(axis_with(keys));
@@ -54,7 +53,7 @@ TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndTakesTheTrust) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0.2\n", {"X.motor.stall@1s"});
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
-    // 0.2 mm are 20 ms, looked at each millisecond.
+    // 0.2 mm are 20 ms, checked every millisecond.
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 0.2"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 0.2 mm at 1.02"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The position of X is not trusted any more"));
@@ -74,7 +73,7 @@ TEST(AFollowingError, OfAnAxisWithoutAnEncoderIsNotKnown) {
     EXPECT_FALSE(outcome.position_trusted);
 }
 
-/// The carriage goes to 2000 mm and back, at 500 mm/s.
+/// Moves the carriage to 2000 mm and back, at 500 mm/s.
 JobOutcome run_carriage(const std::string& keys, const std::vector<std::string>& faults) {
     std::string text = carriage();
     text.insert(text.find("[axis.X]\n") + 9, keys);

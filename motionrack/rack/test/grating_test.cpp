@@ -25,7 +25,7 @@ std::unique_ptr<Session> open(const std::string& text) {
     return std::move(*out);
 }
 
-/// So many counts forward on scale `n` of the decoder.
+/// Turns scale `n` of the decoder forward by a number of counts.
 void turn(Session& session, int n, int counts) {
     for (int i = 0; i < counts; ++i) {
         const bool a = i % 2 == 0;

@@ -1,4 +1,4 @@
-// Home switches that break or stick for a while during a search: no place that was found by them is trusted.
+// Home switches that break or stick temporarily during homing: a position found with them is never valid.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What becomes of the switch when the search has been in a state for so many looks of 50 ms.
+/// Change of the switch when homing has been in a state for a number of looks of 50 ms.
 struct Turn {
     std::string state;
     int looks;
@@ -40,7 +40,7 @@ HomingOutcome homed(const std::string& text, const std::string& target, int type
     return out;
 }
 
-/// An axis with a switch at 1 mm that backs off at 2 mm/s and comes slowly at 0.5 mm/s.
+/// An axis with a switch at 1 mm, a backoff velocity of 2 mm/s and a latch velocity of 0.5 mm/s.
 std::string axis_from(double start_mm, const std::string& more = {}) {
     return fmt::format(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "

@@ -1,4 +1,4 @@
-// Homing the axes of a rack: what its file orders, several axes, what is refused, what is told.
+// Homing the axes of a rack: requests from the file, several axes, refusals, reports.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(RackHomes, LowerOrdersGoFirst) {
 }
 
 TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
-    // The index is where the switch acts: type 4 will not have it.
+    // The index is at the switch position, which method 4 rejects.
     std::string text = std::string(two_axes) + "[axis.Y.homing]\nsequence = 1\n";
     text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
     const HomingOutcome out = homed(text);
@@ -176,7 +176,7 @@ TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
 TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
     std::string text = two_axes;
     const auto place = text.find("home_offset_mm = 0");
-    text.replace(place, 18, "index_after_mm = 2.1");  // it is 2 mm, and moves nothing that is within a quarter turn
+    text.replace(place, 18, "index_after_mm = 2.1");  // not 2 mm, but within a quarter revolution
     const HomingOutcome out = homed(text);
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[0].counter_position, 2 - 2.1, 0.5 / 640);
@@ -189,7 +189,7 @@ TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
     ASSERT_TRUE(reading.config);
     std::string warnings;
     for (const Error& warning : reading.warnings) warnings += warning.message + "\n";
-    EXPECT_THAT(warnings, HasSubstr("Axis X needs position_mm or index_after_mm to home to its index"));
+    EXPECT_THAT(warnings, HasSubstr("Axis X needs home_offset_mm or index_after_mm to home to its index"));
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
     EXPECT_THAT(out.ended.error().message, HasSubstr("give it home_offset_mm (what the index is called)"));

@@ -1,4 +1,4 @@
-// The IOFLEX02 in a rack: on the host's bus, its lines driven by hand and by an axis' encoder.
+// The IOFLEX02 in a rack: on the host's bus, its lines forced manually and driven by an axis' encoder.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 namespace io = ioflex02;
 using ::testing::HasSubstr;
 
-/// Drives lines with a test lead and reads over the bus.
+/// Forces lines and reads over the bus.
 struct Ioflex02Bench {
     explicit Ioflex02Bench(const std::string& text = "card.p1 = \"ioflex02\"")
         : session(std::move(*Session::open(text))) {
@@ -27,7 +27,7 @@ struct Ioflex02Bench {
         ASSERT_TRUE(session->set_wire(wire, level));
         ASSERT_TRUE(session->advance(1'000));
     }
-    /// So many counts forward on that channel.
+    /// Turns that channel forward by a number of counts.
     void turn(int counts, const std::string& card = "p1", int channel = 0) {
         for (int i = 0; i < counts; ++i) {
             const bool a = phase % 4 == 0 || phase % 4 == 2;

@@ -1,4 +1,5 @@
-// Pulses and encoder tracks in the rack file: what the wires say is what turns and counts; the rest is refused.
+// Pulses and encoder tracks in the rack file: the wires determine which motor turns and which input counts; other
+// wiring is rejected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -114,7 +115,7 @@ struct Ended {
     JobOutcome outcome;
 };
 
-/// Runs X to 10 mm and A to 20 degrees.
+/// Moves X to 10 mm and A to 20 degrees.
 Ended run_wires(const std::string& wires, bool watched = true) {
     Ended out;
     RackConfig config = good(rack_with(second_axis + "[wires]\n" + wires));
@@ -165,7 +166,7 @@ TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
     const Ended ended =
         run_wires("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
-    // 20 degrees are 16,000 pulses, at 640 pulses a mm; 10 mm are 6400 pulses, at 800 a degree.
+    // 20 degrees are 16,000 pulses, at 640 pulses per mm; 10 mm are 6400 pulses, at 800 per degree.
     EXPECT_EQ(ended.outcome.axes[0].real_end, 25);
     EXPECT_EQ(ended.outcome.axes[1].real_end, 8);
     EXPECT_FALSE(ended.outcome.position_trusted);
@@ -181,7 +182,7 @@ TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
     EXPECT_EQ(open.outcome.axes[1].counts_read, 20000);
 }
 
-/// A comparison of the crossed encoder stops the drive where the count comes to -2000.
+/// A comparison of the crossed encoder stops the drive at count -2000.
 TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
     struct Ear final : sim::PositionListener {
         void crossed(Instant) override { ++times; }

@@ -1,5 +1,5 @@
-// Random programs in chords from 2 um to 50 mm, with probing moves, on some racks, in both profiles, held, slowed, let
-// go on and stopped at random instants: no axis jumps, and they end where they should.
+// Random programs in chords from 2 um to 50 mm, with probing moves, on several racks, in both profiles. They are held,
+// slowed, resumed and stopped at random instants: no axis has a velocity step, and the end position is correct.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace motionrack::rack {
 
-/// Random numbers that are the same everywhere.
+/// Random numbers that are the same on every machine.
 class Chance {
   public:
     explicit Chance(std::uint64_t seed) : random_(seed) {}
@@ -22,10 +22,10 @@ class Chance {
     std::mt19937_64 random_;
 };
 
-/// The probe touches what is at this height and below; programs are above it, but for their probing moves.
+/// The probe triggers at and below this height; programs are above it, except for their probing moves.
 inline constexpr double probe_height = 60, program_height = 75;
 
-/// Paths of straight moves: smooth curves, sharp corners and ways back, each in chords of one length or of many.
+/// Paths of straight moves: smooth curves, sharp corners and reversals, each in chords of one length or of many.
 class ChordMaker : public Chance {
   public:
     explicit ChordMaker(std::uint64_t seed)
@@ -34,7 +34,7 @@ class ChordMaker : public Chance {
     struct Program {
         std::string text;
         double x = 150, y = 100;
-        double seconds = 0;  ///< that its chords take at least, about
+        double seconds = 0;  ///< approximate minimum duration of its chords
     };
 
     Program make() {
@@ -56,7 +56,8 @@ class ChordMaker : public Chance {
   private:
     double feed() { return even_on_log(300, 9000); }
 
-    /// Down, straight or slanted, to where it touches or not; then perhaps up until it leaves; and up.
+    /// Adds a probing move down, straight or inclined, with or without contact; then perhaps one up until release; and
+    /// a move up.
     void add_probing() {
         const double feed = probing_.even_on_log(100, 5000);
         const bool touches = probing_.pick(3) > 0, slanted = probing_.pick(2) == 0;
@@ -78,16 +79,16 @@ class ChordMaker : public Chance {
         const bool mixed = pick(4) == 0, with_z = pick(3) == 0;
         if (pick(3) == 0) out_.text += fmt::format("F{:.0f}\n", feed());
         if (pick(2) == 0) heading_ += number(-3.2, 3.2);
-        // A ramp: Z goes along by less than a pulse a chord, or by more.
+        // A ramp: Z moves by less than a pulse per chord, or by more.
         const bool is_ramp = ramps_.pick(3) == 0;
         const double slope = is_ramp ? ramps_.even_on_log(1e-5, 0.1) * (ramps_.pick(2) == 0 ? 1 : -1) : 0;
         double z = 0;
         for (double s = 0; s < length;) {
-            // From wherever the way back towards the middle begins it does not lead off the table.
+            // A step from the start of the way back towards the middle stays on the table.
             const double step = std::min(50.0, mixed ? chord * even_on_log(0.1, 3) : chord);
             heading_ += bend * std::min(step, 2.0);
             if (pick(40) == 0) heading_ += number(-3.2, 3.2);
-            // Towards the middle where the table would end.
+            // Towards the middle before the table ends.
             if (std::hypot(out_.x - 150, out_.y - 100) > 45) heading_ = std::atan2(100 - out_.y, 150 - out_.x);
             out_.x = rounded(out_.x + step * std::cos(heading_));
             out_.y = rounded(out_.y + step * std::sin(heading_));
@@ -116,7 +117,7 @@ inline RackConfig router_with_probe() {
     return *read_rack_text(text + fmt::format("\n[probe]\nz_max_mm = {}\n", probe_height)).config;
 }
 
-/// Racks whose pulses, start speeds and hosts differ.
+/// Racks with different pulses, velocity step limits and hosts.
 inline RackConfig rack_of(ChordMaker& random, const std::string& profile) {
     RackConfig config = random.probes() ? router_with_probe() : router();
     config.controller.profile = profile;
@@ -156,11 +157,11 @@ inline Disturbed wishes_of(ChordMaker& random, double seconds) {
     return out;
 }
 
-/// On a bend in chords trapezoids take an axis' acceleration up to twice: along the path, and from chord to chord. The
-/// other profile shares it out.
+/// On a curve in chords, the trapezoidal profile uses up to twice an axis' acceleration: along the path, and from chord
+/// to chord. The other profile shares it out.
 inline constexpr double accel_of_trapezoids = 2;
 
-/// A stop, as an order or as Ctrl-C: of a program that has none, or in its place.
+/// A stop, as a command or as Ctrl-C; added to a program without one, or in place of it.
 inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
     if (chance.pick(disturbed.stopped ? 2 : 5) > 0) return;
     double at = chance.number(0.001, seconds);
@@ -168,13 +169,13 @@ inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
         at = disturbed.wishes.back().first;
         disturbed.wishes.pop_back();
     }
-    // A job with orders looks for Ctrl-C itself.
+    // A job with commands checks for Ctrl-C itself.
     const bool alone = disturbed.wishes.empty() && chance.pick(2) == 0;
     disturbed.wishes.emplace_back(at, alone ? "flag" : "ctrl-c");
     disturbed.stopped = true;
 }
 
-/// MOTIONRACK_SEED=N drives it alone, with MOTIONRACK_PROGRAMS=1.
+/// MOTIONRACK_SEED=N runs it alone, with MOTIONRACK_PROGRAMS=1.
 inline void drive_one(std::uint64_t seed) {
     ChordMaker random(seed);
     const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
@@ -194,7 +195,7 @@ inline void drive_one(std::uint64_t seed) {
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
-/// A share of the programs, so that several run at once: every `shares`th from `share` on, up to the first that fails.
+/// A share of the programs, so that several processes run: every `shares`th from `share`, up to the first failure.
 inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", otherwise);
     for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares) drive_one(first + i);

@@ -1,4 +1,4 @@
-// Random programs of every day; more of them in deep/lossless_deep_test.cpp.
+// Random programs of the daily tests; more of them in deep/lossless_deep_test.cpp.
 #include "lossless_random.hpp"
 
 namespace motionrack::rack {
@@ -12,13 +12,13 @@ TEST_P(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
     drive_share(GetParam(), shares, 200);
 }
 
-// A piece of two pulses that is cut for a fall may have one of them by rounding, which is over before the next piece
-// is there: such a move is not cut.
+// A segment of two pulses that is cut for a deceleration may have one of them by rounding, which is over before the
+// next segment arrives: such a move is not cut.
 TEST(LosslessAtRandom, NoAxisJumpsWhereAPieceHasFewPulses) {
     for (const std::uint64_t seed : {732885138, 732887488}) drive_one(seed);
 }
 
-// What an axis does in one chord is not what it did before.
+// The motion of an axis in one chord differs from the previous one.
 TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
     drive_one(864005568);
 }

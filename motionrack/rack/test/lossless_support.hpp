@@ -1,4 +1,4 @@
-// Jobs with wishes on their way, judged by the pulses on the wires.
+// Jobs with requests during the run, evaluated by the pulses on the wires.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,13 +16,13 @@ namespace motionrack::rack {
 struct Driven {
     JobOutcome outcome;
     test::PulseReferee::Verdict worst;
-    bool held = false;  ///< stood on its way because of a hold
+    bool held = false;  ///< stopped on its way because of a hold
 };
 
-/// Seconds since the start, and what is wished then.
+/// Seconds since the start, and the request at that instant.
 using Wishes = std::vector<std::pair<double, std::string>>;
 
-/// Sets a flag at its instant, as a signal may come at any.
+/// Sets a flag at its instant, as a signal may arrive at any time.
 class FlagAt final : public sim::Device {
   public:
     FlagAt(sim::Kernel& kernel, Instant at) : kernel_(kernel) {
@@ -36,8 +36,8 @@ class FlagAt final : public sim::Device {
     std::atomic<bool> flag_{false};
 };
 
-/// Wishes are orders of the command `run`; or "ctrl-c", which it hears of between two runs of the kernel; or, alone,
-/// "flag", which a program sees that has a job of its own. `slice`: called all the time while it runs. `accel_parts`:
+/// Requests are commands of the job; or "ctrl-c", which the job checks between two runs of the kernel; or, alone,
+/// "flag", as seen by a program with its own job. `slice`: called throughout the run. `accel_parts`: see PulseReferee.
 /// see PulseReferee.
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
                          const std::function<void(Rack&)>& slice = {}, double accel_parts = 1) {
@@ -87,7 +87,7 @@ inline void set_microsteps(RackConfig& config, std::int64_t microsteps) {
     }
 }
 
-/// No axis jumped, by the pulses and by the monitor, and nothing else was broken or lost.
+/// Expects no velocity step, by the pulses and by the monitor, and no other breach or loss.
 inline void expect_lossless(const Driven& driven, double jump = 1.15) {
     EXPECT_LE(driven.worst.parts, jump) << "axis " << driven.worst.axis << ": " << driven.worst.jump.speed
                                         << " units/s at " << driven.worst.jump.seconds << " s";
@@ -97,7 +97,7 @@ inline void expect_lossless(const Driven& driven, double jump = 1.15) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start);
 }
 
-/// Where a program of G1 X.. Y.. ends.
+/// Expects the end of a program of G1 X.. Y..
 inline void expect_end(const Driven& driven, double x, double y) {
     ASSERT_TRUE(driven.outcome.ended) << driven.outcome.ended.error().text();
     const auto pulse = [&](std::size_t i) { return 0.51 / driven.outcome.axes[i].limits.pulses_per_unit; };

@@ -1,5 +1,5 @@
-// The controller itself loses no step: whatever is wished while a program runs, and however short its moves are, the
-// pulses on the wires never change their rate by more than the motors can follow.
+// The controller itself causes no step loss: for any request during a program and for moves of any length, the pulse
+// rate on the wires never changes by more than the motors can follow.
 #include <algorithm>
 
 #include "lossless_support.hpp"
@@ -47,7 +47,7 @@ Path collinear(double line, double length) {
     return out;
 }
 
-/// The cut through a relief, along X.
+/// A cross-section of a relief, along X.
 Path relief(double chord, double length, double feed) {
     Path out{fmt::format("G21 G90 G64 P0.005\nG0 X10 Y10 Z75\nG1 F{}\n", feed)};
     out.y = 10;
@@ -124,7 +124,7 @@ TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
     }
 }
 
-/// Moves from rest to rest, along each of which X has less than half a pulse.
+/// Moves from standstill to standstill, in each of which X has less than half a pulse.
 TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 16);
@@ -139,7 +139,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     expect_end(driven, path.x, path.y);
 }
 
-/// A ramp in chords, or in quarters of a circle, in each of which Z has less than half a pulse.
+/// A ramp in chords or quarter circles, in each of which Z has less than half a pulse.
 TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
     const auto ramp = [](double angle, double rise, bool arcs) {
         Path out{"G21 G90 G64 P0.01\nG0 X170 Y100 Z40\nG1 F1200\n"};
@@ -159,7 +159,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
     }
 }
 
-/// The end of its short drives may come at the instant in which the queue has room.
+/// The end of its short drives may coincide with the instant at which the queue has room.
 TEST_P(Lossless, AFourthAxisThatOftenStandsHoldsNothingUp) {
     Path path{"G21 G90 G64 P0.01 F1051\nG0 X170 Y100 Z40\n", 0, 0};
     for (int i = 1; i < 153; ++i) {
@@ -194,7 +194,7 @@ TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     bool late = false;
     const Path path = spiral(0.2, 200);
     RackConfig config = router();
-    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors fall out of step
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
     const Driven driven = drive_with(config, path.text, {}, [&](Rack& rack) {
         if (late || rack.kernel().now() < milliseconds(2500)) return;
         late = true;

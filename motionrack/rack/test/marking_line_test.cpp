@@ -46,7 +46,7 @@ struct Line {
         return value.value_or(NAN);
     }
     std::int64_t peek(const char* name) { return *session->peek("scan", name); }
-    /// A square of 10 mm at 500 mm/s from the field's origin, corrected by encoder 0 or not.
+    /// A square of 10 mm at 500 mm/s from the field's origin, with or without correction by encoder 0.
     void square(double scale) {
         ASSERT_TRUE(engine().set_start_list(1));
         put(Op::set_mark_speed, {5184 * 0.5});
@@ -82,7 +82,7 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
         parts::Workpiece marked = bench.workpiece();
         marked.finish();
         ASSERT_GE(marked.points().size(), 5u);
-        // The part goes 2 mm to +X while a side is marked: without correction the corners are further back on it.
+        // The part moves 2 mm to +X while a side is marked: without correction the corners are further back on it.
         const sim::Spot at = marked.points()[0].at;
         const double late = corrected ? 0 : 2;
         const sim::Spot corners[] = {at,
@@ -200,7 +200,7 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
 TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\ndelay_us = 350\n");
     bench.ms(100);
-    // The last reading whose word is complete: at 99.6 ms, 9.96 mm.
+    // The last reading with a complete word: at 99.6 ms, 9.96 mm.
     EXPECT_EQ(bench.part("line.word"), 9960);
     EXPECT_EQ(*bench.session->wire("scan.mcbsp"), 9960);
     EXPECT_EQ(bench.engine().state().mcbsp.word, 9960);

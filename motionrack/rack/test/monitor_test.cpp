@@ -1,4 +1,4 @@
-// The monitor holds the pulses against the program as it is written, not against what was planned.
+// The monitor compares the pulses with the program as written, not with the plan.
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/monitor.hpp>
@@ -10,7 +10,7 @@ namespace {
 constexpr double pulses_of_mm = 640, allowed_mm = 0.005;
 constexpr Duration each_pulse = microseconds(100);  // 15.625 mm/s
 
-/// A rack of X and Y whose pulses follow laws, watched.
+/// A monitored rack of X and Y whose pulses follow motion laws.
 class Watch {
   public:
     Watch(std::vector<sim::PulseLaw> x, std::vector<sim::PulseLaw> y)
@@ -30,7 +30,7 @@ class Watch {
         monitor_.programmed(move, at_);
         at_ = move.end;
     }
-    /// What the planner makes of the moves from `index` on.
+    /// Submits the planner's version of the moves from `index`.
     void plan(double x, double y, std::int64_t index, std::int32_t line, Instant at) {
         control::PlannedMove planned;
         planned.move.index = index;
@@ -63,7 +63,7 @@ class Watch {
     std::int64_t moves_ = 0, blocks_ = 0;
 };
 
-/// 10 mm along X, then 10 mm along Y, with the corner cut by `cut` seconds of both.
+/// 10 mm along X, then 10 mm along Y, with the corner blended over `cut` seconds of both.
 Watch corner(Duration cut) {
     const Duration side = each_pulse * 6'400;
     return Watch({{Instant{}, each_pulse, 1}, {side, each_pulse, 0}},
@@ -75,7 +75,7 @@ TEST(AMonitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
     Watch watch = corner(cut);
     watch.line(10, 0, 3);
     watch.line(10, 10, 4);
-    // It is planned as it is driven.
+    // The plan equals the motion.
     watch.plan(9.5, 0, 0, 3, Instant{});
     watch.plan(10, 0.5, 0, 3, side - cut);
     watch.plan(10, 10, 1, 4, side);
@@ -94,7 +94,7 @@ TEST(AMonitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
 }
 
 TEST(AMonitor, LetsCornersBeCutWithinTheirTolerance) {
-    Watch watch = corner(milliseconds(6));  // 0.094 mm, so 0.047 mm from both sides
+    Watch watch = corner(milliseconds(6));  // 0.094 mm, thus 0.047 mm from both sides
     watch.line(10, 0, 3);
     watch.line(10, 10, 4);
     watch.plan(10, 10, 0, 3, Instant{});

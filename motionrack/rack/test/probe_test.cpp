@@ -1,5 +1,5 @@
-// Probing on a running rack: the place of the edge is exact at every feed, and the program goes on where the machine
-// stands.
+// Probing on a running rack: the contact position is exact at every feed rate, and the program continues from the
+// machine's position.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ JobOutcome run_probe(const std::string& rack_text, const std::string& program) {
     return job.run();
 }
 
-/// The events of the program that tell of the probe.
+/// Returns the program's events about the probe.
 std::vector<std::string> set_probe_result(const JobOutcome& out) {
     std::vector<std::string> texts;
     for (const control::ProgramEvent& event : out.run.events)
@@ -50,7 +50,7 @@ std::string at(const char* what, double x, double y, double z) {
     return text;
 }
 
-/// A place in mm as the card has it, whole pulses.
+/// Rounds mm to whole pulses, like the card.
 double whole(double mm) {
     return std::floor(mm * pulses_per_mm + 0.5) / pulses_per_mm;
 }
@@ -63,7 +63,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         const JobOutcome out = run_probe(rack_text("x_min_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
-        // It comes to rest behind the edge, by no more than the way to brake and a little.
+        // It stops beyond the edge, within the braking distance and a margin.
         const double speed = feed / 60.0, way = out.axes[0].real_end - whole(edge);
         EXPECT_GE(way, 0);
         EXPECT_LE(way, speed * speed / 2 / 900 + speed * 0.03 + 0.01) << "F" << feed;  // at 1000 mm/s2 and 20,000 mm/s3
@@ -86,7 +86,7 @@ TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
 }
 
 TEST(Probing, LeavesAndTouchesWithinOneProgram) {
-    // The classic: fast down, back until it leaves, slowly down again; then up by increments from where it stands.
+    // Typical sequence: fast down, back until release, slowly down again; then up by increments from there.
     const JobOutcome out =
         run_probe(rack_text("z_max_mm = 12.34\n"),
                   "G21 G90\nG38.2 Z0 F1800\nG38.4 Z40 F600\nG38.2 Z0 F30\nG91 G1 Z5 F600\nG90 X10 F3000\nM2\n");
@@ -99,8 +99,8 @@ TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     EXPECT_EQ(out.run.moves, 5);
 }
 
-/// Down in steps until the probe touches, three times along X, with what it found kept; then up above the lowest place,
-/// and X to where a sub says. Subs, loops and conditions go by what the probe did.
+/// Moves down in steps until the probe makes contact, three times along X, and stores the results. Then moves above the
+/// lowest position, and X to a position from a sub. Subs, loops and conditions depend on the probe results.
 constexpr const char* measures =
     "G21 G90 G94\n#<least> = 1000\no<down> sub (step)\n  G91\n  o10 do\n    G38.3 Z-#1 F1200\n  o10 while [#5070 EQ "
     "0]\n  G90\n"
@@ -196,7 +196,7 @@ TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
     EXPECT_THAT(bad(rack_text("x_min_mm = 5\nx_max_mm = 4\n")), HasSubstr("its first end must be below the other"));
 }
 
-/// Lines one by one, each only when there is room.
+/// Feeds lines one by one, each only when there is room.
 struct Fed {
     Rack rack;
     std::unique_ptr<control::StreamExecutor> stream;

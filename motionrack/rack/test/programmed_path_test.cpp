@@ -1,5 +1,5 @@
-// How far a place is from a program is known from the program alone: whatever it was planned as, the moves as they were
-// written count, each with its own tolerance.
+// The distance of a position from a program depends on the program alone. The moves as written count, each with its own
+// tolerance, whatever their plan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,7 +91,7 @@ TEST(AProgrammedPath, LooksNoFartherThanTheMachineCanBe) {
     EXPECT_NEAR(program.path.distance(part_of(0, 3), 1, 2, 0).mm, 1, 1e-12) << "the last move is nearer than the first";
 }
 
-/// As all moves looked at one by one.
+/// Same result as from checking all moves one by one.
 TEST(AProgrammedPath, FindsTheNearestOfManyShortMoves) {
     Written program({0, 0});
     std::vector<control::Point> corners = {{0, 0}};

@@ -1,4 +1,4 @@
-// The registers of a card as people see them.
+// Text views of a card's registers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A slot with nothing in it.
+/// An empty slot.
 class Empty final : public RegisterPort {
   public:
     void write(std::uint32_t offset, std::uint16_t value) override { writes.emplace_back(offset, value); }

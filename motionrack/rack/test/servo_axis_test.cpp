@@ -1,4 +1,4 @@
-// A servo axis on a positioning card, in mm: moves, jogs, stops, homes, and what breaks.
+// A servo axis on a positioning card, in mm: moves, jogs, stops, homing, and faults.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ struct Machine {
     double speed() { return rack.axes()[0].speed(rack.kernel().now()); }
     sim::VirtualHost& host() { return rack.axes()[0].card->host(); }
     Instant now() { return rack.kernel().now(); }
-    /// Looks at the axis every ms for that long.
+    /// Checks the axis every ms during that time.
     void run(Duration time) {
         for (const Instant end = now() + time; now() < end; host().pass(milliseconds(1))) axis->step(now());
     }
@@ -143,7 +143,7 @@ TEST(ServoAxis, AStopDeceleratesAndAStopAtOnceIsShorterAndBothKeepThePosition) {
 }
 
 TEST(ServoAxis, TheEndStopEndsAMoveAndTheWayBackIsFree) {
-    Machine m;  // its position is not trusted, so nothing else keeps it in its travel
+    Machine m;  // its position is invalid, so nothing else keeps it within its travel
     ASSERT_TRUE(m.axis->move_by(3'500, 300));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
@@ -245,7 +245,7 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     EXPECT_THAT(inject_fault(m.rack, "watchdog.bark", "board").error().message, HasSubstr("watchdog.hang"));
     ASSERT_TRUE(set_quantity(m.rack, "X.position_mm", 180));
     EXPECT_NEAR(m.mm(), 180, 0.011);
-    // A hand with a voltage.
+    // Forces a voltage manually.
     m.axis->stop_now();
     ASSERT_TRUE(inject_fault(m.rack, "motor.stall=0", "X"));
     ASSERT_TRUE(m.desk.force("X.drive", -2));
@@ -266,7 +266,7 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
             settings.type = type;
             const HomingOutcome out = home_axes(rack, settings);
             ASSERT_TRUE(out.all_homed()) << out.axes[0].outcome.sentence;
-            // The zero pulses are at whole turns from the start at 100 mm; the one under the cam is at 130 mm.
+            // The index pulses are at whole revolutions from the start at 100 mm; the one under the cam is at 130 mm.
             const double home = type >= 3 ? 130 : plus ? 126 : 132, called = type >= 3 ? 128 : plus ? 126 : 132;
             EXPECT_NEAR(out.axes[0].counter_position - called, out.axes[0].machine_position - home, 0.0101)
                 << "to a count";
@@ -297,7 +297,7 @@ TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndIsNotTrusted) {
     EXPECT_THAT(homed.error().message, HasSubstr("right end stop is active and no reference was found"));
     EXPECT_FALSE(m.axis->position_valid());
     EXPECT_FALSE(m.axis->home_outcome().homed);
-    // And a stop in the middle is accepted.
+    // A stop in the middle is also accepted.
     ASSERT_TRUE(inject_fault(m.rack, "ref.broken=0", "board"));
     ASSERT_TRUE(m.axis->home(order, m.now()));
     m.run(milliseconds(300));

@@ -1,11 +1,11 @@
-// What the tests of servo axes share.
+// Shared helpers of servo axis tests.
 #pragma once
 
 #include <string>
 
 namespace motionrack::rack {
 
-/// A carriage of 0.01 mm a count, 500 mm/s; `servo`, `rest`: more keys of its servo, more sections.
+/// A carriage with 0.01 mm per count, 500 mm/s; `servo`, `rest`: more keys of its servo, more sections.
 inline std::string carriage(const std::string& servo = {}, const std::string& rest = {}) {
     return "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nlead_mm = 10\nencoder_counts_per_rev = "
            "1000\n"

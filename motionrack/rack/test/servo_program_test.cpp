@@ -1,4 +1,4 @@
-// Programs on cards that position each axis by itself, and what their rack files may not say.
+// Programs on cards that position each axis by itself, and invalid rack files for them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Stages in a rack file: what is refused and how, and loops that run through the bus' frames.
+// Stages in a rack file: rejected settings with their errors, and loops that run through the bus' frames.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

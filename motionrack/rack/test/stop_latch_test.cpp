@@ -1,4 +1,4 @@
-// A job that something must stop: in every state, from every source, and nothing moves after it.
+// A job that must stop: in every state, from every source, and nothing moves after it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -164,7 +164,7 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
     const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
     ASSERT_FALSE(one_piece.outcome.ended);
     EXPECT_TRUE(one_piece.outcome.position_trusted) << "the chip brakes within its piece";
-    // Of the pieces of a path with limited jerk each lasts for some milliseconds; the chip ends where one ends.
+    // The segments of a jerk-limited path last for some milliseconds each; the chip stops at the end of one.
     const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
     for (const char* switches : {"X.limit_plus=0@1s", "Y.limit_plus=0@1s"}) {
         const StoppedRun pieces = run_stopped(jerk, fast, {switches});
@@ -176,7 +176,7 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
     EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed";
 }
 
-/// While the chip brakes, what waits behind the line must not have its way with the acceleration.
+/// While the chip decelerates, moves queued behind the line must not change the acceleration.
 TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
     std::string slow_y = stop_axes;
     slow_y.replace(slow_y.find("channel = \"y\""), 13,

@@ -1,4 +1,4 @@
-// Changing a rack file's tree: what is written reads back as the same rack.
+// Edits a rack file's tree; the written text reads back as the same rack.
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/config.hpp>

@@ -1,5 +1,5 @@
-// A top speed is one that lasted: of motions whose speed is known it is found, and what whole pulses make of the rate
-// of short pieces is not.
+// A peak velocity is a sustained one: it is found in motions with a known velocity, and the effect of whole pulses on
+// the rate of short segments is not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr double jump_hz = 12, period_s = 1e-3;
 
-/// A motion in pieces, each of a whole number of pulses at a constant rate, as a card draws them that is given the true
-/// `speed(t)` of its middle.
+/// Returns the peak velocity of a motion in segments. Each segment has a whole number of pulses at a constant rate, as
+/// drawn by a card that receives the exact `speed(t)` of its middle.
 double top_of_pieces(const std::function<double(double)>& speed, double piece_s, double seconds) {
     TopSpeed top(jump_hz, from_seconds(period_s));
     double t = 0, next_look = period_s, place = 0, rate = 0;

@@ -1,5 +1,5 @@
-// However time is cut into calls, the same history: a thousand seeds a kind of rack. MOTIONRACK_SEED=N picks the first,
-// MOTIONRACK_CUTS=N how many there are.
+// The event trace does not depend on how time is divided into calls: a thousand seeds per kind of rack.
+// MOTIONRACK_SEED=N sets the first seed, MOTIONRACK_CUTS=N their number.
 #include <motionrack/rack/test/cut.hpp>
 #include <tuple>
 

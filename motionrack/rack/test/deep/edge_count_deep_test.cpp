@@ -1,4 +1,4 @@
-// A thousand moves a card. MOTIONRACK_SEED=N picks the moves, MOTIONRACK_MOVES=N how many.
+// A thousand moves per card. MOTIONRACK_SEED=N selects the moves, MOTIONRACK_MOVES=N sets their number.
 #include <motionrack/rack/test/encoder_edges.hpp>
 #include <tuple>
 

@@ -1,4 +1,4 @@
-// MOTIONRACK_SEED=N picks the first random program, MOTIONRACK_PROGRAMS=N how many there are.
+// MOTIONRACK_SEED=N sets the first random program, MOTIONRACK_PROGRAMS=N their number.
 #include <motionrack/rack/test/lossless_random.hpp>
 
 namespace motionrack::rack {
