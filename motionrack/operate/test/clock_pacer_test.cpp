@@ -6,7 +6,7 @@
 namespace motionrack::operate {
 namespace {
 
-/// A computer's clock that goes only when somebody sleeps, or is told to.
+/// A computer's clock that advances only by sleeps or on request.
 class SleepingClock final : public live::Clock {
   public:
     Instant now() const override { return now_; }
@@ -18,13 +18,13 @@ class SleepingClock final : public live::Clock {
     void pass(Duration duration) { now_ += duration; }
 
     Duration slept{0};
-    Duration too_long{0};  ///< that a sleep takes more
+    Duration too_long{0};  ///< additional duration of a sleep
 
   private:
     Instant now_{whole_seconds(1000)};
 };
 
-/// Asks for one slice until it may go on; how often it asked.
+/// Requests one slice until it may run; returns the number of requests.
 int let_on(ClockPacer& pacer, Instant now) {
     int asked = 1;
     while (!pacer.pace(now)) ++asked;

@@ -1,4 +1,4 @@
-// The contacts of a machine: limit switches that are wired wrongly, an emergency stop with two channels, a door.
+// Contacts of a machine: limit switches wired wrongly, an emergency stop with two channels, a door.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Limit switches of X whose wires are exchanged; it stands at 10 mm, and its + switch is at 40 mm.
+/// Limit switches of X with exchanged wires; X is at 10 mm, and its + switch at 40 mm.
 const std::string swapped_limits =
     "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 40\nhome_mm = 0\n"
     "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n";
 
-/// All axes are where they say.
+/// Sets all positions to their present values.
 void declare_all(Operated& o) {
     o.at(0.02, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(InAProgramAndAJog, SwappedLimits, testing::Bool());
 
 const std::string two_channels = "[safety]\nestop_channels = 2\n";
 
-/// A jog that is stopped at 1 s by one channel or the other.
+/// A jog stopped at 1 s by one channel or the other.
 class OneChannel : public testing::TestWithParam<const char*> {};
 
 TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffers) {

@@ -1,4 +1,4 @@
-// A jog is held by its lease: how long it goes on, what ends it, and that what has ended it stays ended.
+// The lease of a jog: how long the jog continues, its end, and that an ended jog stays ended.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A machine whose rack has `rate` seconds for a second of the people who operate it.
+/// A machine whose virtual time advances `rate` seconds per second of wall-clock time.
 struct AtRate {
     explicit AtRate(double rate_here) : rate(rate_here), o(two_axes(), settings()) {}
     MachineSettings settings() {
@@ -24,7 +24,7 @@ struct AtRate {
 class JogLeaseAtARate : public testing::TestWithParam<double> {};
 
 TEST_P(JogLeaseAtARate, EndsAQuarterOfASecondOfTheWallAfterItsLastRenewal) {
-    const double rate = GetParam(), speed = 2;  // mm/s: it stops at once
+    const double rate = GetParam(), speed = 2;  // mm/s: stops immediately
     AtRate one(rate);
     for (int n = 0; n < 10; ++n) one.o.at((0.1 + 0.1 * n) * rate, [&](Machine& m) { EXPECT_TRUE(m.jog('X', speed)); });
     one.o.run(2 * rate);

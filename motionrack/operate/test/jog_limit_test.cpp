@@ -1,4 +1,4 @@
-// A jog ends at the axis' soft limit: at the last pulse within, whatever its speed, acceleration and what changes on
+// A jog ends at the axis' soft limit: at the last pulse within it, at any velocity and acceleration, with any change on
 // the way.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,8 +19,8 @@ struct JogCase {
     double start = 0;           ///< mm
     double min = 0, max = 300;  ///< mm
     int direction = 1;
-    double next_speed = 0;  ///< mm/s, asked for in turn with the first one; 0: the speed stays
-    double every = 0.1;     ///< s, from one renewal to the next
+    double next_speed = 0;  ///< mm/s, alternating with `speed`; 0: no change
+    double every = 0.1;     ///< s between renewals
     bool overrides = false;
     const char* more = "";
 };
@@ -32,7 +32,7 @@ std::ostream& operator<<(std::ostream& out, const JogCase& one) {
 }
 
 rack::RackConfig rack_of(const JogCase& one) {
-    // At great accelerations the pulse rate rises by much from one pulse to the next.
+    // At high accelerations the pulse rate increases greatly from one pulse to the next.
     const int start_stop_hz = one.accel > 1000 ? 60'000 : 2000;
     const rack::RackReading reading = rack::read_rack_text(
         fmt::format("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
@@ -43,7 +43,7 @@ rack::RackConfig rack_of(const JogCase& one) {
     return *reading.config;
 }
 
-/// How far the axis was beyond the limit and the table from the axis, at most, and where it stands.
+/// Maximum excess of the axis over the limit, maximum distance of the table from the axis, and the final position.
 struct Seen {
     double beyond = 0, apart = 0, commanded = 0, end_speed = 0;
     std::string conditions;
@@ -82,7 +82,7 @@ Seen jog_on(const JogCase& one) {
 constexpr const char* jerk_limited = "[controller]\nprofile = \"jerk_limited\"\n";
 
 const JogCase jog_cases[] = {
-    // every speed, both directions
+    // all velocities, both directions
     {20},
     {50},
     {100},
@@ -95,18 +95,18 @@ const JogCase jog_cases[] = {
     {.speed = 50, .more = jerk_limited},
     {.speed = 100, .more = jerk_limited},
     {.speed = 100, .start = 300, .direction = -1, .more = jerk_limited},
-    // accelerations that the chip can only take rounded, or that leave no way to reach the speed
+    // accelerations that the chip can only round, or without enough distance to reach the velocity
     {.speed = 100, .accel = 17},
     {.speed = 100, .accel = 3333.3},
     {.speed = 100, .accel = 77'777, .start = 299},
     {.speed = 37.123, .accel = 1, .start = 280},
-    // near the limit, beside whole pulses, at it
+    // near the limit, between whole pulses, at the limit
     {.speed = 100, .start = 299.999},
     {.speed = 100, .start = 12.3456},
     {.speed = 50, .start = 0.0049, .min = -17.0011, .max = 17.0009},
     {.speed = 50, .start = 0.0049, .min = -17.0011, .max = 17.0009, .direction = -1},
     {.speed = 100, .start = 300},
-    // speeds that change on the way, often
+    // velocities that change often
     {.speed = 100, .next_speed = 5},
     {.speed = 100, .next_speed = 60, .every = 0.011},
     {.speed = 100, .accel = 200, .next_speed = 99, .every = 0.004},

@@ -1,4 +1,4 @@
-// What the journal holds of a machine, and what the next run makes of it.
+// Journal entries of a machine, and the state that the next run restores.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ rack::RackConfig table() {
                 .config;
 }
 
-/// A machine whose pictures go into a journal.
+/// A machine whose statuses are written to a journal.
 class ALogbook : public testing::Test {
   protected:
     ALogbook() : path_((fs::path(testing::TempDir()) / ("logbook_" + std::to_string(::getpid()) + ".db")).string()) {
@@ -42,7 +42,7 @@ class ALogbook : public testing::Test {
         journal_ = std::move(*journal::Journal::open(path_));
         book_.emplace(*journal_);
     }
-    /// Runs a machine; `order` is called once, when `when` is true of a picture.
+    /// Runs a machine; calls `order` once, when `when` is true for a status.
     void run(MachineSettings settings, std::function<bool(const Status&)> when, std::function<void(Machine&)> order,
              std::function<void(Machine&)> begin) {
         Machine* machine = nullptr;
@@ -69,7 +69,7 @@ class ALogbook : public testing::Test {
         for (const journal::Entry& entry : *entries) out.push_back(entry.text);
         return out;
     }
-    /// As a run that ends by itself does, or as one that is killed.
+    /// Ends the journal as a completed run or as a killed one.
     void end(bool clean) {
         if (clean) {
             ASSERT_TRUE(journal_->close());
@@ -178,7 +178,7 @@ TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
 
 TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     open();
-    // Nothing that the program says as it ends comes into the journal: as if it had been killed in the move.
+    // No entry of the program's end is written: as if it had been killed during the move.
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },
         [this](Machine& m) {
@@ -189,7 +189,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
             EXPECT_THAT(last.sentence, HasSubstr("was cut off"));
             EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
             EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
-            EXPECT_NEAR(last.axes[0].true_position, 50, 12);  // at most 0.1 s ago
+            EXPECT_NEAR(last.axes[0].true_position, 50, 12);  // at most 0.1 s old
             EXPECT_FALSE(last.axes[0].position_valid);
             m.quit();
         },

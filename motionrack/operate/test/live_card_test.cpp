@@ -1,5 +1,5 @@
-// Real cards in the place of virtual ones, with files in the place of cards: /dev/zero is one that stands, a file of
-// plain memory one that drives on whatever is written to it, because it reads what was written.
+// Real cards that replace virtual ones, with files as cards. /dev/zero acts as a card at standstill. A file of plain
+// memory never stops, because it returns the written values.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -23,7 +23,7 @@ using Arguments = std::map<std::string, std::int64_t, std::less<>>;
 const StopOrigin dora{"dora", "127.0.0.1", ""};
 const char* const beside = "[card.bench]\ntype = \"mcx314\"\n[card.glass]\ntype = \"ioflex02\"\n";
 
-/// A link to what stands for the card.
+/// A link to the file that acts as the card.
 class CardFile {
   public:
     explicit CardFile(const fs::path& to) { points_to(to); }
@@ -36,7 +36,7 @@ class CardFile {
         fs::remove(link_);
         fs::create_symlink(to, link_);
     }
-    /// Words that are all the same.
+    /// Memory filled with equal words.
     fs::path memory(char byte) const {
         fs::create_directories(folder_);
         std::ofstream(folder_ / "memory", std::ios::binary) << std::string(16, byte);
@@ -45,7 +45,7 @@ class CardFile {
     std::string place() const { return "port:" + link_.string(); }
 
   private:
-    live::test::ZeroCard zero_;  // no test of another process has it meanwhile
+    live::test::ZeroCard zero_;  // reserved: no test of another process uses it meanwhile
     fs::path folder_ = fs::temp_directory_path() / ("motionrack_live_card_" + std::to_string(::getpid()));
     fs::path link_ = folder_ / "card";
 };

@@ -1,4 +1,4 @@
-// A machine as people operate it: programs, hold, stop, jog, home; orders come at given instants of virtual time.
+// An operated machine: programs, hold, stop, jog, homing; commands come at given instants of virtual time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -363,7 +363,7 @@ TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
     EXPECT_EQ(o.y(), 50);
 }
 
-/// Moves nothing, and takes no time.
+/// Lines without motion and without duration.
 class ALineOfNothing : public testing::TestWithParam<const char*> {};
 
 TEST_P(ALineOfNothing, IsDrivenAloneAndBetweenOthers) {

@@ -1,4 +1,4 @@
-// Accesses to the cards' buses by hand.
+// Manual accesses to the cards' buses.
 #include <gmock/gmock.h>
 
 #include <motionrack/cards/ioflex02/map.hpp>

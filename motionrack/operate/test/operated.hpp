@@ -1,4 +1,4 @@
-// A machine whose orders come at given instants of virtual time.
+// A machine with commands at given instants of virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace motionrack::operate {
 
-/// Two axes that stand where the file says; `more` for the file.
+/// Two axes at the rack file's positions; `more`: further text of the file.
 inline rack::RackConfig two_axes(const std::string& more = "") {
     const rack::RackReading reading = rack::read_rack_text(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
@@ -30,7 +30,7 @@ inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
 }
 
-/// A machine, and orders that are given when their time has come.
+/// A machine, and commands that are given at their instants.
 class Operated {
   public:
     explicit Operated(const rack::RackConfig& config, MachineSettings settings = {}) {
@@ -48,9 +48,9 @@ class Operated {
             std::find_if(orders_.begin(), orders_.end(), [&](const Order& one) { return one.seconds > seconds; });
         orders_.insert(later, {seconds, std::move(order)});
     }
-    /// Sees the status of every slice.
+    /// Sets the listener to the status of every slice.
     void each_status(std::function<void(const Status&)> see) { see_ = std::move(see); }
-    /// Until `seconds`.
+    /// Runs until `seconds`.
     void run(double seconds) {
         at(seconds, [](Machine& m) { m.quit(); });
         machine->run();
@@ -60,7 +60,7 @@ class Operated {
 
     std::unique_ptr<Machine> machine;
     std::optional<test::MachineWatch> watch;
-    std::vector<std::string> states;  ///< as they followed each other
+    std::vector<std::string> states;  ///< in order of occurrence
     std::vector<control::gcode::CanonCallKind> events;
     double top_speed = 0, stood_since = 0;
 

@@ -1,4 +1,4 @@
-// When a machine may not move: disabled, or stopped by a switch or the emergency stop.
+// States in which a machine refuses motion: disabled, or stopped by a switch or the emergency stop.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,7 +89,7 @@ TEST(AMachine, MovesNoAxisThatIsDisabled) {
         EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("axis Y is disabled"));
         EXPECT_THAT(m.enable(true, "XQ").error().message, HasSubstr("no axis Q"));
         EXPECT_TRUE(m.jog('X', 10));
-        EXPECT_THAT(m.jog('Y', 10).error().message, HasSubstr("axis Y is disabled"));  // also while another one jogs
+        EXPECT_THAT(m.jog('Y', 10).error().message, HasSubstr("axis Y is disabled"));  // even while another axis jogs
     });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.enable(false, "X")); });
     o.at(1.2, [](Machine& m) {

@@ -1,4 +1,4 @@
-// Service of a card: when it begins, who ends it, and what the machine has afterwards.
+// Service of a card: its start, its end, and the state of the machine afterwards.
 #include <gtest/gtest.h>
 
 #include <motionrack/operate/service.hpp>
@@ -13,7 +13,7 @@ using Arguments = std::map<std::string, std::int64_t, std::less<>>;
 
 const char* const second_card = "[card.free]\ntype = \"mcx314\"\n[card.glass]\ntype = \"ioflex02\"\n";
 
-/// A machine whose service is asked at given instants.
+/// A machine with service requests at given instants.
 struct Served : Operated {
     explicit Served(const std::string& more = second_card) : Operated(two_axes(more)) {}
     void begin(double seconds) {
@@ -32,7 +32,7 @@ struct Served : Operated {
             if (!taken) said.push_back("refused: " + taken.error().message);
         });
     }
-    /// An endless drive of X with a ramp of a minute, from 0.1 s on.
+    /// Starts an endless drive of X with a ramp of a minute, at 0.1 s.
     void drive_x() {
         begin(0.05);
         call(0.08, "SetRange", {{"data", 800'000}});
@@ -183,7 +183,7 @@ TEST(AService, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
     EXPECT_EQ(o.said[4], "Stopped on request; X stands still.");
 }
 
-/// What ends a service, and the state in which the machine is then.
+/// A cause that ends a service, and the resulting state of the machine.
 struct Ending {
     const char* name;
     void (*give)(Machine& m);
@@ -223,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return std::string(each.param.name); });
 
 TEST(AService, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
-    Served o("switches = { limit_minus_mm = -5, limit_plus_mm = 305 }\n");  // of Y
+    Served o("switches = { limit_minus_mm = -5, limit_plus_mm = 305 }\n");  // for Y
     o.begin(0.05);
     o.call(0.08, "SetRange", {{"data", 800'000}});
     o.call(0.09, "HLMTP", {{"n", 1}, {"axis", 2}});

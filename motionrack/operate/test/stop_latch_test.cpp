@@ -1,4 +1,4 @@
-// The stop latch of a machine that people operate: states x sources, what is refused, and that a reset moves nothing.
+// The stop latch of an operated machine: states x sources, refusals, and a reset without motion.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,13 +13,14 @@ const std::string switches =
     "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\nhome_mm = 0\n"
     "[axis.Y.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 305\n";
 
-/// A button that is pressed at 2 s and released at 2.2 s.
+/// Presses the emergency stop at 2 s and releases it at 2.2 s.
 void press_and_release(Operated& o) {
     o.at(2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(2.2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 1)); });
 }
 
-/// In error stop with nothing moving; a resume and a line do nothing; a reset moves nothing; then a new line does.
+/// Expects an error stop without motion: a resume and a line have no effect, a reset moves nothing, then a new line
+/// moves.
 void expect_latched_until_reset(Operated& o, double x) {
     o.at(3, [x](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
@@ -115,7 +116,7 @@ TEST(TheStopLatch, IsSetByTheStopOrderToo) {
     EXPECT_NEAR(o.x(), 30, 0.01);
 }
 
-/// In motion, reset, and before it stands stopped by something else.
+/// Resets in motion, with another stop before standstill.
 void expect_reset_does_not_release(const std::function<void(Machine&)>& later_stop) {
     Operated o(two_axes());
     double stood = 0;

@@ -1,5 +1,5 @@
-// Every state of a machine against every source of a stop: what can hurt is safe in time, nothing moves before a reset
-// and an order, and the reset moves nothing. The page docs/explanations/safety.md has the names of these tests.
+// Every state of a machine against every source of a stop. Hazards end in time, nothing moves before a reset and a
+// command, and the reset moves nothing. The page docs/explanations/safety.md lists these tests by name.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace {
 
 using rack::StopSource;
 
-/// Two axes with switches and a probe, a positioning card (which has a watchdog), a laser over a belt, a stage in
-/// motion, outputs.
+/// Two axes with switches and a probe, a positioning card (which has a watchdog), a laser over a belt, a moving stage,
+/// outputs.
 const char* const everything = R"(
 [card.m]
 type = "mcx314"
@@ -76,7 +76,7 @@ bits_per_mm = 5184
 
 struct State {
     std::string_view name;
-    MachineState state;  ///< that the machine tells just before the stop
+    MachineState state;  ///< reported state just before the stop
     void (*begin)(Operated& o, double stop_s);
 };
 
@@ -135,7 +135,7 @@ constexpr State states[] = {
 struct Source {
     StopSource source;
     std::string_view name;
-    double ahead_s;  ///< so long before the stop it is begun
+    double ahead_s;  ///< time from its start to the stop
     void (*begin)(Machine& m);
     void (*end)(Machine& m);
 };
@@ -185,7 +185,7 @@ class AStopInAState : public testing::TestWithParam<Case> {
     double belt_speed() { return rack().track("line")->track().speed(to_seconds(o_.machine->now())); }
     double marked() { return *rack::get_quantity(rack(), "head.marked_mm"); }
 
-    /// A laser that is on for eight seconds, a belt and a stage that move, outputs that are on.
+    /// Starts a laser for eight seconds, a belt and a stage, and switches outputs on.
     void begin_all() {
         rtc5::Engine& laser = rack::rtc5_card_of(rack(), "scan")->engine();
         ASSERT_TRUE(laser.set_start_list(1));
@@ -202,7 +202,7 @@ class AStopInAState : public testing::TestWithParam<Case> {
         EXPECT_GT(belt_speed(), 0);
         EXPECT_GT(stage_speed(), 0.01);
     }
-    /// What goes off at once.
+    /// Expects everything that must be off immediately.
     void expect_off() {
         EXPECT_EQ(level("scan.laser_on"), 0);
         EXPECT_EQ(level("glass.out0"), 0);
@@ -276,7 +276,7 @@ TEST(TheTableOfReactions, HasOneAnswerOfEachPartToEachSource) {
     std::set<std::string_view> parts;
     for (const rack::StopReaction& reaction : rack::stop_reactions()) parts.insert(reaction.part);
     for (const rack::CardType& type : rack::card_types())
-        EXPECT_EQ(parts.count(type.name), type.name == "grating_decoder" ? 0u : 1u) << type.name;  // that only counts
+        EXPECT_EQ(parts.count(type.name), type.name == "grating_decoder" ? 0u : 1u) << type.name;  // it only counts
     for (const std::string_view part : parts)
         for (const StopSource source : rack::stop_sources) {
             int rows = 0;

@@ -1,4 +1,4 @@
-// What happens to the positions of a machine that is jogged when something breaks: as in a program that is run.
+// Positions of a jogged machine after faults: the same rules as in a program run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,10 +20,10 @@ struct BrokenJog {
     const char* name;
     bool servo;
     double speed;       ///< mm/s
-    const char* fault;  ///< a wire, or X's fault
+    const char* fault;  ///< a wire, or a fault of X
     bool wire;
     bool position_valid;
-    const char* alarm;  ///< words of one; empty: there is none
+    const char* alarm;  ///< part of the alarm text; empty: no alarm
 };
 
 std::ostream& operator<<(std::ostream& out, const BrokenJog& one) {
@@ -169,7 +169,7 @@ TEST(AMachine, DoesNotTrustAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsT
     EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "it is declared where it stands now";
 }
 
-/// The router's A is home long before the others.
+/// The router's A is homed long before the others.
 void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     bool pushed = false;
     o.each_status([&o, then, pushed](const Status& status) mutable {
@@ -220,7 +220,7 @@ TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     EXPECT_FALSE(status.axes[0].position_valid);
 }
 
-/// X has its index at 0 mm, 2 mm behind its switch.
+/// X with its index at 0 mm, 2 mm from its switch.
 const char* const with_index =
     "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nmethod = 4\n"
     "home_offset_mm = 0\n";
