@@ -1,5 +1,5 @@
-// A machine with its panel, asked at given instants of virtual time; everything in one thread but the panel's own
-// worker.
+// A machine with its panel and requests at given instants of virtual time; everything runs in one thread except the
+// panel's own worker.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ inline rack::RackConfig config_of(const std::string& text) {
 inline rack::RackConfig demonstration() {
     return config_of(text_of_file("examples/15_panel/demonstration.toml"));
 }
-/// Two axes without switches that stand where the file says.
+/// Two axes without switches at the rack file's positions.
 inline rack::RackConfig two_axes() {
     return config_of(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
@@ -58,7 +58,7 @@ class Asked {
         settings.picture_every = std::chrono::microseconds(0);
         panel = std::make_unique<Panel>(*machine, lease, std::move(settings));
     }
-    /// Asks when `seconds` have come; the world waits for answers that come from the worker.
+    /// Sends a request at `seconds`; virtual time waits for answers from the worker.
     void at(double seconds, const Caller& caller, const std::string& name, json fields = json::object(),
             std::function<void(const Answer&)> look = {}) {
         at(seconds, [this, caller, name, fields = std::move(fields), look = std::move(look)] {
@@ -70,7 +70,7 @@ class Asked {
             std::find_if(orders_.begin(), orders_.end(), [&](const Timed& one) { return one.seconds > seconds; });
         orders_.insert(later, {seconds, std::move(work)});
     }
-    /// An order that must be taken; anna holds control.
+    /// A command that must be accepted; anna holds control.
     void good(double seconds, const std::string& name, json fields = json::object()) {
         at(seconds, anna, name, std::move(fields),
            [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
@@ -90,7 +90,7 @@ class Asked {
     }
     double x() const { return machine->status().axes[0].commanded; }
 
-    /// Its clock stands: control does not run out where a busy machine takes long.
+    /// Its clock stands still, so that control does not expire on a busy computer.
     auth::ControlLease lease{[] { return auth::Moment{}; }};
     std::unique_ptr<operate::Machine> machine;
     std::unique_ptr<Panel> panel;
@@ -102,7 +102,7 @@ class Asked {
     };
     bool pace(double now) {
         if (!machine || !panel) return true;
-        // Worker and journal answer in the computer's time; an access to a bus needs the rack's.
+        // Worker and journal answer in real time; a bus access needs virtual time.
         if (open_ == 0) waiting_since_ = std::chrono::steady_clock::now();
         if (open_ > 0 && std::chrono::steady_clock::now() - waiting_since_ < std::chrono::milliseconds(200)) {
             std::this_thread::yield();

@@ -1,4 +1,4 @@
-// Orders and the journal; what the machine's parts report.
+// Commands and the journal; conditions reported by the machine's parts.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A folder that goes with the test.
+/// A folder that is removed with the test.
 struct Folder {
     Folder() : path(std::filesystem::temp_directory_path() / ("motionrack-panel-" + std::to_string(::getpid()))) {
         std::filesystem::create_directories(path);
@@ -38,7 +38,7 @@ TEST(AnOrder, IsAnsweredWhenTheJournalHasIt) {
         for (const journal::Entry& entry : *entries) seen = seen || entry.text == "anna: enable on=true";
     });
     a.good(0.3, "line", {{"text", "G1 X12 F600"}});
-    a.good(1.9, "set_single_step", {{"on", true}});  // answered when it and all before it are on the disk
+    a.good(1.9, "set_single_step", {{"on", true}});  // answered when it and all earlier entries are on the disk
     a.at(2, eve, "journal", {{"limit", 100}}, [](const Answer& answer) {
         std::string kinds;
         for (const json& entry : answer.body["journal"]) kinds += entry["kind"].get<std::string>() + " ";
@@ -54,7 +54,7 @@ TEST(AnOrder, IsAnsweredWhenTheJournalHasIt) {
     EXPECT_TRUE(seen);
 }
 
-/// Of the machine's status; empty: none.
+/// Alarm text in the machine's status; empty: none.
 std::string alarm_of(const Asked& a) {
     std::string out;
     for (const operate::Alarm& alarm : a.machine->status().alarms)
@@ -82,7 +82,7 @@ TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     a.good(0.3, "begin", {{"name", "part.ngc"}, {"text", "G1 X200 F600\nX0\nM30\n"}});
     a.at(1.0, [&] { std::filesystem::remove(folder.path / "rack.journal"); });
     a.at(1.1, anna, "set_overrides", {{"feed", 0.5}}, [](const Answer& answer) {
-        // On a busy machine the journal's watch may have noticed before.
+        // On a busy computer the journal's supervision may have detected it before.
         const bool noticed = answer.status == 409;
         EXPECT_TRUE(noticed || answer.status == 500) << answer.status;
         EXPECT_THAT(answer.body.dump(), HasSubstr(noticed ? "was deleted while it was in use. The machine holds"

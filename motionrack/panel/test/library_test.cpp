@@ -1,4 +1,4 @@
-// A card's function library from the page: what is declared, who may call, what the journal has of it.
+// A card's function library on the page: declared functions, permissions, journal entries.
 #include <gmock/gmock.h>
 
 #include "asked.hpp"

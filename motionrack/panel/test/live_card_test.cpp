@@ -1,4 +1,4 @@
-// A card for which a real one stands, as the page has it: /dev/zero is a real card that stands.
+// A card replaced by a real one, as shown on the page: /dev/zero acts as a real card at standstill.
 #include <gmock/gmock.h>
 
 #include <motionrack/live/test/zero_card.hpp>
@@ -62,7 +62,7 @@ TEST(ARealCardOnThePage, SaysWhereItIsAndShowsNothingOfTheVirtualOne) {
     a.run(0.2);
 }
 
-/// A service of a real card begins and ends in the computer's time, which a busy one has less of: 5 s are enough.
+/// A service of a real card starts and ends in real time, which can be slow on a busy computer: 5 s are enough.
 TEST(ARealCardOnThePage, IsReadInServiceOnly) {
     const live::test::ZeroCard zero;
     Asked a(with_bench(), {}, with_live());

@@ -1,4 +1,4 @@
-// Looking: pictures, channels, cards, scope; and that it changes nothing.
+// Queries: status, channels, cards, scope; and their freedom from side effects.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Orders: who may, what is checked, and that the machine does them.
+// Commands: permissions, checks, and execution by the machine.
 #include <gmock/gmock.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -20,7 +20,7 @@ std::string message(const Answer& answer) {
     return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : "";
 }
 
-/// Looks that an answer is refused so.
+/// Expects a refusal with this status and text.
 std::function<void(const Answer&)> refused(int status, const std::string& words) {
     return [status, words](const Answer& answer) {
         EXPECT_EQ(answer.status, status) << answer.body.dump();
@@ -129,7 +129,7 @@ TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
     EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "order"}));
 }
 
-/// What streams lines without looking would go on behind those that were dropped.
+/// A client that streams lines without reading answers would continue after the dropped lines.
 TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
     Asked a(two_axes());
     std::vector<std::string> stops;
@@ -152,7 +152,7 @@ TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
     a.good(1.5, "reset");
     a.good(1.6, "line", {{"text", "G1 X60 F1200"}});
     a.run(2);
-    // A reset of what stands releases.
+    // A reset at standstill releases.
     EXPECT_THAT(stops, testing::ElementsAre("bert: STOP by bert: line 1 was stopped.",
                                             "anna: STOP by anna: the machine was in state 'standstill'.",
                                             testing::HasSubstr(": Shutdown")));
@@ -268,7 +268,7 @@ struct Question {
     json fields;
 };
 
-/// Of somebody who does not hold control.
+/// A request of a client without control.
 Question any_question() {
     std::vector<const OperationSpec*> rows;
     for (const auto table : {commands(), queries()})
@@ -300,7 +300,7 @@ RC_GTEST_PROP(AskingThePanel, AnswersAnyJsonWithASentenceAndMovesNothing, ()) {
     RC_ASSERT(answers == questions.size());
     RC_ASSERT(a.x() == 10);
     const operate::MachineState state = a.machine->state();
-    RC_ASSERT(state == operate::MachineState::disabled || state == operate::MachineState::error_stop);  // anybody stops
+    RC_ASSERT(state == operate::MachineState::disabled || state == operate::MachineState::error_stop);  // by any STOP
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ constexpr const char* rack_text =
     "[card.p]\ntype = \"databoard4002\"\n[card.l]\ntype = \"rtc5\"\nlist_memory = 2000\n[scanner.head]\ncard = \"l\"\n";
 constexpr int max_lines = 16;
 
-/// Asks line after line, a slice apart.
+/// Sends line after line, a slice apart.
 class Asker {
   public:
     explicit Asker(std::string_view bytes) : left_(bytes) {}

@@ -1,4 +1,4 @@
-// What must hold of the panel whatever it is asked; for its own test and for libFuzzer.
+// Invariants of the panel for any request; used by its own test and by libFuzzer.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace motionrack::panel::fuzz {
 
-/// Each line is JSON, {"order":NAME, fields}; somebody who may do everything asks it of a small rack. A sentence about
-/// what did not hold; empty: each was answered once, with JSON, and the machine ends.
+/// Each line is JSON, {"order":NAME, fields}; a client with all permissions sends it to a small rack. Returns a
+/// sentence about a violation; empty: each request was answered once, with JSON, and the machine ended.
 std::string check_orders(std::string_view bytes);
 
 }  // namespace motionrack::panel::fuzz

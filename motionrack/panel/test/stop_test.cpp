@@ -1,4 +1,4 @@
-// STOP and the emergency stop of a served rack: the laser goes out, belts and stages stand, and stay so.
+// STOP and the emergency stop of a served rack: the laser switches off, belts and stages stop, and stay stopped.
 #include <gmock/gmock.h>
 
 #include "asked.hpp"
@@ -77,7 +77,7 @@ TEST_P(AStopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
         EXPECT_EQ(answer.status, 409);
         EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), AnyOf(HasSubstr("Reset"), HasSubstr("reset")));
     };
-    a.good(1.4, "take_control");  // another's STOP has ended it
+    a.good(1.4, "take_control");  // another client's STOP has ended it
     a.at(1.5, anna, "mark", {{"card", "scan"}, {"job", slow_job}}, refused);
     a.at(1.6, anna, "start_part", {{"part", "line"}}, refused);
     a.at(1.7, anna, "inject_fault", {{"target", "line"}, {"fault", "drive.speed=50"}}, refused);
