@@ -1,6 +1,6 @@
 // A machine with a Grbl port, driven step by step: bytes in, time passes, bytes out.
 //
-// The machine runs on a thread of its own, which stands still whenever the test does something: the two take turns.
+// The machine runs on its own thread, which pauses while the test works: the two alternate.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ inline rack::RackConfig rack_of(const std::string& text) {
     return *reading.config;
 }
 
-/// X, Y and Z without home switches: they stand where the file says. `more` for the file.
+/// X, Y and Z without home switches, at the rack file's positions. `more`: further text of the file.
 inline rack::RackConfig three_axes(const std::string& more = "") {
     return rack_of(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
@@ -38,7 +38,7 @@ inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
 }
 
-/// How many lines were answered in it.
+/// Number of answered lines in the text.
 inline int answers(const std::string& text) {
     std::istringstream in(text);
     int out = 0;
@@ -74,7 +74,7 @@ class Bench {
         thread_.join();
     }
 
-    /// Lets so many seconds go by.
+    /// Advances time by this number of seconds.
     void pass(double seconds) {
         std::unique_lock<std::mutex> alone(lock_);
         until_ += from_seconds(seconds);
@@ -82,7 +82,7 @@ class Bench {
         turn_.notify_all();
         turn_.wait(alone, [this] { return waiting_; });
     }
-    /// What comes back of these bytes at once and within `seconds`.
+    /// Sends these bytes and returns the output within `seconds`.
     std::string ask(std::string_view bytes, double seconds = 0.01) {
         session->receive(bytes);
         pass(seconds);
@@ -90,7 +90,7 @@ class Bench {
     }
     /// The status report.
     std::string report() { return ask("?"); }
-    /// Until it is idle again, 100 s at most; what came meanwhile.
+    /// Waits for idle, 100 s at most; returns the output meanwhile.
     std::string until_idle() {
         std::string out;
         for (int i = 0; i < 10'000 && session->state() != State::idle; ++i) out += ask("");

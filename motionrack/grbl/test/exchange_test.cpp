@@ -1,4 +1,4 @@
-// The rules of the protocol, each as bytes in and bytes out.
+// Protocol rules, each as bytes in and bytes out.
 #include "bench.hpp"
 
 namespace motionrack::grbl {
@@ -7,7 +7,7 @@ namespace {
 const std::string exchange_banner = "\r\nGrbl 1.1h ['$' for help]\r\n",
                   exchange_unlock = "[MSG:'$H'|'$X' to unlock]\r\n";
 
-/// On a machine of three axes that stands in Idle at 0; each row begins afresh.
+/// An exchange on a machine of three axes, in Idle at 0; each row starts with a new machine.
 struct Exchange {
     const char* rule;
     std::string in;

@@ -1,4 +1,4 @@
-// What a sender sees while the machine moves.
+// The sender's view while the machine moves.
 #include "bench.hpp"
 
 namespace motionrack::grbl {
@@ -89,7 +89,7 @@ TEST(AGrblPort, HoldsAndResumes) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     EXPECT_THAT(b.ask("!?", 0.004), StartsWith("<Hold:1|"));
-    b.ask("~");  // not before it stands
+    b.ask("~");  // too early: not at standstill
     b.pass(0.5);
     EXPECT_THAT(b.report(), StartsWith("<Hold:0|"));
     const double place = b.axis(0);
@@ -226,7 +226,7 @@ TEST(AGrblPort, ReportsSpindleAndCoolantWithTheOverrides) {
     EXPECT_EQ(b.ask("M3 S500 M8\n", 0.05), "ok\r\n");
     EXPECT_EQ(b.report(), "<Idle|MPos:0.000,0.000,0.000|FS:0,500|Ov:100,100,100|A:SF>\r\n");
     EXPECT_EQ(b.ask("\x9A\xA1?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550|Ov:100,100,110|A:SFM>\r\n");
-    EXPECT_EQ(b.ask("\x9E?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550>\r\n");  // only in a hold
+    EXPECT_EQ(b.ask("\x9E?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550>\r\n");  // during a hold only
     EXPECT_EQ(b.ask("!\x9E\xA0?"), "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|Ov:100,100,110|A:M>\r\n");
     EXPECT_EQ(b.ask("~M4 S2000\n", 0.05), "ok\r\n");
     EXPECT_THAT(b.report(), HasSubstr("|FS:0,1000|Ov:100,100,110|A:CM>"));  // $30
@@ -318,7 +318,7 @@ TEST(AGrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-// ---- who may
+// ---- permissions
 
 TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     bool mine = false;

@@ -1,4 +1,4 @@
-// How senders that are not here begin, and what their jobs look like, replayed after their documentation.
+// Handshakes and jobs of real senders, replayed from their documentation.
 #include "bench.hpp"
 
 namespace motionrack::grbl {
@@ -11,8 +11,8 @@ using testing::StartsWith;
 
 const std::string idle = "<Idle|MPos:0.000,0.000,0.000|FS:0,0";
 
-/// Universal Gcode Sender 2: status (ten tries), an empty line where it is locked, build, settings, modes; then a
-/// status every 200 ms.
+/// Universal Gcode Sender 2: status (ten tries), an empty line if locked, build, settings, modes; then a status every
+/// 200 ms.
 TEST(UniversalGcodeSender, FindsAGrbl) {
     Bench b(three_axes());
     b.session->greet();
@@ -40,8 +40,8 @@ TEST(UniversalGcodeSender, ConnectsToALockedMachineAndHomesIt) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-/// gSender: a reset, then status until it hears something; build, settings, modes and offsets; overrides by their bytes
-/// while it streams with 127 bytes under way.
+/// gSender: a reset, then status until an answer comes; build, settings, modes and offsets; override bytes while it
+/// streams with 127 bytes pending.
 TEST(GSender, StreamsByCountingCharacters) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("\x18", 0.1), "\r\nGrbl 1.1h ['$' for help]\r\n");
@@ -70,7 +70,7 @@ TEST(GSender, StreamsByCountingCharacters) {
     EXPECT_NEAR(b.axis(1), 199.125, 1e-3);
 }
 
-/// LightBurn: greatest power and laser mode from the settings, M4 once, S on every G1, M5 and a park at the end.
+/// LightBurn: maximum power and laser mode from the settings, M4 once, S on every G1, M5 and a park at the end.
 TEST(LightBurn, EngravesInLaserMode) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("$30=1000\n$32=1\n"), "ok\r\nok\r\n");
@@ -84,7 +84,7 @@ TEST(LightBurn, EngravesInLaserMode) {
     EXPECT_EQ(b.ask("M9\nG1 S0\nM5\nG90\nG0 X0 Y0\nM2\n", 5), "ok\r\nok\r\nok\r\nok\r\nok\r\n[MSG:Pgm End]\r\nok\r\n");
 }
 
-/// bCNC when its job is done, and when it opens a port: what it sends must not alarm.
+/// bCNC at the end of a job, and when it opens a port: its bytes must not raise an alarm.
 TEST(BCnc, HoldsResetsAndAsksForOffsetsAfterItsJob) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("\n\n"), "ok\r\nok\r\n");

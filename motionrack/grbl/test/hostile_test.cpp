@@ -1,4 +1,4 @@
-// A port that anything may come down.
+// A port that receives arbitrary bytes.
 #include <cstdlib>
 #include <random>
 #include <tests/environment.hpp>
@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::EndsWith;
 using testing::StartsWith;
 
-/// MOTIONRACK_SEED=N picks the first of them.
+/// MOTIONRACK_SEED=N sets the first seed.
 TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> pieces = {"G0", "G1",   "X1",     "Y-3",   "Z5",     "F600", "\n",   "\r\n",
@@ -40,8 +40,8 @@ TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
     }
 }
 
-/// Lines without a reset, a sleep or a hold among them, however wrong, are answered once each. None leads beyond the
-/// travel: the alarm of that is the answer, as Grbl has it.
+/// Lines without a reset, a sleep or a hold are answered once each, however wrong they are. None leads beyond the
+/// travel, where the alarm would be the answer, as in Grbl.
 TEST(AGrblPort, AnswersEveryLineOnce) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> words = {"G0",   "G1",     "X1",  "Y3",      "Z.5", "F600", "$$",    "$G",

@@ -1,4 +1,4 @@
-// Who speaks as a G-code sender is one; what anything else begins with never reaches the machine.
+// G-code senders are recognised; the first bytes of any other client never reach the machine.
 #include <motionrack/grbl/introduction.hpp>
 #include <random>
 #include <tests/environment.hpp>
@@ -73,7 +73,7 @@ std::string some_bytes(std::mt19937& random, std::size_t least, std::size_t most
     return out;
 }
 
-/// Of real-time bytes and lines there are more in it than chance would put there.
+/// Random packets with more real-time bytes and lines than chance would give.
 std::string tempting(std::mt19937& random) {
     std::string out = some_bytes(random, 64, 600);
     const std::vector<std::string> pieces = {"\x18", "!", "~", "?", "\n", "\r\n", "G0X9\n", "$X\n", "\x85", "\x84"};
@@ -99,7 +99,7 @@ std::string first_packet(std::mt19937& random) {
     }
 }
 
-/// MOTIONRACK_PACKETS=N sets how many.
+/// MOTIONRACK_PACKETS=N sets their number.
 TEST(AnIntroduction, LetsNoForeignPacketActOnAMachineThatMoves) {
     std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment()));
     Bench undisturbed(three_axes()), b(three_axes());
@@ -107,7 +107,7 @@ TEST(AnIntroduction, LetsNoForeignPacketActOnAMachineThatMoves) {
     const std::uint64_t count = trials("MOTIONRACK_PACKETS", 10'000, 100'000);
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::string packet = first_packet(random);
-        // What is not wholly at random is known by its very first bytes, in whatever pieces it comes.
+        // A packet that is not wholly random is recognised by its first bytes, however it is split.
         const std::size_t piece = random() % 2 == 0 ? packet.size() : 40 + random() % 40;
         Introduction introduction;
         Verdict verdict = Verdict::open;

@@ -1,4 +1,4 @@
-// Probing through the protocol: where it touched, and the alarms if it did not.
+// Probing through the protocol: the contact position, and the alarms without contact.
 #include "bench.hpp"
 
 namespace motionrack::grbl {
@@ -18,7 +18,7 @@ rack::RackConfig with_probe(const std::string& block) {
 
 TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
     Bench b(with_probe("x_min_mm = 20.123\n"));
-    // 640 pulses a mm: 20.123 mm is pulse 12879.
+    // 640 pulses per mm: 20.123 mm is pulse 12879.
     EXPECT_EQ(b.ask("G38.2 X50 F600\n", 4), "[PRB:20.123,0.000,0.000:1]\r\nok\r\n");
     EXPECT_THAT(b.report(), HasSubstr("|Pn:P"));
     EXPECT_THAT(b.ask("$#\n"), HasSubstr("[PRB:20.123,0.000,0.000:1]"));

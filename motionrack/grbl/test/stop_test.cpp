@@ -1,4 +1,4 @@
-// Whoever stops the machine stops every sender too, in whatever it does: of what it sends afterwards nothing is driven.
+// A stop of the machine also stops every sender in any state: none of its later lines is executed.
 #include <algorithm>
 #include <random>
 #include <tests/environment.hpp>
@@ -14,11 +14,11 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A sender that keeps so many bytes under way and goes on whatever is answered, as careless ones do.
+/// A careless sender: keeps this number of bytes pending and continues after any answer.
 class Careless {
   public:
     Careless(Bench& bench, std::function<std::string(int)> line) : bench_(bench), line_(std::move(line)) {}
-    /// What comes back of these bytes at once and within `seconds`.
+    /// Sends these bytes and returns the output within `seconds`.
     std::string say(const std::string& bytes, double seconds) {
         sent += static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n'));
         std::string heard = bench_.ask(bytes, seconds);
@@ -29,7 +29,7 @@ class Careless {
         }
         return heard;
     }
-    /// Streams for so long; what came back.
+    /// Streams for this time; returns the output.
     std::string stream(double seconds) {
         std::string out;
         for (double left = seconds; left > 0; left -= 0.01) {
@@ -56,7 +56,7 @@ class Careless {
 
 struct Source {
     const char* name;
-    const char* told;  ///< to the sender
+    const char* told;  ///< message to the sender
     void (*stop)(operate::Machine& machine);
 };
 const std::array<Source, 5> sources = {{
@@ -83,7 +83,7 @@ std::string zigzag(int i) {
     return "G1X" + std::to_string(i % 7) + "." + std::to_string(i % 10) + "Y" + std::to_string(i % 5) + "F3000\n";
 }
 
-/// What the sender does when it is stopped; `before` is sent first.
+/// Activity of the sender at the stop; `before` is sent first.
 struct Doing {
     const char* name;
     std::string before;
@@ -118,7 +118,7 @@ class AStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>
         const std::string later = sender.stream(1) + sender.say("~G1X2F600\n", 0.2);
         EXPECT_THAT(later, Not(HasSubstr("ok\r\n")));
         EXPECT_THAT(later, AnyOf(HasSubstr("error:9\r\n"), HasSubstr("error:8\r\n")));
-        // What waits while the machine homes is forgotten when that is broken off.
+        // An aborted homing discards the waiting lines.
         if (!doing.homes) {
             EXPECT_EQ(sender.answered, sender.sent);
         }
@@ -133,7 +133,7 @@ class AStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>
     }
 };
 
-/// MOTIONRACK_STOPS=N sets how many instants are tried.
+/// MOTIONRACK_STOPS=N sets the number of tested instants.
 TEST_P(AStop, LeavesNoLineOfASenderToBeDriven) {
     const auto [which, what] = GetParam();
     const std::uint64_t seed = seed_from_environment(), count = trials("MOTIONRACK_STOPS", 3, 30);
@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(By, AStop,
                          testing::Combine(testing::Range(std::size_t{0}, sources.size()),
                                           testing::Range(std::size_t{0}, doings.size())));
 
-/// The bytes that the sender sends in the slice of the stop.
+/// Bytes of the sender in the slice of the stop.
 class AStoppedHoming : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AndThen, AStoppedHoming, testing::Values("", "!", "$C\n"));
 
