@@ -2,8 +2,8 @@
 // position and instant. This check is independent: it compares the pulses sent with the program as read, not with any
 // plan.
 //
-//   pulses of an axis    |..w..|..w..|    the change of speed from one window of 1 to 8 ms to the next may be what the
-//                        q0    q1    q2   start speed and the acceleration limit allow, and three pulses of counting
+//   pulses of an axis    |..w..|..w..|    the change of velocity between two windows of 1 to 8 ms is limited by the
+//                        q0    q1    q2   velocity step limit, the acceleration limit, and three pulses of counting
 #pragma once
 
 #include <array>

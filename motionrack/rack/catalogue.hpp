@@ -47,15 +47,15 @@ class Card {
     virtual std::span<const int> bus_widths() const = 0;
     /// Host bus address of the map's offset 0.
     virtual std::uint32_t bus_base() const { return 0; }
-    /// Returns true if the host can read this address although the map does not declare it: a window of like values, of
-    /// which the map declares the first.
+    /// Returns true if the host can read this address although the map does not declare it. It belongs to a window of
+    /// like values, of which the map declares the first.
     virtual bool in_window(std::uint32_t offset) const { return (void)offset, false; }
     /// One host access, of one of these widths, at bus_base() + an offset that the map declares. Takes the card's bus
     /// access time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
-    /// Reads a value by name, without side effects: a register or value of the card ("RR0"), or of one channel with the
-    /// channel's name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: invalid_input, listing the
+    /// Reads a value by name, without side effects: a register or value of the card ("RR0"). A value of one channel has
+    /// the channel's name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: invalid_input, listing the
     /// available names.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
     /// Names of the values that inspect() knows, without the registers of the map.

@@ -20,8 +20,9 @@ namespace motionrack::rack {
 
 class CommandSchedule final : public sim::Device {
   public:
-    /// Call before the rack starts. Commands: "stop", "hold", "resume", "feed=PART" (0.01 .. 2), "rapid=PART" (0.01 ..
-    /// 1). Errors: invalid_input for the first unknown command; refused for a hold without a later resume or stop.
+    /// Call before the rack starts. Commands: "stop", "hold", "resume", "feed=PART" (0.01 .. 2),
+    /// "rapid=PART" (0.01 .. 1). Errors: invalid_input for the first unknown command; refused for a hold without a
+    /// later resume or stop.
     static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& orders);
     /// Returns true if a command of that name exists; its value may be invalid.
     static bool knows(std::string_view action);

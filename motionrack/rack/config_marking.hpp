@@ -50,7 +50,7 @@ inline constexpr double max_track_counts = 1e7, max_parts = 1e5;
 struct RackScanner {
     std::string name;
     std::string card;                  ///< an rtc5 card
-    std::optional<std::string> track;  ///< conveyor that carries the part; absent: a part at rest
+    std::optional<std::string> track;  ///< conveyor that carries the part; absent: a stationary part
     double bits_per_mm = 8656;         ///< scale without a lens
     double tolerance_um = 0.2;
     std::int64_t max_points = 200'000;

@@ -1,5 +1,5 @@
-// Reads a rack file: text or path, section by section; everything that is wrong is collected, and a config comes out
-// only if nothing is.
+// Reads a rack file, given as a text or a path, section by section. Collects all errors; returns a config only without
+// errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class RackReader {
     }
 
   private:
-    /// The top-level table of that name; nullptr if it is not there or is no table.
+    /// Returns the top-level table of that name; nullptr if it is missing or not a table.
     const TomlNode* table(std::string_view name) {
         const TomlNode* node = root_.find(name);
         return node != nullptr && is_table(*node, std::string(name)) ? node : nullptr;
@@ -91,7 +91,7 @@ class RackReader {
         card.name = node.key;
         check_card_name(node);
         if (node.type == TomlType::text) {
-            TomlNode as_table;  // card.c1 = "mcx314" means [card.c1] with that type
+            TomlNode as_table;  // card.c1 = "mcx314" is short for [card.c1] with that type
             as_table.key_place = node.key_place;
             as_table.children.push_back(node);
             as_table.children.back().key = "type";
@@ -105,7 +105,7 @@ class RackReader {
         config_.cards.push_back(std::move(card));
     }
 
-    /// An unknown type leaves `type` empty, so that its pins are not looked for.
+    /// An unknown type leaves `type` empty, so that its pins are not searched.
     void read_card_table(const TomlNode& node, RackCard& card) {
         const TomlNode* type = node.find("type");
         const CardType* known = type != nullptr ? find_card_type(type->text) : nullptr;
@@ -114,7 +114,7 @@ class RackReader {
         const Section section{"card " + printable(card.name, 40), "", "", {}};
         if (known == nullptr) {
             card.type.clear();
-            // Keys cannot be judged without a type: only those of all cards are read.
+            // Without a type, only the keys common to all cards can be checked.
             TomlNode common = node;
             std::erase_if(common.children,
                           [](const TomlNode& child) { return child.key != "type" && child.key != "slot"; });
@@ -209,7 +209,7 @@ class RackReader {
         RackAxis axis = default_axis(node.key[0]);
         const AxisKind by_letter = axis.kind;
         if (const TomlNode* kind = node.find("kind"); kind != nullptr && kind->type == TomlType::text) {
-            // Known before the other keys are read, because their names and defaults depend on it.
+            // Set before the other keys are read, because their names and defaults depend on it.
             if (kind->text == "linear") axis.kind = AxisKind::linear;
             if (kind->text == "rotary") axis.kind = AxisKind::rotary;
         }
@@ -239,8 +239,8 @@ class RackReader {
         sources_.push_back(std::move(source));
     }
 
-    /// A card alone with several channels drives ideal axes: one encoder count a pulse, no steps lost, no switches,
-    /// more travel than anyone needs.
+    /// A card alone with several channels drives ideal axes: one encoder count per pulse, no step loss, no switches,
+    /// ample travel.
     void add_ideal_axes() {
         const RackCard& card = config_.cards[0];
         const CardType& type = *find_card_type(card.type);
@@ -250,7 +250,7 @@ class RackReader {
             RackAxis axis = default_axis(letters[i]);
             axis.card = card.name;
             axis.channel = type.channels[i];
-            axis.microsteps = 5;  // 1000 pulses a turn, 1000 pulses a mm or degree
+            axis.microsteps = 5;  // 1000 pulses per revolution, 1000 pulses per mm or degree
             axis.lead_mm = 1;
             axis.gear_ratio = 360;
             axis.encoder_counts_per_rev = axis.pulses_per_rev();

@@ -1,7 +1,7 @@
 // Fans one listener slot for edges or wires out to several listeners.
 //
 //   part ──edges──► EdgeFanout ──┬──► waves (VCD)          kernel ──wires──► WireFanout ──┬──► waves
-//                              └──► recording                                         └──► recording
+//                                └──► recording                                           └──► recording
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Monitor of grating-bus frames: content of every card, agreement of the cards, and a frame as a picture.
 //
 //   cards ──published──► FrameMonitor ──► rows of a table
-//   bus, decoder ─────────────┘         agreement with the host, with the scales' true positions
+//   bus, decoder ───────────┘             agreement with the host, with the scales' true positions
 #pragma once
 
 #include <motionrack/rack/grating_card.hpp>

@@ -1,8 +1,8 @@
 // Runs a part program interactively, with commands during the run: feed hold, resume, overrides, stop.
 //
 //   text ──ProgramFlow──► StreamExecutor ──► PathObserver ──► card's axes
-//                          ▲          │
-//   CommandSchedule ───────┘          └──► listener for planned moves and their starts
+//                              ▲                  │
+//   CommandSchedule ───────────┘                  └──► listener for planned moves and their starts
 #pragma once
 
 #include <functional>

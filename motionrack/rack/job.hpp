@@ -79,7 +79,7 @@ struct JobOutcome {
     double rest_off = 0;  ///< its position error, mm or degrees
     bool position_trusted =
         true;           ///< false after step loss, or if an axis that positions by itself has lost its position
-    Breaches breaches;  ///< limit breaches caused by the controller
+    Breaches breaches;  ///< breaches caused by the controller
 
     /// Returns true if the job ended well without step loss or breach.
     bool good() const { return ended.has_value() && position_trusted && breaches.all().empty(); }

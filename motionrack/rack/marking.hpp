@@ -1,8 +1,8 @@
 // Marking machines of a rack: belts and rotary tables with their parts, and scan heads that mark them.
 //
 //   conveyor ──NAME.enc_a, enc_b──► card ──xout, yout, laser_on──► scan head ──► work piece on the conveyor
-//      ├──NAME.mcbsp─────────────────►│
-//      └──NAME.sensor_n──────────────►│ start_n
+//      ├──NAME.mcbsp────────────────►│
+//      └──NAME.sensor_n─────────────►│ start_n
 #pragma once
 
 #include <memory>

@@ -105,7 +105,7 @@ class Monitor final : public sim::Device {
     const std::vector<double>& deviations() const { return seen_.kept.deviations(); }  ///< mm, one per sample
     const AxisStatistics& statistics(int index) const { return seen_.statistics[static_cast<std::size_t>(index)]; }
     const PathDeviation& worst() const { return seen_.worst; }
-    /// Limit breaches in the commanded motion.
+    /// Breaches in the commanded motion.
     const std::vector<Breach>& breaches() const { return seen_.breaches.all(); }
     /// Sets the permitted deviation of the pulses beyond the program's own tolerance, mm; 0 (default): unlimited. Call
     /// before begin().

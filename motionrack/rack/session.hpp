@@ -7,7 +7,7 @@
 //               ├──► Job: a part program; home_axes
 //               └──► Kernel: time, copies, hash ──conditions, between runs──► call-back
 //
-// Implements the C interface (motionrack/c.h) for other languages; one thread at a time.
+// Basis of the C interface (motionrack/c.h) for other languages; one thread at a time.
 #pragma once
 
 #include <atomic>

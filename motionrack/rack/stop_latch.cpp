@@ -218,8 +218,8 @@ void StopLatch::stays_behind(std::size_t axis, Instant now) {
             trip(StopSource::following_error, static_cast<int>(i), now);
 }
 
-/// Marks axes with possible step loss: a motor that must stop without a ramp above its start-stop rate, whose drive
-/// failed in motion, or with a following error. Cards that position by an encoder know their own state.
+/// Marks axes with possible step loss: a motor stopped without a ramp above its start-stop rate, a drive that failed in
+/// motion, or a following error. Cards that position by an encoder know their own state.
 void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
     const std::vector<RunningAxis>& axes = rack_.axes();
     for (std::size_t a = 0; a < axes.size(); ++a) {

@@ -5,7 +5,6 @@
 //   a card's encoder counter is off from the motor's rotation ───► reported; the pulses that drive the axis are right
 //   a following error above its warning limit ───────────────────► reported; above its alarm limit by the stop latch
 //   a stage's card opened its loop ──────────────────────────────► reported
-//   a stage's card opened its loop ──────────────────────────────► told
 #pragma once
 
 #include <cstdint>

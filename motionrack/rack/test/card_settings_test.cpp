@@ -1,4 +1,4 @@
-// Settings of a card in a rack file reach its chip.
+// Settings of a card in a rack file take effect in its chip.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>

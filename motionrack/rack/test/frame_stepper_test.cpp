@@ -1,4 +1,4 @@
-// From frame to frame of a card in a rack.
+// Steps a rack from frame to frame of a card.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

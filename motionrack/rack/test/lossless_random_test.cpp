@@ -12,8 +12,8 @@ TEST_P(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
     drive_share(GetParam(), shares, 200);
 }
 
-// A segment of two pulses that is cut for a deceleration may have one of them by rounding, which is over before the
-// next segment arrives: such a move is not cut.
+// A segment of two pulses that is cut for a deceleration may have one of them by rounding. That pulse is over before
+// the next segment arrives, so such a move is not cut.
 TEST(LosslessAtRandom, NoAxisJumpsWhereAPieceHasFewPulses) {
     for (const std::uint64_t seed : {732885138, 732887488}) drive_one(seed);
 }

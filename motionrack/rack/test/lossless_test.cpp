@@ -1,4 +1,4 @@
-// The controller itself causes no step loss: for any request during a program and for moves of any length, the pulse
+// The controller itself causes no step loss, for any request during a program and for moves of any length. The pulse
 // rate on the wires never changes by more than the motors can follow.
 #include <algorithm>
 

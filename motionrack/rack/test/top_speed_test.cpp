@@ -1,4 +1,4 @@
-// A peak velocity is a sustained one: it is found in motions with a known velocity, and the effect of whole pulses on
+// A peak velocity is a sustained one. It is found in motions with a known velocity, and the effect of whole pulses on
 // the rate of short segments is not.
 #include <gtest/gtest.h>
 
