@@ -1,4 +1,4 @@
-// Marks with a laser card of the rack while the rack runs: a job becomes a list, which the card executes with the
+// Marks with a laser card of the rack while the rack runs. A job becomes a list, which the card executes with the
 // positions of its scan head.
 //
 //   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──►

@@ -300,7 +300,8 @@ RC_GTEST_PROP(AskingThePanel, AnswersAnyJsonWithASentenceAndMovesNothing, ()) {
     RC_ASSERT(answers == questions.size());
     RC_ASSERT(a.x() == 10);
     const operate::MachineState state = a.machine->state();
-    RC_ASSERT(state == operate::MachineState::disabled || state == operate::MachineState::error_stop);  // by any STOP
+    // Any client may stop the machine.
+    RC_ASSERT(state == operate::MachineState::disabled || state == operate::MachineState::error_stop);
 }
 
 }  // namespace
