@@ -2,7 +2,7 @@
 //
 //   bytes ─┬─ real-time ones ──► immediately: hold, resume, stop, overrides, "<Idle|MPos:..>"
 //          └─ lines ─► InputParser ─► one at a time ─┬─ $ commands ──► answers
-//                                               └─ G-code, $J= ─► Machine::line, jog_to
+//                                                    └─ G-code, $J= ─► Machine::line, jog_to
 //   each line: one "ok" or "error:N"
 //
 //   no line is accepted during a hold, a stop, a homing or a limit alarm; then bytes wait, 128 of them

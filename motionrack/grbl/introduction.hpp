@@ -5,8 +5,8 @@
 //                ├─ the start of such a line ─────────► open: the bytes wait for more
 //                └─ anything else ─────────────────────► stranger: TLS, HTTP, SSH, binary; nothing was done
 //
-// A browser page of any origin can open a connection to any port of this computer, but cannot choose its first bytes:
-// the 16 hex of a TLS hello, the method of HTTP, the zeros of STUN.
+// A browser page of any origin can open a connection to any port of this computer. But it cannot choose the first
+// bytes: the 16 hex of a TLS hello, the method of HTTP, the zeros of STUN.
 #pragma once
 
 #include <cstdint>

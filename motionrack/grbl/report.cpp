@@ -11,7 +11,7 @@ using operate::MachineState;
 
 namespace {
 
-// A field sent once per a number of status reports, in motion and at standstill.
+// Number of status reports between repetitions of a field: in motion, and at standstill.
 struct Every {
     int busy, idle;
 };
