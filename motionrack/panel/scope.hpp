@@ -47,7 +47,7 @@ struct Capture {
     std::int64_t number = 0;                  ///< starts at 1
     double trigger_s = 0;                     ///< virtual time
     double from_s = 0, to_s = 0;              ///< relative to the trigger
-    double first_sample_s = 0, period_s = 0;  ///< of the numbers, relative to the trigger
+    double first_sample_s = 0, period_s = 0;  ///< numbers only; relative to the trigger
     bool full = false;                        ///< more edges than fit; the latest are left out
     std::vector<ScopeTrace> traces;           ///< in the order of the settings
 };

@@ -93,7 +93,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     std::array<StageSetup, grating_bus::output_count> plans_{};
     std::array<Duration, grating_bus::output_count> compute_{};
     std::array<bool, grating_bus::output_count> used_{};
-    double braking_s_ = 0;  ///< of the slowest stage
+    double braking_s_ = 0;  ///< longest braking time of the stages
     State state_{};
 };
 

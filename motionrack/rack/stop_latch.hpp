@@ -9,8 +9,8 @@
 //
 //   released ── trip ──► latched ── reset(), no cause left ──► released       (a reset moves nothing)
 //
-// If a card itself stops an axis at such an input (a limit switch in its direction, the emergency stop), the axis is
-// left to the card meanwhile. halted() then follows when the driver has seen standstill and calls settle().
+// A card may stop an axis itself at such an input (a limit switch in its direction, the emergency stop). The axis is
+// left to the card meanwhile, and halted() follows when the driver has seen standstill and calls settle().
 #pragma once
 
 #include <array>
