@@ -1,5 +1,5 @@
-// What the functions of the C interface share: pointers are checked, errors become codes and sentences, nothing is
-// thrown out.
+// Shared parts of the C interface functions: checks pointers, converts errors to codes and sentences, lets no exception
+// out.
 #pragma once
 
 #include <motionrack/c.h>
@@ -14,15 +14,15 @@
 
 struct mr_rack {
     std::unique_ptr<motionrack::rack::Session> session;
-    std::string sentence = {}, report = {};  ///< of the last program or homing
+    std::string sentence = {}, report = {};  ///< report of the last program or homing
 };
 
 namespace motionrack::c {
 
-/// The sentence of this thread's last error.
+/// Returns the last error sentence of this thread.
 std::string& last_error();
 
-/// Keeps the sentence, as far as there is memory for it.
+/// Stores the sentence if memory allows.
 inline int failed(int code, std::string_view sentence) noexcept {
     try {
         last_error() = sentence;
@@ -32,7 +32,7 @@ inline int failed(int code, std::string_view sentence) noexcept {
     return code;
 }
 
-/// Of what failed before anything moved.
+/// Returns the code of an error that occurred before any motion.
 inline int code_of(ErrorKind trouble) {
     switch (trouble) {
         case ErrorKind::invalid_input:
@@ -48,7 +48,7 @@ inline int code_of(ErrorKind trouble) {
     return MR_INTERNAL;
 }
 
-/// The sentence for the first of these pointers that is null, or nullptr.
+/// Returns the sentence for the first null pointer, or nullptr if none is null.
 struct Pointer {
     const void* pointer;
     const char* sentence;
@@ -59,7 +59,7 @@ inline const char* first_null(std::initializer_list<Pointer> pointers) noexcept 
     return nullptr;
 }
 
-/// Runs `call`, which gives a Result; whatever it throws becomes an error.
+/// Runs `call`, which returns a Result; converts any exception to an error.
 template <class Call>
 int guarded(Call call) noexcept {
     return calls::guarded(
@@ -70,14 +70,14 @@ int guarded(Call call) noexcept {
         [](ErrorKind trouble, std::string_view sentence) { return failed(code_of(trouble), sentence); });
 }
 
-/// The same, after it was made sure that none of these pointers is null.
+/// As above, after checking that none of these pointers is null.
 template <class Call>
 int guarded(std::initializer_list<Pointer> pointers, Call call) noexcept {
     if (const char* sentence = first_null(pointers)) return failed(MR_BAD_CALL, sentence);
     return guarded(call);
 }
 
-/// Where `call` gives a value, it is put there.
+/// Stores the value of `call` there on success.
 template <class Value, class Call>
 int fetched(std::initializer_list<Pointer> pointers, Value* value, Call call) noexcept {
     return guarded(pointers, [&]() -> Result<void> {

@@ -1,4 +1,4 @@
-// How functions of the C libraries run what is C++: one at a time, an error becomes a sentence, nothing is thrown out.
+// Runs the C++ implementation of C library functions: one call at a time, errors as sentences, no exception out.
 #pragma once
 
 #include <exception>
@@ -11,8 +11,7 @@
 
 namespace motionrack::calls {
 
-/// Runs `call`, which gives a Result<Value>; where it or what it throws is an error, the answer is that of
-/// failed(trouble, sentence), a Value.
+/// Runs `call`, which returns a Result<Value>. On an error or exception, returns failed(kind, sentence), a Value.
 template <class Call, class Failed>
 auto guarded(Call call, Failed failed) noexcept {
     using Value = decltype(failed(ErrorKind::machine, std::string_view()));
@@ -29,13 +28,13 @@ auto guarded(Call call, Failed failed) noexcept {
     }
 }
 
-/// `what`: of the argument, "The name".
+/// `what`: name of the argument in the sentence, e.g. "The name".
 inline Result<void> check_pointer(const void* pointer, std::string_view what) {
     if (pointer != nullptr) return {};
     return fail(ErrorKind::invalid_input, std::string(what) + " is a null pointer. Nothing was done.");
 }
 
-/// What the functions of a library share in a process.
+/// State that the functions of a library share within a process.
 template <class Bench>
 class Process {
   public:
@@ -47,14 +46,14 @@ class Process {
         user_ = user;
     }
 
-    /// Runs `call` with the bench; it gives a Result<Value>.
+    /// Runs `call` with the bench; `call` returns a Result<Value>.
     template <class Call>
     auto alone(Call call) {
         const std::lock_guard<std::mutex> alone(lock_);
         return call(bench_);
     }
 
-    /// Makes "WHO: SENTENCE" the thread's last error and, if it is to be told, calls the handler. The lock must be
+    /// Makes "WHO: SENTENCE" the last error of the thread. Calls the handler if `told` is set. Requires the lock to be
     /// free.
     void failed(std::string& last, std::string_view who, std::string_view sentence, bool told = true) noexcept {
         try {

@@ -1,4 +1,4 @@
-// Part programs whose files change while they run.
+// Detection of part programs whose files change during a run.
 #pragma once
 
 #include <map>
@@ -6,8 +6,8 @@
 
 namespace motionrack::cli {
 
-/// Warns where the file of a program, or of a subprogram beside it, is not what was read from it before it ran.
-/// `subprograms`: texts by names. Programs that are no files (standard input, the built-in example) never change.
+/// Warns if the file of a program or of a subprogram beside it differs from the text read before the run.
+/// `subprograms`: texts by name. Standard input and the built-in example never change.
 void warn_of_changes(const std::string& program, const std::string& text,
                      const std::map<std::string, std::string>& subprograms);
 

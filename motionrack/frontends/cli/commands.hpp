@@ -1,4 +1,4 @@
-// The commands of the program. Each adds itself to the command line and leaves what to do in `chosen`.
+// The commands of the program. Each adds itself to the command line and stores its action in `chosen`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::cli {
 
-/// What the command line asked for; gives the exit code.
+/// Action that the command line selects; returns the exit code.
 using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Action& chosen);

@@ -1,4 +1,4 @@
-// Exit codes of the program, one meaning each.
+// Exit codes of the program, each with one meaning.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -9,11 +9,11 @@ enum ExitCode : int {
     exit_done = 0,
     exit_usage = 1,          ///< the command line is wrong
     exit_invalid_input = 2,  ///< a program or rack file is wrong; nothing moved
-    exit_refused = 3,        ///< asked for something outside a limit; nothing moved
+    exit_refused = 3,        ///< a request exceeds a limit; nothing moved
     exit_machine = 4,        ///< the machine stopped the job: limit switch, alarm, lost steps
     exit_io = 5,             ///< a file could not be read or written
-    exit_differ = 6,         ///< of diff and replay: the two are not the same
-    exit_stopped = 130       ///< Ctrl-C; what was recorded is kept
+    exit_differ = 6,         ///< diff and replay: the two differ
+    exit_stopped = 130       ///< Ctrl-C; the recording so far is kept
 };
 
 constexpr int exit_code(ErrorKind trouble) {

@@ -1,5 +1,4 @@
-// What the commands of `frames` share: the options of a bus on the network, and frames and counts as people and
-// programs read them.
+// Shared parts of the `frames` commands: options of a bus on the network, and frames and counts as text and JSON.
 #pragma once
 
 #include <motionrack/dds/subscriber.hpp>
@@ -9,33 +8,33 @@
 
 namespace motionrack::cli {
 
-/// Which bus on which network.
+/// Selects a bus and its network.
 struct BusOptions {
     std::string name = "grating", config;
     int domain = 0;
 };
 void add_bus_options(CLI::App& command, BusOptions& options);
-/// Lets the network engine read `config`, if one is named, instead of what CYCLONEDDS_URI has. Errors: io.
+/// Makes the network engine read `config`, if given, instead of CYCLONEDDS_URI. Errors: io.
 Result<void> use_config(const BusOptions& options);
 
-/// What a subscriber knows at `now`, as one line of JSON.
+/// Returns the state of a subscriber at `now` as one line of JSON.
 std::string status_json(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
-/// An event as one line of JSON; its time counts from `start`.
+/// Returns an event as one line of JSON, with its time relative to `start`.
 std::string event_json(const dds::Event& event, Instant start);
-/// The same as a table of several lines, each ended.
+/// Returns the state of a subscriber as a table of several lines, each with a line end.
 std::string status_table(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
-/// In one line without its end.
+/// Returns the state of a subscriber as one line without a line end.
 std::string status_line(const dds::Subscriber& subscriber, Instant now);
 
-// ---- a rack's own frames
+// ---- the frames of a rack
 
-/// What every card of the rack's bus holds, as a table of several lines, each ended.
+/// Returns the frames of every card on the rack's bus as a table of several lines, each with a line end.
 std::string frames_table(const rack::FrameMonitor& watch, Instant now);
-/// The same as one line of JSON.
+/// Returns the frames of every card as one line of JSON.
 std::string frames_json(const rack::FrameMonitor& watch, Instant now);
-/// The oldest `most` conflicts that are remembered, each with time, line and drivers; empty if there were none.
+/// Returns up to `most` of the oldest stored conflicts, each with time, line and drivers; empty if none occurred.
 std::string conflicts_text(const grating_bus::Bus& bus, std::size_t most);
-/// No conflicts, no bad frames, nothing stale, and all frames true and the same.
+/// Returns true without conflicts, bad frames and stale frames, if all frames are correct and equal.
 bool frames_agree(const rack::FrameMonitor& watch);
 
 void add_frames_show(CLI::App& frames, Action& chosen);

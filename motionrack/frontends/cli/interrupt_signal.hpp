@@ -1,6 +1,5 @@
-// Ctrl-C, SIGTERM and a terminal that is closed (SIGHUP): a request to the running command, which then brings
-// everything to rest and keeps its results. A reader that goes (SIGPIPE) ends nothing: work is finished, files are
-// written whole.
+// Ctrl-C, SIGTERM and a closed terminal (SIGHUP) request the running command to decelerate all axes to a stop and keep
+// its results. A closed reader (SIGPIPE) does not end the program: it finishes its work and writes files completely.
 #pragma once
 
 #include <atomic>
@@ -11,7 +10,7 @@ namespace motionrack::cli {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal finds nothing else
 extern std::atomic<bool> stop_asked;
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP set stop_asked; SIGHUP not where it was ignored at the start (nohup).
+/// From now on Ctrl-C, SIGTERM and SIGHUP set stop_asked. A SIGHUP that was ignored at the start (nohup) stays ignored.
 void stop_on_signals();
 
 }  // namespace motionrack::cli

@@ -1,4 +1,4 @@
-// Lines for standard output from threads that must not wait for its reader.
+// Lines for standard output from threads that must not block on its reader.
 //
 //   any thread ──say──► [ 200 lines ] ──► printing thread ──write(2)──► standard output
 #pragma once
@@ -10,22 +10,23 @@ namespace motionrack::cli {
 
 class LineOutput {
   public:
-    /// Lines that wait for the reader; of more than these the oldest are dropped.
+    /// Maximum number of buffered lines; drops the oldest beyond it.
     static constexpr std::size_t max_lines = 200;
 
     LineOutput();
-    /// Waits up to a second for the lines that are left.
+    /// Waits up to a second for the remaining lines.
     ~LineOutput();
     LineOutput(const LineOutput&) = delete;
     LineOutput& operator=(const LineOutput&) = delete;
 
-    /// Any thread; never waits for the reader, never fails.
+    /// Queues a line, from any thread. Never blocks on the reader and never fails.
     void say(std::string line);
 
   private:
     struct Queue;
     static void print(Queue& queue);
-    std::shared_ptr<Queue> queue_;  ///< a reader that stands keeps the thread, and with it the queue, until the end
+    std::shared_ptr<Queue>
+        queue_;  ///< the thread owns it too: a blocked reader keeps both alive until the process ends
 };
 
 }  // namespace motionrack::cli

@@ -1,4 +1,4 @@
-// An SVG as a PNG: the same drawing in another form.
+// Converts an SVG to a PNG of the same drawing.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::cli {
 
-/// The bytes of a PNG with `scale` pixels to an SVG's px. Errors: io, if the library cannot draw it.
+/// Returns the bytes of a PNG with `scale` pixels per SVG px. Errors: io, if the library cannot draw it.
 Result<std::string> png_of(std::string_view svg, double scale = 2);
 
 }  // namespace motionrack::cli

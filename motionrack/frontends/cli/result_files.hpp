@@ -1,4 +1,4 @@
-// What a run, or its recording, is written to: the page, the samples, what happened.
+// Output files of a run or its recording: report, samples, events.
 #pragma once
 
 #include <motionrack/trace/report.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::cli {
 
-/// An empty path: that is not written.
+/// An empty path skips that output.
 struct ResultFiles {
     std::string report = "report.html", csv, events;
     bool no_report = false;
@@ -15,7 +15,7 @@ struct ResultFiles {
     std::string page() const { return no_report ? std::string() : report; }
 };
 
-/// Adds the paths of what could be written to `written`. The exit code; what could not be written is told.
+/// Adds the paths of the files written to `written`. Reports each write error and returns the exit code.
 int write_results(const trace::ReportData& data, const ResultFiles& files, std::vector<std::string>& written);
 
 }  // namespace motionrack::cli

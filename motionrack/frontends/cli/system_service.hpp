@@ -1,4 +1,4 @@
-// What a service manager (systemd) gives to and wants to know of a program that it runs.
+// Interface to a service manager (systemd): state notifications and the state folder.
 #pragma once
 
 #include <filesystem>
@@ -6,14 +6,14 @@
 
 namespace motionrack::cli {
 
-/// Tells the service manager, if there is one: "READY=1", "STOPPING=1".
+/// Sends "READY=1" or "STOPPING=1" to the service manager, if one runs.
 void tell_service_manager(std::string_view state);
 
-/// The folder for what this user's programs keep: systemd's state directory, else ~/.local/state/motionrack, made if it
-/// is missing. Empty: there is none.
+/// Returns the folder for persistent state: systemd's state directory, else ~/.local/state/motionrack, which is created
+/// if missing. Empty if neither exists.
 std::filesystem::path state_folder();
 
-/// Lets this program hold as many files and connections open as it may.
+/// Raises the limit of open files and connections to the maximum this process may have.
 void allow_many_files();
 
 }  // namespace motionrack::cli

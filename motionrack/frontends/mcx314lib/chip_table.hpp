@@ -1,4 +1,4 @@
-// The chips that a process has open through mcx314lib.h, and which of them is selected.
+// Chips that a process has open through mcx314lib.h, and the selected one.
 //
 //   MOTIONRACK_RACK ─┐
 //   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
@@ -16,7 +16,7 @@
 
 namespace motionrack::mcx314lib {
 
-/// An open card with its library.
+/// An open card with its driver.
 class Chip {
   public:
     Chip(std::shared_ptr<World> in, VirtualCard& on)
@@ -24,16 +24,16 @@ class Chip {
     explicit Chip(std::unique_ptr<live::CardPort> port) : live(std::move(port)), driver(*live, *live) {}
 
     Instant now() { return driver.interrupt().now(); }
-    /// Errors: io, the first access that the computer refused.
+    /// Errors: io, for the first access that the computer refused.
     Result<void> check_live() const;
-    /// Of its rack. Errors: refused where the card is a real one.
+    /// Returns the virtual card. Errors: refused if the card is real.
     Result<VirtualCard*> virtual_card(const char* what) const;
     mcx314::Manual& manual(int channel) { return manuals[static_cast<std::size_t>(channel)]; }
-    /// Lets manual operations look; true if one goes on.
+    /// Polls the manual operations; returns true if one is running.
     bool step();
 
-    std::unique_ptr<live::CardPort> live;  ///< of a real card
-    std::shared_ptr<World> world;          ///< of a virtual one, with `card`
+    std::unique_ptr<live::CardPort> live;  ///< real card only
+    std::shared_ptr<World> world;          ///< virtual card only, with `card`
     VirtualCard* card = nullptr;
     mcx314::Driver driver;
     std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};
@@ -42,13 +42,13 @@ class Chip {
 
 class Bench {
   public:
-    /// See mcx314_open; a null rack or card is left open.
+    /// See mcx314_open; a null rack or card selects the default.
     Result<int> open(const char* rack, const char* card);
     Result<void> select(int handle);
     Result<void> close(int handle);
-    /// The selected chip; without any chip the rack of the environment variable MOTIONRACK_RACK is opened.
+    /// Returns the selected chip. If no chip is open, opens the rack of the environment variable MOTIONRACK_RACK.
     Result<Chip*> selected();
-    /// Lets time pass in the world of `chip`; manual operations of all its chips look every millisecond.
+    /// Advances the world of `chip`; polls the manual operations of all its chips every millisecond.
     Result<void> pass(Chip& chip, Duration duration);
 
   private:
@@ -57,7 +57,7 @@ class Bench {
     bool is_open(const VirtualCard& card) const;
     Result<int> open_live(const char* text, const char* card);
     int keep(std::unique_ptr<Chip> chip);
-    /// Lets the manual operations of all chips in the world of `chip` look; true if one goes on.
+    /// Polls the manual operations of all chips in the world of `chip`; returns true if one is running.
     bool step_all_beside(Chip& chip);
 
     std::map<int, std::unique_ptr<Chip>> chips_;

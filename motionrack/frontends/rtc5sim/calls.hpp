@@ -1,5 +1,5 @@
-// How every function of rtc5sim.h runs: one at a time, on its card; an error becomes a sentence and the board's bits,
-// nothing is thrown out.
+// Runs every function of rtc5sim.h: one at a time, on its card; errors as sentences and board error bits, no exception
+// out.
 #pragma once
 
 #include <rtc5sim.h>
@@ -18,10 +18,10 @@
 
 namespace motionrack::rtc5sim {
 
-/// A belt's encoder: counts that go on evenly. The board's counters see them.
+/// Encoder of a conveyor with a constant count rate, read by the board's counters.
 class Belt final : public rtc5::Inputs {
   public:
-    /// From `tick` on the line counts on from `count` with this speed.
+    /// From `tick` on, the encoder counts from `count` at this rate.
     void set(std::size_t encoder, std::int64_t tick, std::int64_t count, double counts_per_s) {
         lines_[encoder] = {tick, count, counts_per_s};
     }
@@ -39,37 +39,37 @@ class Belt final : public rtc5::Inputs {
 };
 
 struct Card {
-    /// A card by itself.
+    /// A stand-alone card.
     explicit Card(UINT n) : number(n), own(std::make_unique<rtc5::Engine>()), engine(*own) {}
-    /// A card of a rack.
+    /// A card in a rack.
     Card(UINT n, rtc5::Card& card) : number(n), wired(&card), engine(card.engine()) {}
 
     UINT number = 0;  ///< from 1
     std::unique_ptr<rtc5::Engine> own;
-    rtc5::Card* wired = nullptr;  ///< nullptr: it has no wires
+    rtc5::Card* wired = nullptr;  ///< nullptr: the card has no wires
     rtc5::Engine& engine;
     Belt belt;
-    UINT errors = 0, last_error = 0;  ///< the board's bits
+    UINT errors = 0, last_error = 0;  ///< error bits of the board
 };
 
-/// The cards of the process. Time is one for all of them.
+/// Cards of the process. All share one time.
 class Bench {
   public:
-    /// The cards: as many as RTC5SIM_CARDS says when they are first used, else 1.
+    /// Returns a card. The first use creates as many cards as RTC5SIM_CARDS gives, else 1.
     Result<Card*> card(UINT number);
     Result<UINT> count();
     Result<void> select(UINT number);
     UINT selected = 1;
-    std::int64_t question_ticks = 1;  ///< what an answer of the card takes
+    std::int64_t question_ticks = 1;  ///< duration of a query at the card, ticks
 
-    /// Runs all cards so many ticks, and hands their samples to the handler.
+    /// Runs all cards for `ticks` and passes their samples to the handler.
     Result<void> pass(std::int64_t ticks);
-    /// Until all cards rest; false: they did not in so many ticks.
+    /// Runs until all cards are idle; false if they are not within `ticks`.
     Result<bool> run_to_rest(std::int64_t ticks);
     Result<std::int64_t> tick();
-    /// The cards end; the next use makes others.
+    /// Closes the cards; the next use creates new ones.
     void close();
-    /// The cards end, and those of type rtc5 of this rack (its file or text) take their places, in the file's order.
+    /// Replaces the cards by those of type rtc5 in this rack (its file or text), in the order of the file.
     Result<void> open_rack(std::string_view path_or_text);
     Result<rack::Session*> rack();
 
@@ -79,23 +79,24 @@ class Bench {
   private:
     Result<void> open();
     Result<void> pass_rack(std::int64_t ticks);
-    std::unique_ptr<rack::Session> rack_;  ///< nullptr: the cards are by themselves
+    std::unique_ptr<rack::Session> rack_;  ///< nullptr: stand-alone cards
     std::vector<std::unique_ptr<Card>> cards_;
 };
 
 calls::Process<Bench>& process();
 
-/// This thread is in a samples handler: functions of the library are refused there.
+/// True while this thread runs a samples handler. Library functions are refused there.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 extern thread_local bool inside_handler;
 
-/// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.
+/// Stores the sentence for this thread, prefixed with the function's name, and calls the handler. Requires the lock to
+/// be free.
 void failed(std::string_view who, std::string_view sentence) noexcept;
 
-/// The card of functions without n_.
+/// Returns the card that functions without n_ use.
 UINT selected() noexcept;
 
-/// Runs `call` with the bench; it gives a Result<Value>.
+/// Runs `call` with the bench; `call` returns a Result<Value>.
 template <class Value, class Call>
 Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
     return calls::guarded(
@@ -109,7 +110,8 @@ Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
         [&](ErrorKind, std::string_view sentence) { return failed(who, sentence), otherwise; });
 }
 
-/// Runs `call` with a card; it gives a Result<Value>. The card keeps the error's bits. One that asks takes time before.
+/// Runs `call` with a card; `call` returns a Result<Value>. The card stores the error bits. A query first lets time
+/// pass.
 template <class Value, class Call>
 Value with_card(std::string_view who, UINT number, Value otherwise, Call call, bool asks = false) noexcept {
     return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
@@ -122,7 +124,7 @@ Value with_card(std::string_view who, UINT number, Value otherwise, Call call, b
     });
 }
 
-/// The same for what has no answer: `call` gives a Result<void>.
+/// As above for calls without a return value: `call` returns a Result<void>.
 template <class Call>
 void command(std::string_view who, UINT number, Call call) noexcept {
     with_card(who, number, false, [&](Card& card) -> Result<bool> {
@@ -144,7 +146,7 @@ void call(std::string_view who, UINT number, Member member, Parameters... parame
     });
 }
 
-/// The same for a question: it takes its time first, in which the cards go on. `call` gives a Result<Value>.
+/// As above for a query: time advances first and the cards keep running. `call` returns a Result<Value>.
 template <class Value, class Call>
 Value question(std::string_view who, UINT number, Value otherwise, Call call) noexcept {
     return with_card(who, number, otherwise, call, true);
@@ -152,26 +154,26 @@ Value question(std::string_view who, UINT number, Value otherwise, Call call) no
 
 void put_list(UINT number, rtc5::Op op, std::span<const double> parameters) noexcept;
 
-/// Puts a list command; the engine looks its parameters through.
+/// Appends a list command; the engine checks its parameters.
 template <class... Parameters>
 void put(UINT number, rtc5::Op op, Parameters... parameters) noexcept {
     const std::array<double, sizeof...(parameters)> all{static_cast<double>(parameters)...};
     put_list(number, op, all);
 }
 
-/// Whether the list command of the same meaning would take these parameters.
+/// Checks that the list command of the same meaning would accept these parameters.
 Result<void> checked(rtc5::Op op, double parameter);
 
 inline rtc5::Point point(long x, long y) {
     return {static_cast<double>(x), static_cast<double>(y)};
 }
-/// A whole number of 32 bits.
+/// Converts to a 32-bit integer.
 Result<std::int32_t> whole32(std::string_view what, long value);
 using calls::check_pointer;
-/// A whole number that the engine takes as int; what is greater is refused by it.
+/// Converts to the engine's int; the engine rejects larger values.
 int small(UINT value);
 
-/// The error of `result` as one of the board's kind `trouble`.
+/// Converts the error of `result` to the board's error kind `trouble`.
 template <class Value>
 Result<Value> as(ErrorKind trouble, Result<Value> result) {
     if (!result) result.error().kind = trouble;

@@ -1,10 +1,10 @@
-// One WebSocket client: what it says, what it looks at, what waits to be sent to it.
+// One WebSocket client: its messages, its subscriptions and its send queue.
 //
-//   message ─► token, subscribe, order, query ─► answers ─┐
-//   tick ─► picture, unless two wait already (then one more is lost) ─┼─► [ queue ] ─► MessageSink::write, one by one
-//   event ────────────────────────────────────────────────┘      too long a queue: the client is let go
+//  message ─► token, subscribe, command, query ─► answers ─┐
+//  tick ─► snapshot, unless two are queued (then one is lost) ─┼─► [ queue ] ─► MessageSink::write, one by one
+//  event ──────────────────────────────────────────────────┘      queue too long: closes the client
 //
-// The network thread's.
+// Runs on the network thread.
 #pragma once
 
 #include <chrono>
@@ -17,22 +17,22 @@
 
 namespace motionrack::server {
 
-/// A text message in two pieces: one of this client's own, and one that many share.
+/// A text message in two parts: one for this client, and one that many clients share.
 struct Outgoing {
     std::string own;
     std::shared_ptr<const std::string> shared;
     bool picture = false;
 };
 
-/// The connection below a client.
+/// Connection below a client.
 class MessageSink {
   public:
     virtual ~MessageSink() = default;
-    /// Sends one message, which stays as it is until Client::written().
+    /// Sends one message. The message must not change until Client::written().
     virtual void write(const Outgoing& message) = 0;
-    /// From now on messages that come in may be so long.
+    /// Sets the maximum size of incoming messages from now on.
     virtual void allow(std::size_t bytes) = 0;
-    /// Says close_with_reason with a code of RFC 6455 and a reason.
+    /// Closes the WebSocket with a status code (RFC 6455) and a reason.
     virtual void close(int code, std::string_view reason) = 0;
 };
 
@@ -46,16 +46,16 @@ class Client : public std::enable_shared_from_this<Client> {
     void opened();
     void message(std::string_view text, bool is_text);
     void written();
-    /// The wire is gone.
+    /// The connection is closed.
     void closed();
 
     // ---- from Clients
-    /// Whether a picture is due; it is then counted as sent or lost, and true means to send it.
+    /// Returns true if a snapshot is due and must be sent; counts it as sent or lost.
     bool due(Time now);
     const std::shared_ptr<panel::ChannelSet>& channels() const { return channels_; }
     void send_picture(std::shared_ptr<const std::string> rest);
     void send_event(std::shared_ptr<const std::string> text);
-    /// What time brings: tokens expire, or are revoked; who says no token goes.
+    /// Checks for expired and revoked tokens; closes clients that have sent no token.
     void check_session(Time now);
     void close_with_reason(int code, std::string_view reason);
 
@@ -67,7 +67,7 @@ class Client : public std::enable_shared_from_this<Client> {
     auth::Role role() const;
     panel::Caller caller() const { return {user_, role(), session_}; }
     void token(const Request& request);
-    /// Who may operate may send whole programs.
+    /// A role that may operate may send whole programs.
     void allow_for(auth::Role role);
     void subscribe(const Request& request);
     void ask(const Request& request, const std::string& name, bool query);
@@ -81,17 +81,17 @@ class Client : public std::enable_shared_from_this<Client> {
     MessageSink* wire_;
     auth::RateLimit messages_;
     std::size_t asks_ = 0;
-    // what it looks at
+    // subscriptions
     std::shared_ptr<panel::ChannelSet> channels_;
     std::int64_t newest_subscription_ = 0;
     std::chrono::nanoseconds period_;
     Time next_, opened_at_, looked_after_;
     std::int64_t periods_ = 0, lost_ = 0;
-    // what waits
+    // send queue
     std::deque<Outgoing> queue_;
     std::size_t pictures_ = 0;
     bool leaving_ = false;
-    bool seen_ = false;  ///< it has had a role
+    bool seen_ = false;  ///< the client has had a role
 };
 
 }  // namespace motionrack::server

@@ -1,4 +1,4 @@
-// All WebSocket clients: who is due gets the newest picture, encoded once for all who look at the same channels.
+// All WebSocket clients: sends the newest snapshot to clients that are due, encoded once per set of channels.
 #pragma once
 
 #include <atomic>
@@ -15,14 +15,14 @@ class Clients {
     explicit Clients(Service& service) : service_(service) {}
     void add(std::shared_ptr<Client> client);
     void remove(const Client* client);
-    /// Every few ms.
+    /// Called every few ms.
     void tick();
     void tell(const panel::Event& event);
-    /// Any thread.
+    /// Number of clients; any thread.
     std::int64_t count() const { return count_; }
 
   private:
-    /// What all who look at one set of channels get, behind their own numbers.
+    /// Encoded snapshot for all clients with the same set of channels, sent after their own sequence numbers.
     struct Encoded {
         std::weak_ptr<panel::ChannelSet> set;
         std::shared_ptr<const panel::StatusSnapshot> picture;
@@ -34,7 +34,7 @@ class Clients {
 
     Service& service_;
     std::vector<std::shared_ptr<Client>> clients_;
-    std::map<const panel::ChannelSet*, Encoded> encoded_;  // looked up only, never walked to the outside
+    std::map<const panel::ChannelSet*, Encoded> encoded_;  // used for lookup only; its order is never visible
     std::atomic<std::int64_t> count_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The line between a port and one sender, on TCP or a pseudo-terminal.
+// Connection between a port and one sender, over TCP or a pseudo-terminal.
 #pragma once
 
 #include <array>
@@ -13,22 +13,22 @@
 
 namespace motionrack::server {
 
-/// What a port says; `greets`: it begins with the banner for a new client, who is not to see what comes before it.
+/// Output of a port. `greets`: starts with the banner for a new client, which must not receive earlier output.
 struct PortMessage {
     std::shared_ptr<const std::string> text;
     bool greets = false;
 };
 
-/// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client
-/// that is slow.
+/// One end of a connection to a client: reads while a reader is attached, writes in order, buffers a bounded amount for
+/// slow clients.
 template <class Stream>
 class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
   public:
     SenderLine(Stream stream, std::size_t max_waiting) : stream_(std::move(stream)), max_waiting_(max_waiting) {}
 
-    bool awaits_greeting = false;  ///< hears nothing before it
+    bool awaits_greeting = false;  ///< discards output before the banner
 
-    std::function<void(std::string)> on_bytes;  ///< read_on() asks for more
+    std::function<void(std::string)> on_bytes;  ///< read_on() continues reading
     std::function<void()> on_end;
 
     void read_on() {
@@ -38,7 +38,7 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
                                     if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
                                 });
     }
-    /// False: too much waits already.
+    /// Returns false if the buffer is full.
     bool write(const PortMessage& said) {
         if (said.greets) awaits_greeting = false;
         if (awaits_greeting) return true;
@@ -48,7 +48,7 @@ class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
         if (out_.size() == 1) write_on();
         return true;
     }
-    /// Of what waits, only what is on its way.
+    /// Discards the queued output, except the write in progress.
     void forget_waiting() {
         if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
         waiting_ = out_.empty() ? 0 : out_.front()->size();

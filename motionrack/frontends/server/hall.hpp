@@ -1,4 +1,4 @@
-// What the connections of a server share.
+// Data that the connections of a server share.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace motionrack::server {
 
-/// It lives as long as the last of its connections.
+/// Lives as long as the last of its connections.
 struct ConnectionPool {
     explicit ConnectionPool(std::shared_ptr<Service> all)
         : service(std::move(all)), clients(*service), open_connections(service->settings().limits) {}

@@ -1,4 +1,4 @@
-// A request's head and an answer, without the library that carries them.
+// Request head and answer, independent of the HTTP library.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace motionrack::server {
 
-/// Where a connection comes from.
+/// Remote end of a connection.
 struct Peer {
     std::string address;  ///< "127.0.0.1"
-    std::string local;    ///< the address that it reached
+    std::string local;    ///< local address of the connection
     bool loopback = false, secure = false;
-    bool stop_only = false;    ///< there is no seat for it: it may ask for STOP only
-    std::string network = {};  ///< what limits count: network_of(address)
+    bool stop_only = false;    ///< no seat is free: only STOP is accepted
+    std::string network = {};  ///< key for limits: network_of(address)
 };
 
 struct RequestHead {
     Peer peer;
     std::string method, target, host, origin, authorization;
-    bool upgrade = false;   ///< to a WebSocket
-    bool has_more = false;  ///< a body, or bytes behind the head of an upgrade
+    bool upgrade = false;   ///< upgrade to a WebSocket
+    bool has_more = false;  ///< has a body, or bytes after the head of an upgrade
     std::string websocket_key, websocket_version;
 };
 
@@ -39,10 +39,10 @@ HttpAnswer http_answer(const panel::Answer& answer);
 /// {"error":{"trouble":..,"message":..}}
 HttpAnswer http_error(int status, std::string_view trouble, std::string sentence);
 
-/// An object from a text. Errors: invalid_input with line and column: no JSON, no object, nested deeper than 16.
+/// Parses an object. Errors: invalid_input with line and column: not JSON, not an object, or nested deeper than 16.
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what);
 
-/// "/api/card", and the texts behind "?" with their %XX decoded. Errors: invalid_input.
+/// "/api/card", and the %XX-decoded texts behind "?". Errors: invalid_input.
 struct Target {
     std::string path;
     std::vector<std::pair<std::string, std::string>> texts;

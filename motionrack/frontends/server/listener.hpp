@@ -1,4 +1,4 @@
-// The port of a server: it takes connections as fast as they come, also where no descriptors are left.
+// Port of a server: accepts connections at any rate, even without free descriptors.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -11,8 +11,8 @@
 
 namespace motionrack::server {
 
-/// Descriptors that are kept back: where the process or the computer has no other one, a connection that may ask for
-/// STOP gets one of these.
+/// Reserved descriptors. If the process or the computer has none left, a connection that may request STOP gets one of
+/// these.
 class Reserve {
   public:
     static constexpr std::size_t size = 16;
@@ -20,9 +20,9 @@ class Reserve {
     ~Reserve();
     Reserve(const Reserve&) = delete;
     Reserve& operator=(const Reserve&) = delete;
-    /// Frees one. False: none is left.
+    /// Frees one. Returns false if none is left.
     bool give();
-    /// Takes back what is free again.
+    /// Reserves free descriptors again.
     void refill();
 
   private:
@@ -31,11 +31,11 @@ class Reserve {
 
 class Listener {
   public:
-    /// `acceptor` does not block.
+    /// Requires a non-blocking `acceptor`.
     Listener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> hall, boost::asio::ip::tcp::acceptor acceptor,
              std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
-    /// Takes no more, says close_with_reason to all.
+    /// Stops accepting and closes all connections with a reason.
     void end();
     bool empty() const { return hall_->open_connections.empty(); }
 

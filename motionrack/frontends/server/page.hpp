@@ -1,4 +1,4 @@
-// The page's files, read once: what is asked for is looked up by its whole name, so that no name leads anywhere else.
+// Files of the page, read once. Requests look up the whole name, so that no name leads outside the folder.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@ namespace motionrack::server {
 
 struct PageFile {
     std::string type;   ///< "text/html; charset=utf-8"
-    std::string cache;  ///< for Cache-Control
+    std::string cache;  ///< value of Cache-Control
     std::shared_ptr<const std::string> text;
 };
 
 class Page {
   public:
-    /// A page that says how the real one is made.
+    /// A placeholder page that explains how to build the real one.
     Page();
-    /// Regular files of a folder and its subfolders, links left out; index.html is "/". Errors: io, invalid_input (no
-    /// index.html, more than 64 MiB or 2000 files).
+    /// Reads the regular files of a folder and its subfolders, without links; index.html is "/". Errors: io,
+    /// invalid_input (no index.html, more than 64 MiB or 2000 files).
     static Result<Page> read(const std::filesystem::path& folder);
 
-    /// "/", "/assets/index-1a2b.js"; nullptr: there is none.
+    /// "/", "/assets/index-1a2b.js"; nullptr if not found.
     const PageFile* find(std::string_view path) const;
 
   private:

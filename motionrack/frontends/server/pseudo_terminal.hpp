@@ -1,4 +1,4 @@
-// A pseudo-terminal under a name of its own.
+// Pseudo-terminal with a symbolic link of its own.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::server {
 
-/// Closes a file when it goes.
+/// Closes a file on destruction.
 class OpenFile {
   public:
     explicit OpenFile(int file = -1) : file_(file) {}
@@ -20,29 +20,29 @@ class OpenFile {
     int file_;
 };
 
-/// The master's end is ours; the other is held open too, or who comes after the first client would find the line hung
-/// up. It is raw: no echo, no line ends changed; a baud rate that is set means nothing. Only its owner may open it.
+/// Owns the master end. Keeps the other end open too, otherwise the second client would find the line hung up. The line
+/// is raw: no echo, line ends unchanged; the baud rate is ignored. Only its owner may open it.
 class PseudoTerminal {
   public:
-    /// `link`: a symbolic link to the other end; one that an earlier run of this user has left is replaced. Errors: io,
-    /// also where anything else is in its place, or another program that runs has the link.
+    /// `link`: symbolic link to the other end; a link left by an earlier run of this user is replaced. Errors: io, also
+    /// if another kind of file is at the path or another running program owns the link.
     static Result<PseudoTerminal> open(const std::string& link);
     PseudoTerminal(PseudoTerminal&&) = default;
     PseudoTerminal& operator=(PseudoTerminal&&) = default;
-    /// Takes the link away, if it is still the one that leads here.
+    /// Removes the link if it still points to this terminal.
     ~PseudoTerminal();
 
     OpenFile take_master() { return std::move(master_); }
-    /// Throws away what clients have not read; what they wrote is heard.
+    /// Discards output that clients have not read; keeps their input.
     void forget_unread();
-    /// What clients have done since the last look.
+    /// Client activity since the last look.
     struct Look {
-        bool left = false;  ///< the last one has closed it
-        bool came = false;  ///< and, or before that, one has opened it as the only one
+        bool left = false;  ///< the last client closed it
+        bool came = false;  ///< a client opened it as the only one, at or before that time
     };
     Look look();
     int clients() const { return clients_; }
-    /// Readable when there is something to look at.
+    /// Descriptor that is readable when a look is needed.
     int watch() const { return watch_.number(); }
 
   private:

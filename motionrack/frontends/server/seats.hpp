@@ -1,10 +1,10 @@
-// How many connections a server has, and whose.
+// Connection limits of a server, in total and per network.
 //
-//   accept ─► caller ─whole head─► seat: 500, of one network 250 ─► HTTP ─► perhaps a WebSocket
-//             128       │     └──► no seat: STOP is heard, all else is answered 503
-//              │        └ STOP is heard in any case
-//              └─► one more: of the older quarter the oldest of the networks that have the most is let go; the others
-//                  came so lately that what they have sent may not have been read
+//  accept ─► caller ─whole head─► seat: 500, per network 250 ─► HTTP ─► possibly a WebSocket
+//            128       │     └──► no seat: STOP is executed, all else is answered 503
+//             │        └ STOP is executed in any case
+//             └─► one more: among the older quarter, closes the oldest caller of the network with the most callers;
+//                 the input of newer ones may not have been read yet
 #pragma once
 
 #include <cstddef>
@@ -20,24 +20,26 @@ namespace motionrack::server {
 class OpenConnection {
   public:
     virtual ~OpenConnection() = default;
-    /// Ends it; `why` goes to the other end where there is still a place for it.
+    /// Closes it; sends `why` to the other end if it can still be sent.
     virtual void end(std::string_view why) = 0;
 };
 
-/// Who has a seat and who only calls. A network is what one stranger may have many addresses of: network_of().
+/// Assigns seats to connections. A network is the address range of one customer: network_of().
 class Seats {
   public:
     explicit Seats(const Limits& limits) : limits_(limits) {}
 
-    /// A connection that has not sent a head so far. May end another one.
+    /// Adds a connection that has sent no head yet. May close another connection.
     void arrive(OpenConnection* open, const std::string& network);
-    /// It has sent a head. True: it has a seat, now or before. False: there is none for it; it goes on as a caller.
+    /// A connection has sent its head. Returns true if it has a seat, new or existing. Returns false if none is free;
+    /// it stays a caller.
     bool take_seat(OpenConnection* open, const std::string& network);
-    /// A connection that takes the place of another one (WebSocket).
+    /// Transfers the seat of a connection to its successor (WebSocket).
     void replace(OpenConnection* before, OpenConnection* open);
     void leave(OpenConnection* open);
 
-    /// Ends, of the older quarter of the callers, the oldest of the networks that have the most. False: there is none.
+    /// Among the older quarter of the callers, closes the oldest of the network with the most callers. Returns false if
+    /// there is no such caller.
     bool end_a_caller();
     void end_all(std::string_view why);
     bool empty() const { return seats_.empty() && callers_.empty(); }

@@ -1,4 +1,4 @@
-// One of the two ports for senders, on the motion thread: its Grbl, who writes to it, and whose machine it is.
+// One of the two ports for senders, on the motion thread: its Grbl session, its writer and the control lease.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
   public:
     SenderPort(operate::Machine& machine, auth::ControlLease& lease, const GrblPortSettings& settings);
 
-    /// Where output goes; on the motion thread. Set before Machine::run.
+    /// Receives the output, on the motion thread. Set before Machine::run.
     std::function<void(PortMessage)> send;
 
     // ---- from the network thread
-    /// Somebody may write from now on. `address`: "127.0.0.1:4711" or a path; `id`: of this one connection.
+    /// A writer is connected from now on. `address`: "127.0.0.1:4711" or a path; `id`: unique for the connection.
     void came(const std::string& user, const std::string& address, const std::string& id);
     void left();
-    /// `then`: on the motion thread, when these bytes were heard.
+    /// `then`: called on the motion thread after these bytes were processed.
     void hear(std::string bytes, bool writer, std::function<void()> then);
 
     // ---- the motion thread
@@ -40,8 +40,8 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     auth::ControlLease& lease_;
     const bool resets_stop_all_;
     std::unique_ptr<grbl::GrblSession> session_;
-    std::string user_ = "a sender", address_, id_ = "grbl";  ///< of who writes
-    bool had_control_ = false;                               ///< nobody else has taken it since
+    std::string user_ = "a sender", address_, id_ = "grbl";  ///< of the writer
+    bool had_control_ = false;                               ///< and no other client has taken it since
 };
 
 }  // namespace motionrack::server

@@ -1,5 +1,4 @@
-// A rack that runs in step with a clock, with everybody who may work on it, in the order in which they need each other.
-//
+// A rack paced by a clock, with all its clients; the members are in the order of their dependencies.
 //   clock ──► pacer ──► machine ◄──── panel ◄──── server ◄── browsers, programs
 //                         ▲ ▲           │ journal    │
 //                         │ └── lease ──┴──── door ──┘
@@ -26,14 +25,14 @@
 
 namespace motionrack::server {
 
-/// What a part needs of another one is filled in: the pacer, the journal, orders about people, the audit, versions.
+/// Settings that one part needs from another are filled in: pacer, journal, user commands, audit, versions.
 struct ServedSettings {
     operate::ClockMode clock = operate::ClockMode::real;
-    double factor = 1;  ///< seconds of the rack for a second
+    double factor = 1;  ///< simulated seconds per second
     std::function<void()> meanwhile =
-        {};  ///< on the motion thread, again and again while it waits for the clock; must not wait
-    journal::Journal* journal = nullptr;  ///< what happens, what is asked and who asked is written to it
-    std::string version = {}, boot = {};  ///< as the server greets
+        {};  ///< called repeatedly on the motion thread while it waits for the clock; must not block
+    journal::Journal* journal = nullptr;  ///< receives events, commands and their callers
+    std::string version = {}, boot = {};  ///< sent in the server's greeting
     operate::MachineSettings machine = {};
     auth::AuthSettings door = {};
     panel::PanelSettings panel = {};
@@ -44,12 +43,12 @@ struct ServedSettings {
 
 class ServedRack {
   public:
-    /// Everything is there and the ports are open; the machine stands until run(). Errors: those of the parts.
+    /// All parts exist and the ports are open; the machine is stationary until run(). Errors: those of the parts.
     static Result<std::unique_ptr<ServedRack>> open(const rack::RackConfig& config, ServedSettings settings);
 
     /// Works until machine().quit().
     void run() { machine_->run(); }
-    /// Closes the ports; nobody is served any more.
+    /// Closes the ports; no client is served afterwards.
     void stop();
 
     operate::ClockPacer& pacer() { return pacer_; }
@@ -58,7 +57,7 @@ class ServedRack {
     auth::Authenticator& door() { return *door_; }
     panel::Panel& panel() { return *panel_; }
     Server& server() { return *server_; }
-    const GrblPorts* grbl() const { return grbl_.get(); }  ///< nullptr: none were asked for
+    const GrblPorts* grbl() const { return grbl_.get(); }  ///< nullptr: not configured
 
   private:
     ServedRack() = default;
@@ -69,7 +68,7 @@ class ServedRack {
     operate::ClockPacer pacer_{clock_, operate::ClockMode::real, 1};
     auth::ControlLease lease_;
     journal::Journal* journal_ = nullptr;
-    auth::RateLimit settings_of_senders_{20, 1};  ///< in the journal; a sender needs no token
+    auth::RateLimit settings_of_senders_{20, 1};  ///< limits journal entries; a sender needs no token
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<auth::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;

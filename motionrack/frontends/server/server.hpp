@@ -1,4 +1,4 @@
-// The server of a panel: a network thread of its own, loopback unless it is told otherwise.
+// Server of a panel, on a separate network thread; listens on loopback by default.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace motionrack::server {
 
 class Server {
   public:
-    /// Takes the port and begins to serve. Before Machine::run; panel, door and lease must outlive it.
-    /// Errors: io (the port is taken, a TLS file cannot be used), refused (another address than loopback without TLS),
-    /// invalid_input (no address).
+    /// Opens the port and starts to serve. Call before Machine::run; panel, door and lease must outlive it.
+    /// Errors: io (the port is in use, a TLS file cannot be read), refused (a non-loopback address without TLS),
+    /// invalid_input (invalid address).
     static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
                                                 auth::ControlLease& lease, Page page);
     ~Server();
 
-    /// Says close_with_reason to all and ends the thread; takes a second at most.
+    /// Closes all connections with a reason and ends the thread; takes at most a second.
     void stop();
 
     std::uint16_t port() const;
     /// "http://127.0.0.1:8080/"
     std::string url() const;
 
-    /// WebSockets; any thread.
+    /// Number of WebSocket clients; any thread.
     std::int64_t clients() const;
 
   private:

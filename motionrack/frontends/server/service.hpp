@@ -1,9 +1,9 @@
-// What all connections share: who may, where things are, how much. It knows neither sockets nor motion.
+// Parts that all connections share: access rights, routes, limits. Independent of sockets and motion.
 //
-//   head ──admit──► an answer at once (refused, page, STOP)
-//               └─► how long the body may be ──handle──► the panel's answer
+//  head ──admit──► an immediate answer (rejected, page, STOP)
+//              └─► limit of the body ──handle──► the panel's answer
 //
-// The network thread's, but for post().
+// Runs on the network thread, except post().
 #pragma once
 
 #include <atomic>
@@ -25,7 +25,7 @@
 
 namespace motionrack::server {
 
-/// Work for the network thread from any other; nothing after the network has ended.
+/// Posts work to the network thread from any thread; ignored after the network has ended.
 class Post {
   public:
     explicit Post(std::function<void(std::function<void()>)> post) : post_(std::move(post)) {}
@@ -43,9 +43,9 @@ class Post {
     std::function<void(std::function<void()>)> post_;
 };
 
-/// What was found out about a request from its head.
+/// Result of checking the head of a request.
 struct Admission {
-    std::optional<HttpAnswer> answer;  ///< all there is to say, and the body does not matter
+    std::optional<HttpAnswer> answer;  ///< complete answer; the body is ignored
     std::size_t body_limit = 0;
     const panel::OperationSpec* row = nullptr;  ///< nullptr: pairing
     panel::Caller caller;
@@ -63,27 +63,27 @@ class Service {
     /// `reply` is called once, on the network thread.
     void handle(const RequestHead& head, const Admission& admission, const std::string& body,
                 std::function<void(HttpAnswer)> reply);
-    /// Whether a head may become a WebSocket; else the answer.
+    /// Returns nothing if the head may become a WebSocket, else the answer.
     std::optional<HttpAnswer> refuse_stream(const RequestHead& head);
 
     // ---- WebSocket
-    /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
+    /// Forwards an operation to the panel; `reply` is called once, on the network thread. Audited unless it is a query.
     void ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row,
              const nlohmann::json& fields, std::function<void(panel::Answer)> reply);
-    /// STOP. Never refused, never counted.
+    /// Executes STOP. Never rejected, never limited.
     void stop(panel::Caller caller, const std::string& address);
     /// A connection has ended.
     void left(const std::string& session);
-    /// The role of who comes without a token.
+    /// Role of a client without a token.
     auth::Role role_without_token(const Peer& peer) const {
         return peer.loopback ? settings_.loopback_role : auth::Role::none;
     }
     auth::AuthResult<auth::Identity> authenticate(const std::string& token, const Peer& peer);
 
-    /// `is_known`: asked by who may; else by a stranger, who may not fill the audit.
+    /// `is_known`: the client was authenticated; others may write only a limited number of audit entries.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                bool is_known);
-    /// What time brings; every few ms.
+    /// Called every few ms.
     void tick() { strangers_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
     auth::Timestamps now() const { return settings_.clock(); }

@@ -1,4 +1,4 @@
-// What a server is told, and what it allows.
+// Settings and limits of a server.
 #pragma once
 
 #include <chrono>
@@ -15,54 +15,57 @@ namespace motionrack::server {
 
 /// PEM files.
 struct TlsFiles {
-    std::string certificate;  ///< with those that signed it
+    std::string certificate;  ///< with its certificate chain
     std::string key;
 };
 
 struct Limits {
     std::size_t connections = 500;
-    std::size_t of_a_network = 250;        ///< of these, from one network (network_of); beyond both STOP only is heard
-    std::size_t callers = 128;             ///< connections that have sent no head so far, or have no seat
-    std::size_t strange_frame = 4 * 1024;  ///< bytes of a WebSocket message before its token
-    std::size_t frame = 64 * 1024;         ///< from who may look; of who may operate big_body
-    std::size_t strange_body = 1024;       ///< bytes of a body of who may not order this, or pairs
-    std::size_t small_body = 64 * 1024;    ///< bytes of a body
-    std::size_t big_body = 16 * 1024 * 1024;  ///< of one that may have a program in it, from who may ask for that
-    double requests_at_once = 500, requests_per_second = 200;  ///< HTTP, of an address
-    double messages_at_once = 200, messages_per_second = 100;  ///< WebSocket, of a connection
-    std::size_t pictures_waiting = 2;                          ///< for one client; what comes then is lost
-    std::size_t strange_texts_waiting = 100;                   ///< answers and events for one client without a token
-    std::size_t texts_waiting = 500;           ///< answers and events for one client; with more it is let go
-    std::size_t asks_waiting = 64;             ///< orders and queries of one client without an answer so far
-    std::chrono::milliseconds header{10'000};  ///< for a request's head, a handshake, a client's token
+    std::size_t of_a_network =
+        250;                    ///< connections per network (network_of); beyond either limit only STOP is accepted
+    std::size_t callers = 128;  ///< connections without a complete head or without a seat
+    std::size_t strange_frame = 4 * 1024;  ///< maximum bytes of a WebSocket message before authentication
+    std::size_t frame = 64 * 1024;  ///< maximum bytes of a WebSocket message from an observer; big_body for operators
+    std::size_t strange_body =
+        1024;  ///< maximum bytes of a body without permission for the operation, or of a pairing request
+    std::size_t small_body = 64 * 1024;  ///< maximum bytes of other bodies
+    std::size_t big_body =
+        16 * 1024 * 1024;  ///< maximum bytes of a body that may contain a program, with permission for it
+    double requests_at_once = 500, requests_per_second = 200;  ///< HTTP, per address
+    double messages_at_once = 200, messages_per_second = 100;  ///< WebSocket, per connection
+    std::size_t pictures_waiting = 2;         ///< maximum number queued per client; later ones are lost
+    std::size_t strange_texts_waiting = 100;  ///< maximum answers and events queued for a client without a token
+    std::size_t texts_waiting =
+        500;                        ///< maximum answers and events queued for a client; beyond it the client is closed
+    std::size_t asks_waiting = 64;  ///< maximum unanswered commands and queries of one client
+    std::chrono::milliseconds header{10'000};  ///< timeout of a head, a handshake and a client's token
     std::chrono::milliseconds idle{60'000};    ///< between requests
     std::chrono::milliseconds body{30'000};
     std::chrono::milliseconds spare_time{3'000};
     std::chrono::milliseconds silence{
-        20'000};  ///< of a WebSocket's other end, which is asked for a sign (ping) after half of it
+        20'000};  ///< timeout of the other end of a WebSocket; a ping is sent after half of it
 };
 
-/// Bytes of an entry's sentence in the journal.
+/// Maximum bytes of an entry's sentence in the journal.
 inline constexpr std::size_t max_audit_bytes = 200;
 
-/// Who asked for what, and what became of it.
+/// Request with its caller and its result.
 struct AuditEntry {
     std::string user, address, what;
-    int status = 200;     ///< as in HTTP
+    int status = 200;     ///< HTTP status
     std::string outcome;  ///< "done", or the sentence
 };
 
 struct ServerSettings {
-    std::string address = "127.0.0.1";  ///< IPv4 or IPv6; other than loopback only with TLS
-    std::uint16_t port = 8080;          ///< 0: any free one
+    std::string address = "127.0.0.1";  ///< IPv4 or IPv6; non-loopback only with TLS
+    std::uint16_t port = 8080;          ///< 0: any free port
     std::optional<TlsFiles> tls = {};
-    std::vector<std::string> hosts =
-        {};  ///< names that this computer is called by, besides localhost and its addresses
-    std::vector<std::string> origins = {};           ///< "http://localhost:5173": pages from elsewhere that may ask
-    auth::Role loopback_role = auth::Role::observe;  ///< of who comes from this computer without a token
+    std::vector<std::string> hosts = {};             ///< accepted host names, besides localhost and its addresses
+    std::vector<std::string> origins = {};           ///< "http://localhost:5173": foreign pages that may send requests
+    auth::Role loopback_role = auth::Role::observe;  ///< role of a local client without a token
     std::string version = {}, rack = {}, boot = {};
     Limits limits = {};
-    std::function<void(const AuditEntry&)> audit = {};  ///< on the network thread; must not wait
+    std::function<void(const AuditEntry&)> audit = {};  ///< on the network thread; must not block
     std::function<auth::Timestamps()> clock = [] {
         return auth::Timestamps{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
     };

@@ -1,4 +1,4 @@
-// What connections have from Boost, and the two ways between its types and ours.
+// Types that connections use from Boost, and the conversions to our types.
 #pragma once
 
 #include <boost/beast/core/span.hpp>
@@ -19,14 +19,14 @@ using Request = http::request<http::string_body>;
 using Response = http::response<http::span_body<const char>>;
 
 RequestHead head_of(const Request& request, const Peer& peer);
-/// Points to the answer's body, which must stay.
+/// Points to the body of the answer, which must outlive the response.
 Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);
-/// 503 with this sentence, as it goes over the line; the same sentence again costs nothing.
+/// Returns 503 with this sentence as raw bytes; caches them per sentence.
 const std::string& last_word(std::string_view why);
 
-/// Begins to serve a connection that was taken.
+/// Starts to serve an accepted connection.
 void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> hall);
-/// Becomes a WebSocket, in the seat of `before`.
+/// Upgrades to a WebSocket in the seat of `before`.
 void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
                   OpenConnection* before);
 

@@ -1,8 +1,8 @@
-// What strangers may write into the audit: some lines at once, then one in ten seconds of a network and one a second of
-// all. The others are counted, and told in one line a minute of each network.
+// Audit budget of unauthenticated clients: a burst, then one line per ten seconds and network and one per second in
+// total. The rest are counted and summarised in one line per minute and network.
 //
-//   pair 403 ─► in the budget: a line of its own
-//          └──► beyond it: counted ── a minute ──► "pair: 2840 more within 60 s; the last: Not paired: .."
+//  pair 403 ─► within the budget: a line of its own
+//         └──► beyond it: counted ── a minute ──► "pair: 2840 more within 60 s; the last: Not paired: .."
 #pragma once
 
 #include <chrono>
@@ -19,13 +19,13 @@ class StrangerLog {
     using Time = std::chrono::steady_clock::time_point;
     using Write = std::function<void(const AuditEntry&)>;
     static constexpr std::chrono::seconds period{60};
-    /// Networks that are counted one by one; those beyond them together.
+    /// Maximum number of networks counted separately; the others are counted together.
     static constexpr std::size_t max_networks = 16;
 
     explicit StrangerLog(Write write) : write_(std::move(write)) {}
 
     void tell(AuditEntry entry, const std::string& network, Time now);
-    /// Again and again: tells what was counted.
+    /// Called periodically; writes the summaries.
     void tick(Time now);
 
   private:
@@ -36,7 +36,7 @@ class StrangerLog {
     Write write_;
     auth::RateLimit of_a_network_{20, 0.1}, of_all_{100, 1};
     std::map<std::string, Counted> counted_;
-    Time begun_{};  ///< of the period
+    Time begun_{};  ///< start of the period
 };
 
 }  // namespace motionrack::server

@@ -1,5 +1,5 @@
-// The bytes of a connection, over TCP or over TLS. HTTP and WebSockets see one type, whose operations take handlers as
-// one type too: their templates are compiled once, and not for each of both.
+// Byte stream of a connection, over TCP or TLS. HTTP and WebSocket code use one stream type and one handler type, so
+// their templates are compiled once instead of twice.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using boost::system::error_code;
 
-/// The handler of one operation, called once, with its end.
+/// Handler of one operation, called once at its end.
 class Done {
   public:
     template <class Handler>
@@ -34,7 +34,7 @@ class Done {
         Holder(const Holder&) = delete;
         Holder& operator=(const Holder&) = delete;
         virtual ~Holder() = default;
-        /// `self` is gone before the handler runs, which may begin the next operation.
+        /// Destroys `self` before running the handler, which may start the next operation.
         virtual void call(std::unique_ptr<Holder> self, error_code error, std::size_t bytes) = 0;
     };
     template <class Handler>
@@ -53,7 +53,7 @@ class Done {
     std::unique_ptr<Holder> held_;
 };
 
-/// The first buffers of a sequence, whatever its type is: a read or a write takes some bytes, not all.
+/// The first buffers of a sequence of any type: a read or a write transfers some bytes, not all.
 template <class Buffer>
 class FirstBuffers {
   public:
@@ -84,17 +84,17 @@ class Transport {
     ~Transport();
 
     bool secure() const;
-    /// The connection below TLS, which has the timer.
+    /// TCP stream below TLS; it owns the timer.
     beast::tcp_stream& tcp();
     executor_type get_executor() { return tcp().get_executor(); }
 
-    /// Of TLS; without it both are done at once.
+    /// Performs the TLS handshake; completes at once without TLS.
     void handshake(Done done);
     void shut_down(Done done);
 
     void read_some(const FirstBuffers<asio::mutable_buffer>& into, Done done);
     void write_some(const FirstBuffers<asio::const_buffer>& from, Done done);
-    /// Ends a WebSocket.
+    /// Closes a WebSocket.
     void tear_down(beast::role_type role, Done done);
 
     // ---- the requirements of Beast

@@ -1,4 +1,4 @@
-// The orders and queries of the panel that are about people: invite, unpair, users.
+// Commands and queries of the panel about users: invite, revoke, list.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace motionrack::server {
 
-/// For PanelSettings::elsewhere; the door must outlive the panel.
+/// Handlers for PanelSettings::external; the authenticator must outlive the panel.
 std::map<std::string, panel::Handler, std::less<>> door_orders(auth::Authenticator& door);
 
 /// "2026-01-31T12:00:00Z"

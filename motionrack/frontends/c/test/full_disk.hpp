@@ -1,4 +1,4 @@
-// A disk without room, for tests of recordings.
+// Simulates a full disk for tests of recordings.
 #pragma once
 
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 namespace motionrack::c_test {
 
-/// While it lives no file of this process becomes longer, as on a full disk.
+/// While an object exists, no file of this process can grow, as on a full disk.
 class FullDisk {
   public:
     explicit FullDisk(rlim_t bytes) {

@@ -1,4 +1,4 @@
-// An open rack over the C interface, with short names for what tests do most.
+// An open rack over the C interface, with short names for frequent test operations.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ class World {
     void write(std::uint32_t offset, unsigned value) {
         EXPECT_EQ(mr_write16(rack, "c1", offset, static_cast<std::uint16_t>(value)), MR_OK) << mr_last_error();
     }
-    /// Command `code` of the axes in `axes` (bit 0: X) with its data.
+    /// Sends command `code` with its data to the axes in `axes` (bit 0: X).
     void command(unsigned axes, unsigned code, std::uint32_t value = 0) {
         write(0x0E, value >> 16);
         write(0x0C, value & 0xFFFF);
@@ -96,7 +96,7 @@ class World {
     mr_rack* rack = nullptr;
 };
 
-/// A program to its end, which is `expected`.
+/// Runs a program to its end and checks that the result is `expected`.
 inline mr_run_result run(mr_rack* rack, const std::string& program, int expected = MR_OK,
                          const mr_run_options* options = nullptr) {
     mr_run_result result{-1, -1, -1, -1, -1, -1, nullptr};

@@ -1,4 +1,4 @@
-// An open chip over the C library, with what tests look at.
+// An open chip over the C library, with test observations.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class Open {
     int handle;
 };
 
-/// The functions of mcx314lib.h.
+/// Names of the functions declared in mcx314lib.h.
 inline std::set<std::string> declared_functions() {
     std::ifstream file(source_dir() + "/motionrack/frontends/mcx314lib/mcx314lib.h");
     std::set<std::string> declared;
@@ -48,12 +48,12 @@ inline std::set<std::string> declared_functions() {
 inline LINEDATA line_of(int px, int py, int pz) {
     return {100, 4000, 400, 0, 500, {px, py, pz, 0}};
 }
-/// A quarter from (0, 0) round (1000, 0).
+/// A quarter circle from (0, 0) around (1000, 0).
 inline CIRCLEDATA quarter(bool clockwise) {
     return {100, 1000, 400, 0, {1000, clockwise ? 1000 : -1000, 0, 0}, {1000, 0, 0, 0}};
 }
 
-/// Speeds in units of 10 pulses a second.
+/// Sets speeds, in units of 10 pulses per second.
 inline void set_up() {
     SetRange(800'000);
     SetSV(all, 100);

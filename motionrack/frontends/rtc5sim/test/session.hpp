@@ -1,4 +1,4 @@
-// Fresh virtual cards over the C library, and what they did.
+// Virtual cards over the C library, from power-up, with their observations.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ struct Trace {
     bool operator==(const Trace&) const = default;
 };
 
-/// Cards from power-up to its end.
+/// Cards from power-up to shutdown.
 class Session {
   public:
     explicit Session(const char* cards = "1") {

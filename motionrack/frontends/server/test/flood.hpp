@@ -1,4 +1,4 @@
-// Connections that come as fast as they can while a test says STOP.
+// Opens connections as fast as possible while a test sends STOP.
 #pragma once
 
 #include <arpa/inet.h>
@@ -19,7 +19,7 @@
 
 namespace motionrack::server {
 
-/// Connects, says something or nothing, and goes or stays, as often as it can.
+/// Connects, sends a request or nothing, then closes or stays open, at the maximum rate.
 class Flood {
   public:
     enum class Address : std::uint8_t { the_same, another };  ///< 127.0.0.1, as WebClient; 127.0.0.2
@@ -71,7 +71,7 @@ class Flood {
     std::thread thread_;
 };
 
-/// `stop` gives the status of an answer to STOP.
+/// `stop` returns the HTTP status of a STOP.
 template <class Stop>
 void expect_stops_heard(const Flood& flood, const std::string& name, const Stop& stop) {
     while (flood.count() < 500) std::this_thread::yield();

@@ -1,4 +1,4 @@
-// A machine with its panel and a server that run while a test asks.
+// A machine with its panel and a server that run during a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace motionrack::server {
 
-/// Two axes that stand where they should; 20 s of the rack a second.
+/// Two axes with valid positions; simulated 20 s per second.
 class Running {
   public:
     using Change = std::function<void(ServerSettings&)>;
@@ -58,14 +58,14 @@ class Running {
 
     std::uint16_t port() const { return served->server().port(); }
     WebClient client() const { return WebClient(port()); }
-    /// A token of this role for a name.
+    /// Creates a token of this role for a name.
     std::string token(const std::string& name, auth::Role role = auth::Role::maintain) {
         const auth::Timestamps now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
         const std::string code =
             role == auth::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
         return served->door().pair(code, name, "127.0.0.1", now)->token;
     }
-    /// A WebSocket with this token, past hello.
+    /// Opens a WebSocket with this token, past the greeting.
     WebClient stream(const std::string& token) const {
         WebClient client(port());
         EXPECT_EQ(client.upgrade().status, 101);
@@ -75,7 +75,7 @@ class Running {
         }
         return client;
     }
-    /// One that has control of the enabled machine.
+    /// Opens a WebSocket that has control of the enabled machine.
     WebClient master(const std::string& name) {
         WebClient client = stream(token(name));
         EXPECT_TRUE(client.order({{"order", "take_control"}}).value("done", false));
@@ -92,7 +92,7 @@ class Running {
         const std::lock_guard<std::mutex> alone(lock);
         later += time;
     }
-    /// Where the axes were, each time after the program began; and then nothing more.
+    /// Returns the axis positions from the start of the program until they no longer change.
     std::vector<std::array<std::int64_t, 3>> path() {
         const std::lock_guard<std::mutex> alone(lock);
         return path_;
@@ -124,7 +124,7 @@ inline bool job_is_over(const nlohmann::json& message) {
            !message["status"]["program"]["runs"];
 }
 
-/// A job of a few seconds of the rack's time.
+/// A job of a few simulated seconds.
 inline std::string job() {
     std::string out = "G21 G90\n";
     for (int i = 0; i < 20; ++i) out += "G1 X20 Y10 F3000\nG2 X0 Y0 R30\n";

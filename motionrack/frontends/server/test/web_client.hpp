@@ -1,4 +1,4 @@
-// A small blocking HTTP and WebSocket client, which can also say what no good client would.
+// A small blocking HTTP and WebSocket client, which can also send malformed requests.
 #pragma once
 
 #include <openssl/ssl.h>
@@ -25,32 +25,33 @@ struct WebAnswer {
 struct WebFrame {
     int kind = -1;  ///< opcode: 1 text, 2 binary, 8 close, 9 ping, 10 pong; -1: the connection has ended
     std::string text;
-    int code = 0;  ///< of a close
+    int code = 0;  ///< of a close frame
 };
 
 class WebClient {
   public:
-    /// Reads wait half a minute at most. `small_window`: takes little into its kernel.
+    /// Reads time out after half a minute. `small_window`: sets a small receive buffer.
     explicit WebClient(std::uint16_t port, bool tls = false, bool small_window = false);
     ~WebClient();
     WebClient(WebClient&& other) noexcept;
 
     bool connected() const { return socket_ >= 0; }
     void send(std::string_view bytes);
-    /// A whole request; `fields` as "Name: value\r\n".
+    /// Sends a complete request; `fields` as "Name: value\r
+    /// ".
     WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
                   const std::string& fields = "");
     WebAnswer answer(bool head_only = false);
-    /// True: the other end has closed.
+    /// Returns true if the other end has closed.
     bool ended();
 
-    /// Becomes a WebSocket; the answer's status is 101.
+    /// Upgrades to a WebSocket; the answer's status is 101.
     WebAnswer upgrade(const std::string& fields = "", const std::string& target = "/api/stream");
     void send_frame(int kind, std::string_view payload, bool masked = true, bool last = true);
     void say(const nlohmann::json& message) { send_frame(1, message.dump()); }
-    /// The next text or the end; pings are answered.
+    /// Returns the next text or the end; answers pings.
     WebFrame receive();
-    /// The next text of which this is true of its JSON; others are passed over. Null: the connection ended.
+    /// Returns the next text whose JSON satisfies `Fits`; skips others. Null if the connection ended.
     template <class Fits>
     nlohmann::json receive_until(const Fits& fits) {
         for (;;) {
@@ -60,19 +61,19 @@ class WebClient {
             if (fits(message)) return message;
         }
     }
-    /// Says it with an id of its own and gives its answer.
+    /// Sends it with a new id and returns its answer.
     nlohmann::json order(nlohmann::json message);
 
     int descriptor() const { return socket_; }
-    /// Takes what has come, without waiting; whether there is a whole frame now.
+    /// Reads available bytes without waiting; returns true if a whole frame is present.
     bool has_frame();
-    /// What names this computer in requests.
+    /// Host name in requests.
     std::string host;
 
   private:
     bool read_more();
     std::string take(std::size_t bytes);
-    /// Bytes of the frame at the buffer's begin; 0: not known so far.
+    /// Bytes of the frame at the start of the buffer; 0 if not yet known.
     std::size_t frame_size() const;
 
     int socket_ = -1;
