@@ -1,4 +1,4 @@
-// Pairing and looking up.
+// Pairing and token lookup.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ AuthResult<Authenticator::Paired> Authenticator::admit(std::string_view name, Ro
     Token token;
     token.hash = hash_of(paired.token);
     const auto whole =
-        std::chrono::time_point_cast<std::chrono::seconds>(now + settings_.token_life);  // as the file has it
+        std::chrono::time_point_cast<std::chrono::seconds>(now + settings_.token_life);  // precision of the file
     token.identity = {id_of(token.hash), std::string(name), role, whole};
     paired.identity = token.identity;
     tokens_.push_back(std::move(token));

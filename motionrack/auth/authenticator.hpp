@@ -1,9 +1,9 @@
-// Who comes in: pairing codes give tokens, tokens tell who a caller is.
+// Authentication: pairing codes are exchanged for tokens; a token identifies its caller.
 //
-//   start code (printed, maintain) ─┐                    ┌─► users file: name, role, hash of the token, until when
-//   invitation (maintain gives it) ─┴─ code + name ─► token ─► identity, until it expires or is revoked
+//  start code (printed, maintain) ─┐                    ┌─► users file: name, role, hash of the token, expiry
+//  invitation (by a maintainer) ───┴─ code + name ─► token ─► identity, until it expires or is revoked
 //
-// Any thread; every call takes a short lock, and those that change users write their file. Times are handed in.
+// Any thread. Every call takes a short lock; calls that change users write the users file. The caller passes the times.
 #pragma once
 
 #include <chrono>
@@ -25,7 +25,7 @@ namespace motionrack::auth {
 
 using WallTime = std::chrono::system_clock::time_point;
 
-/// The two clocks at one instant: what is kept in files counts by the wall's, what limits counts by the steady one.
+/// Readings of both clocks at one instant: times in files use the wall clock, limits use the steady clock.
 struct Timestamps {
     WallTime wall;
     std::chrono::steady_clock::time_point steady;
@@ -36,27 +36,27 @@ struct AuthSettings {
     std::chrono::minutes invitation_life{10};
     std::chrono::hours token_life{90 * 24};
     std::size_t max_tokens = 500, max_invitations = 50;
-    double failed_burst = 5, wrong_per_second = 0.1;          ///< wrong codes of one address
-    double all_wrong_at_once = 60, all_wrong_per_second = 1;  ///< and of all together
-    /// Gets the code that lets the first person in, at once and each time that it was used; empty: there is none.
+    double failed_burst = 5, wrong_per_second = 0.1;          ///< wrong codes per address
+    double all_wrong_at_once = 60, all_wrong_per_second = 1;  ///< wrong codes of all addresses
+    /// Receives the code that lets the first user in, now and after each use; empty: none is open.
     std::function<void(const std::string&)> on_start_code = {};
 };
 
-/// Who a token belongs to.
+/// Owner of a token.
 struct Identity {
-    std::string id;  ///< of the token; no secret
+    std::string id;  ///< token id; not a secret
     std::string user;
     Role role = Role::none;
     WallTime expires;
 };
 
-/// Why somebody was not let in.
+/// Reason for a rejection.
 struct AuthError {
     enum class Why : std::uint8_t {
         wrong,
         too_many,
         failed
-    } reason = Why::wrong;  ///< failed: the users file could not be written
+    } reason = Why::wrong;  ///< failed: writing the users file failed
     std::string sentence;
 };
 template <class T>
@@ -64,28 +64,28 @@ using AuthResult = tl::expected<T, AuthError>;
 
 class Authenticator {
   public:
-    /// Errors: io, invalid_input: the users file cannot be read, is not one, or others may write it.
+    /// Errors: io, invalid_input: the users file cannot be read, is invalid, or is writable by others.
     static Result<std::unique_ptr<Authenticator>> open(AuthSettings settings);
 
     struct Paired {
-        std::string token;  ///< told this once
+        std::string token;  ///< shown only here
         Identity identity;
     };
-    /// A code is good for one token. `address` is where the caller comes from: wrong codes are limited for each and for
-    /// all. With an invitation only names that are not there yet can be paired.
+    /// Exchanges a code for one token. `address`: the caller's; wrong codes are limited per address and in total. An
+    /// invitation pairs only new names.
     AuthResult<Paired> pair(std::string_view code, std::string_view name, std::string_view address, Timestamps now);
-    /// A code that gives this role once, for ten minutes. Refused: too many are open, role nobody.
+    /// Returns a code for this role, valid once and for ten minutes. Refused: too many are open, or the role is none.
     Result<std::string> invite(Role role, Timestamps now);
-    /// Forgets all tokens of this name. Refused: there is none.
+    /// Revokes all tokens of this name. Refused: the name has no token.
     Result<void> revoke(std::string_view name);
-    /// Forgets one token, by its id. Refused: there is none.
+    /// Revokes one token by its id. Refused: unknown id.
     Result<void> forget(std::string_view id);
 
     AuthResult<Identity> authenticate(std::string_view token, WallTime now) const;
-    /// Whether the token of this id still holds: role nobody if it was revoked or has expired.
+    /// Returns the current role of a token id; none if the token was revoked or has expired.
     Role role_of(std::string_view id, WallTime now) const;
     std::vector<Identity> users() const;
-    /// The code that lets somebody in who can see the program's output; empty: there is none.
+    /// Code for a first user who can see the program's output; empty: none is open.
     std::string start_code() const;
 
   private:
@@ -113,8 +113,8 @@ class Authenticator {
     RateLimit wrong_, all_wrong_;
 };
 
-/// What is wrong with a user's name; empty: nothing. 1 .. 40 letters, digits, dots, dashes, underscores and blanks
-/// inside.
+/// Returns the problem with a user name, or empty. Valid: 1 .. 40 letters, digits, dots, dashes, underscores, and
+/// blanks inside.
 std::string name_problem(std::string_view name);
 
 }  // namespace motionrack::auth

@@ -1,4 +1,4 @@
-// The lease's rules.
+// Rules of the lease.
 #include <fmt/format.h>
 
 #include <motionrack/auth/control_lease.hpp>

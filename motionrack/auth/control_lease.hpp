@@ -1,9 +1,9 @@
-// One session at a time controls the machine.
+// Lease that gives control of the machine to one session at a time.
 //
-//   nobody ──take──► held ──release, or 10 s without a sign of life──► nobody
-//                     │ another's take with force, while the machine stands still or the holder's connection has ended
-//                     ├► held by the other
-//                     └──another's STOP──► nobody
+//  free ──take──► held ──release, or 10 s without a keep-alive──► free
+//                  │ another's forced take, at standstill or after the holder's connection has ended
+//                  ├► held by the other
+//                  └──another's STOP──► free
 //
 // Any thread; every call takes a short lock. A session is a connection or a token: two pages of one user are two
 // sessions.
@@ -23,32 +23,32 @@ using Moment = std::chrono::steady_clock::time_point;
 
 class ControlLease {
   public:
-    /// How long control stays with a session that gives no sign of life.
+    /// Time for which a session without a keep-alive retains control.
     static constexpr std::chrono::seconds life{10};
 
     struct Holder {
         std::string user, session;
-        double since = 0;   ///< s since the lease was made
-        bool left = false;  ///< his connection has ended
+        double since = 0;   ///< s after the lease object was created
+        bool left = false;  ///< the holder's connection has ended
     };
 
     explicit ControlLease(std::function<Moment()> clock = std::chrono::steady_clock::now)
         : clock_(std::move(clock)), made_(clock_()) {}
 
-    /// Gives control to `session`; one that holds it already keeps it. Refused, with the holder's name: another holds
-    /// it, and `force` is not set, or the machine does not stand still and the holder is still connected. A user whose
-    /// connection has ended gets it back without force.
+    /// Gives control to `session`; the holder keeps it. Refused, with the holder's name, if another session holds it
+    /// and either `force` is not set, or the machine moves and the holder is connected. A user whose connection ended
+    /// regains control without force.
     Result<void> take(std::string_view user, std::string_view session, bool force, bool machine_stands);
     /// Refused: the session does not hold it.
     Result<void> release(std::string_view session);
-    /// A sign of life. Refused: the session does not hold it.
+    /// Keep-alive. Refused: the session does not hold it.
     Result<void> keep(std::string_view session) { return check(session); }
-    /// STOP by this user, in this session where it has one: control of anybody else ends, so that what he goes on
-    /// ordering is refused until he takes it again. True: it has ended.
+    /// STOP by this user, in this session if there is one. Ends the control of any other session, whose commands are
+    /// refused until it takes control again. Returns true if control was ended.
     bool revoke(std::string_view user, std::string_view session);
-    /// Whether the session holds it; refused with the holder's name. It is a sign of life.
+    /// Checks that the session holds the lease and renews it; otherwise refused with the holder's name.
     Result<void> check(std::string_view session);
-    /// The session's connection has ended; the lease runs out by itself.
+    /// The session's connection has ended; the lease expires by itself.
     void left(std::string_view session);
 
     std::optional<Holder> holder() const;
@@ -59,7 +59,7 @@ class ControlLease {
         Moment since, last_sign;
         bool left = false;
     };
-    /// Under the lock.
+    /// Requires the lock.
     bool held() const { return held_ && clock_() - held_->last_sign < life; }
     Result<void> holds(std::string_view session) const;
     std::string name() const { return held_->user.empty() ? "another session" : held_->user; }

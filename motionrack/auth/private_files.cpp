@@ -19,9 +19,9 @@ tl::unexpected<Error> not_seen(const std::string& path, const std::string& subje
                 {}, path);
 }
 
-/// A group of one's own, as many systems give each user, is no other.
+/// A private group of the user, which many systems create, does not count as others.
 bool is_open_to_others(const struct stat& about) {
-    if ((about.st_mode & S_ISVTX) != 0) return false;  // as /tmp: each may replace his own files only
+    if ((about.st_mode & S_ISVTX) != 0) return false;  // sticky, as /tmp: users may replace only their own files
     return (about.st_mode & S_IWOTH) != 0 || ((about.st_mode & S_IWGRP) != 0 && about.st_gid != ::getegid());
 }
 

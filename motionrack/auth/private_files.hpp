@@ -1,4 +1,4 @@
-// Whether a file that decides who may do what, or what is trusted, is its owner's alone.
+// Permission checks of files that hold access rights or secrets.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -6,13 +6,12 @@
 
 namespace motionrack::auth {
 
-/// Errors: invalid_input if other users may write the file or replace it, because its folder is open to them; `subject`
-/// begins the sentence ("The users file"). A file that is missing has only its folder checked; io: not even that can
-/// be.
+/// Errors: invalid_input if other users may write the file, or replace it through its folder; `subject` begins the
+/// sentence ("The users file"). If the file is missing, checks only its folder; io if that fails too.
 Result<void> check_writers(const std::string& path, const std::string& subject);
 
-/// Errors: invalid_input if others than the owner may read or write the file, as a private key; a key of root may be
-/// read by its group.
+/// Errors: invalid_input if other users may read or write the file, e.g. a private key. The group may read a key of
+/// root.
 Result<void> check_readers(const std::string& path, const std::string& subject);
 
 }  // namespace motionrack::auth

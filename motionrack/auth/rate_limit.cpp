@@ -1,4 +1,4 @@
-// Buckets of tries.
+// Token buckets per key.
 #include <algorithm>
 #include <motionrack/auth/rate_limit.hpp>
 

@@ -1,4 +1,4 @@
-// So many at once, then so many a second, each key by itself.
+// Rate limit per key: a burst, then a rate per second.
 #pragma once
 
 #include <chrono>
@@ -9,8 +9,8 @@
 
 namespace motionrack::auth {
 
-/// A bucket of tries a key, which fills again with time. Keeps at most `max_keys`: full buckets are forgotten, and
-/// while there are none, keys that are not known share one bucket.
+/// One token bucket per key, refilled over time. Keeps at most `max_keys`: drops full buckets first. If none is full,
+/// all unknown keys share one bucket.
 class RateLimit {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -18,9 +18,9 @@ class RateLimit {
     RateLimit(double at_once, double per_second, std::size_t max_keys = 10'000)
         : at_once_(at_once), per_second_(per_second), max_keys_(max_keys) {}
 
-    /// Takes one try. False: there is none.
+    /// Takes one token. Returns false if the bucket is empty.
     bool take(std::string_view key, Time now);
-    /// Whether there is one; takes none.
+    /// Returns true if a token is available; takes none.
     bool there_is(std::string_view key, Time now);
     std::size_t keys() const { return buckets_.size(); }
 

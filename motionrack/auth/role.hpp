@@ -1,4 +1,4 @@
-// What a caller may do at most: each role may do what those before it may.
+// Maximum rights of a caller: each role includes the rights of the roles before it.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 namespace motionrack::auth {
 
 enum class Role : std::uint8_t {
-    none,     ///< STOP, and pairing
-    observe,  ///< looks
+    none,     ///< STOP and pairing only
+    observe,  ///< reads status and data
     operate,  ///< moves the machine
-    maintain  ///< breaks it on purpose, writes registers, lets others in
+    maintain  ///< injects faults, writes registers, invites users
 };
 
 inline constexpr std::array<std::string_view, 4> role_names = {"nobody", "observe", "operate", "maintain"};

@@ -1,4 +1,4 @@
-// OpenSSL's random numbers and SHA-256.
+// Random numbers and SHA-256 from OpenSSL.
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/rand.h>
@@ -13,7 +13,7 @@ namespace motionrack::auth {
 
 namespace {
 
-// Without I, L, O and U.
+// Crockford's digits: without I, L, O and U.
 constexpr std::string_view letters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 
 std::string hexadecimal(const unsigned char* bytes, std::size_t count) {

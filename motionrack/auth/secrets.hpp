@@ -1,4 +1,4 @@
-// What must not be guessed: random text, and the hash under which it is kept.
+// Secrets: random tokens and codes, and their stored hash.
 #pragma once
 
 #include <string>
@@ -6,15 +6,15 @@
 
 namespace motionrack::auth {
 
-/// 256 random bits as 64 hexadecimal digits.
+/// Returns 256 random bits as 64 hexadecimal digits.
 std::string random_token();
-/// A code for people, "ABCD-EFGH": 40 random bits in digits and letters that are not mistaken for each other.
+/// Returns a readable code, "ABCD-EFGH": 40 random bits in digits and letters that are not easily confused.
 std::string random_code();
-/// How a code that a person typed is meant: capitals, O as 0, I and L as 1, without blanks and dashes.
+/// Normalises a typed code: capitals, O as 0, I and L as 1, without blanks and dashes.
 std::string plain_code(std::string_view typed);
-/// SHA-256 as 64 hexadecimal digits.
+/// Returns the SHA-256 as 64 hexadecimal digits.
 std::string hash_of(std::string_view text);
-/// Takes as long for texts that differ in the first place as for those that differ in the last.
+/// Compares in constant time, independent of the position of the first difference.
 bool same_secret(std::string_view one, std::string_view other);
 
 }  // namespace motionrack::auth

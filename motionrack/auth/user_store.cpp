@@ -1,4 +1,4 @@
-// The users file: JSON that only its owner may read, written whole or not at all. Tokens are in it as hashes.
+// Users file: JSON, readable only by its owner, replaced as a whole. It contains tokens as hashes.
 #include <fmt/format.h>
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-// System calls with their errors in words.
+// System calls with their errors as text.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -21,7 +21,7 @@ tl::unexpected<Error> reason(int code) {
     return fail(ErrorKind::io, std::strerror(code));
 }
 
-/// Two programs that write the same file at once would mix their bytes. Not flock: the HDF5 library takes that itself.
+/// Locks against a second writer of the same file. Does not use flock, which the HDF5 library takes itself.
 bool lock(int file) {
     struct flock whole {};
     whole.l_type = F_WRLCK;
@@ -36,7 +36,7 @@ bool is_still_there(int file, const std::string& path) {
            here.st_ino == there.st_ino;
 }
 
-/// Makes the renaming last. File systems without such a call refuse it with other codes than EIO.
+/// Makes the rename durable. File systems without support return error codes other than EIO.
 bool sync_folder_of(const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string();
     const int place = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -46,7 +46,7 @@ bool sync_folder_of(const std::string& path) {
     return !bad;
 }
 
-/// A file that others could have opened is not written secrets to.
+/// Removes a file that others could have opened, before secrets are written.
 void remove_unless_private(const std::string& path) {
     struct stat found {};
     if (::lstat(path.c_str(), &found) != 0) return;
@@ -72,7 +72,7 @@ Result<NewFile> NewFile::create(const std::string& path, Part part, Rights right
         ::open(out.made_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, rights == Rights::owner ? 0600 : 0666);
     if (out.file_ < 0) return reason(errno);
     if (!lock(out.file_) || !is_still_there(out.file_, out.made_)) {
-        out.part_ = Part::keep;  // it is another program's
+        out.part_ = Part::keep;  // it belongs to another program
         return fail(ErrorKind::io, "another program is writing it");
     }
     if (::ftruncate(out.file_, 0) != 0) return reason(errno);
@@ -150,7 +150,7 @@ Result<void> NewFile::commit() {
     if (file_ < 0) return {};
     const auto told = [this] { return fail(ErrorKind::io, trouble_); };
     const bool in_place = made_ == path_;
-    // A device has nothing that could be put on a disk.
+    // A device cannot be synchronised.
     bool good = trouble_.empty() && (in_place || ::fsync(file_) == 0 || fail_with(errno));
     good = good && (in_place || written_ == 0 || is_as_written());
     good = good && (in_place || ::rename(made_.c_str(), path_.c_str()) == 0 || fail_with(errno));

@@ -1,4 +1,4 @@
-// Which names a command may write to.
+// Rules for the output paths of commands.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -7,11 +7,11 @@
 
 namespace motionrack::disk {
 
-/// A device, a pipe, or a name in /dev or /proc: written as it is, and nothing is lost by it.
+/// Returns true for a device, a pipe, or a path in /dev or /proc. These are written in place without loss.
 bool is_device(const std::string& path);
 
-/// The one rule of all commands, before anything is done: no output is something that the command reads, a symbolic
-/// link, or another output of it; by whatever name. Empty names and "-" are left out. Errors: refused, a sentence.
+/// Checks all outputs before a command starts. An output must not be an input of the command, a symbolic link, or
+/// another output, under any name. Empty names and "-" are skipped. Errors: refused, a sentence.
 Result<void> may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace motionrack::disk

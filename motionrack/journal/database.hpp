@@ -1,4 +1,4 @@
-// A file of SQLite and its prepared statements, closed by themselves.
+// RAII wrappers of an SQLite file and its prepared statements.
 #pragma once
 
 #include <sqlite3.h>
@@ -16,7 +16,7 @@ class Statement {
     Statement(sqlite3* database, const char* sql);
     Statement& bind(int place, std::int64_t value);
     Statement& bind(int place, std::string_view text);
-    /// True: there is a row. False: none is left, or see ok().
+    /// Returns true if a row was read; false at the end or on an error, see ok().
     bool row();
     bool ok() const { return code_ == SQLITE_OK || code_ == SQLITE_DONE || code_ == SQLITE_ROW; }
     std::int64_t number(int column) const { return sqlite3_column_int64(statement_.get(), column); }
@@ -34,15 +34,15 @@ class Statement {
 class Database {
   public:
     enum class Use { write, read };
-    /// Errors: io, with what SQLite says.
+    /// Errors: io, with the SQLite message.
     static Result<Database> open(const std::string& path, Use use);
     sqlite3* get() const { return database_.get(); }
-    /// Whether the log (-wal) stays beside the file when it is closed, as it does at first: a file that is refused is
-    /// left as it is. Else what is in the log goes into the file.
+    /// Sets whether the log (-wal) stays beside the file on close. It does by default, so that a rejected file is left
+    /// unchanged. Otherwise the log is merged into the file.
     void set_log_kept(bool kept) const;
     /// Errors: io.
     Result<void> run(const char* sql) const;
-    /// The first number of the first row; 0 if there is none.
+    /// Returns the first column of the first row; 0 without rows.
     std::int64_t number(const char* sql) const;
     std::string what() const { return sqlite3_errmsg(database_.get()); }
 

@@ -1,5 +1,4 @@
-// Whether the files that a program has open are still those in their places: what is written to a file that was
-// deleted, or that another one has replaced, is lost when the program ends.
+// Detects that open files were deleted or replaced. Data written to such a file is lost when the program ends.
 #pragma once
 
 #include <sys/types.h>
@@ -12,9 +11,9 @@ namespace motionrack::journal {
 
 class FileWatch {
   public:
-    /// From now on `path` is to remain the file that it is. Files that are not there are not watched.
+    /// Starts to watch the file at `path`. Ignores missing files.
     void add(const std::string& path);
-    /// Errors: io; a file was deleted, replaced or cut, in words that follow "The journal '...' ".
+    /// Errors: io if a file was deleted, replaced or truncated; the text continues "The journal '...' ".
     Result<void> check();
 
   private:
@@ -22,7 +21,7 @@ class FileWatch {
         std::string path;
         dev_t device = 0;
         ino_t inode = 0;
-        off_t size = 0;  ///< the greatest seen: these files only grow
+        off_t size = 0;  ///< largest size seen: these files only grow
     };
     std::vector<Watched> files_;
 };

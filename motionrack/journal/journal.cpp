@@ -20,7 +20,7 @@ namespace motionrack::journal {
 
 namespace {
 
-/// How often files are looked at while nothing is written.
+/// Interval of the file checks while nothing is written.
 constexpr std::chrono::milliseconds look_every{250};
 
 std::int64_t utc_ms() {
@@ -28,7 +28,7 @@ std::int64_t utc_ms() {
         .count();
 }
 
-/// Positions, names and addresses are its owner's; the files that SQLite makes beside it have the same rights.
+/// Positions, names and addresses are private to the owner. SQLite gives its auxiliary files the same rights.
 Result<void> make_private(const std::string& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0600);
     if (file < 0)
@@ -44,7 +44,7 @@ Result<void> make_private(const std::string& path) {
 
 }  // namespace
 
-/// Beside the journal, so that it ends with the program however that ends.
+/// Lock file beside the journal, released when the program ends for any reason.
 class FileLock {
   public:
     static Result<std::unique_ptr<FileLock>> take(const std::string& journal) {
@@ -122,7 +122,7 @@ Result<void> Journal::begin() {
     return file.run("COMMIT");
 }
 
-/// How the run before this one ended, and what it kept, where its seals vouch for that.
+/// Reads how the previous run ended and its kept values, as far as their seals match.
 void Journal::read_last_run() {
     const Database& file = *writer_;
     Statement last(file.get(),
@@ -158,7 +158,7 @@ Journal::~Journal() {
     end_work();
 }
 
-/// What waits is written first. False: it had ended already.
+/// Writes the queued entries first. Returns false if the run had already ended.
 bool Journal::end_work() {
     {
         const std::lock_guard<std::mutex> guard(alone_);
@@ -182,7 +182,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
     }
     if (room) return news_.notify_one();
     if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", max_waiting));
-    if (!done) return;  // NOLINT(bugprone-use-after-move): it was moved only where there was room
+    if (!done) return;  // NOLINT(bugprone-use-after-move): moved only if the queue had space
     done(fail(
         ErrorKind::io,
         closed ? "It was not written to the journal, which is closed."
@@ -214,7 +214,7 @@ void Journal::work() {
             entries.swap(waiting_);
             kept.swap(keeping_);
         }
-        // What goes into a file that was deleted meanwhile is not acknowledged.
+        // Does not acknowledge entries written to a file that was deleted in the meantime.
         Result<void> stored = store(entries, kept);
         if (!stored) {
             (void)writer_->run("ROLLBACK");
@@ -239,7 +239,7 @@ void Journal::keep_quota(Instant at) {
     if (settings_.on_quota) settings_.on_quota(*news);
 }
 
-/// Any thread. The first failure stays: what follows from it says less.
+/// Any thread. Keeps the first failure; later ones are consequences.
 void Journal::failed(const std::string& what) {
     const std::lock_guard<std::mutex> guard(alone_);
     if (failure_.empty()) failure_ = fmt::format("The journal '{}' {}.", path_, what);

@@ -1,15 +1,15 @@
-// The journal of a rack: what happened, in order, safe on disk before anybody is told that it is.
+// Journal of a rack: events in order, written to disk before they are acknowledged.
 //
-//   any thread ──write──► [ queue ] ──► writing thread: one transaction for all that wait ──fsync──► done(number)
+//  any thread ──write──► [ queue ] ──► writing thread: one transaction for all queued ──fsync──► done(number)
 //              ──keep───►  newest of each key ──┘
 //
 //   run 7   17:02:11  job       part.ngc began, 118 lines
 //           17:02:40  alarm     limit plus of X
 //           17:02:40  position  X 12.5, Y 3
-//   (killed)                                        ◄── the next run finds no end of this one: LastRun::clean is false
+//  (killed)                                        ◄── the next run finds no end of this run: LastRun::clean is false
 //
-// A file of SQLite with a write-ahead log; one program at a time writes it. What is kept carries a checksum, and
-// entries form a chain of hashes (tables.hpp): damage and changes by hand are noticed at the next start.
+// The file is an SQLite database with a write-ahead log, written by one program at a time. Kept values carry a checksum
+// and entries form a hash chain (tables.hpp), so that the next start detects damage and manual changes.
 #pragma once
 
 #include <atomic>
@@ -36,40 +36,40 @@ class Quota;
 struct Entry {
     std::int64_t number = 0;  ///< from 1, over all runs
     std::int64_t run = 0;     ///< from 1: the program's runs with this file
-    std::int64_t utc_ms = 0;  ///< since 1970
-    Instant at{};             ///< the rack's time
+    std::int64_t utc_ms = 0;  ///< ms since 1970-01-01
+    Instant at{};             ///< simulated time
     std::string kind;         ///< "run", "job", "order", "state", "alarm", "position", "setting", "audit"
     std::string text;         ///< a sentence
     std::string data;         ///< JSON; may be empty
 };
 
-/// How the run before this one left the file.
+/// State in which the previous run left the file.
 struct LastRun {
     std::int64_t run = 0;
-    bool clean = false;        ///< it ended by itself; else it was killed, or the computer stopped
-    std::int64_t last_ms = 0;  ///< utc of the last that it wrote
+    bool clean = false;        ///< ended regularly; otherwise killed or power lost
+    std::int64_t last_ms = 0;  ///< utc_ms of the last write
     std::map<std::string, std::string> kept;
-    /// Why what was kept, or that it ended by itself, is not to be trusted: "the end of run 7 does not fit its
-    /// checksum". Values that do not fit their checksums are not in `kept`.
+    /// Reasons not to rely on the kept values or the regular end, e.g. "the end of run 7 does not fit its checksum".
+    /// Values with a wrong checksum are not in `kept`.
     std::vector<std::string> doubts;
-    std::string damage;  ///< a sentence: entries were changed or removed; empty: all are as they were written
+    std::string damage;  ///< sentence if entries were changed or removed; empty: intact
 };
 
-/// Whether all entries are as they were written: each carries a hash over itself and the one before it.
+/// Result of verifying the hash chain: each entry carries a hash of itself and its predecessor.
 struct ChainCheck {
     std::int64_t entries = 0;
-    std::string problem;  ///< "entry 17 was changed after it was written": the first one; empty: none
+    std::string problem;  ///< first problem, "entry 17 was changed after it was written"; empty: intact
 };
 
 struct JournalQuery {
-    std::int64_t after = 0;  ///< entries with greater numbers
+    std::int64_t after = 0;  ///< only entries with larger numbers
     std::string kind = {};   ///< empty: all
-    int limit = 100;         ///< 1 .. 10000; the newest ones
+    int limit = 100;         ///< 1 .. 10000; limits to the newest entries
 };
 
 struct JournalSettings {
-    std::int64_t max_bytes = 1'000'000'000;  ///< of its entries; beyond them the oldest go
-    /// Hears that the quota is near or reached; on the writing thread, must not wait.
+    std::int64_t max_bytes = 1'000'000'000;  ///< quota of the entries; beyond it the oldest are removed
+    /// Called when the quota is nearly or fully used; on the writing thread, must not block.
     std::function<void(const std::string&)> on_quota = {};
 };
 
@@ -78,36 +78,36 @@ class Journal {
     /// Called on the writing thread.
     using Done = std::function<void(const Result<std::int64_t>& number)>;
 
-    /// Begins a run. Errors: io (the file cannot be made, is no journal, or belongs to a program that runs; it is left
-    /// as it is).
+    /// Starts a run. Errors: io if the file cannot be created, is not a journal, or belongs to a running program; it is
+    /// left unchanged.
     static Result<std::unique_ptr<Journal>> open(const std::string& path, JournalSettings settings = {});
-    /// Ends without a word, as a crash does, unless it was closed; what waits is written.
+    /// Writes the queued entries. Unless close() was called, the run has no regular end, as after a crash.
     ~Journal();
 
-    /// Any thread, never waits. `done` hears the entry's number when it is on disk, or why it is not (io).
+    /// Any thread, never blocks. `done` receives the entry's number once it is on disk, or an error (io).
     void write(Instant at, std::string kind, std::string text, std::string data = {}, Done done = {});
-    /// Any thread: `value` in place of the one that was kept under this key.
+    /// Any thread: replaces the value kept under this key.
     void keep(std::string key, std::string value);
-    /// Writes what waits and ends the run clean. Errors: io; also where something could not be written before.
+    /// Writes the queued entries and ends the run regularly. Errors: io, also for any earlier write error.
     Result<void> close();
 
-    /// Any thread: the newest entries that fit, oldest first. Errors: io, invalid_input (limit).
+    /// Any thread: returns the newest matching entries, oldest first. Errors: io, invalid_input (limit).
     Result<std::vector<Entry>> read(const JournalQuery& question) const;
-    /// Any thread: reads all entries and their chain. Errors: io.
+    /// Any thread: reads all entries and verifies their chain. Errors: io.
     Result<ChainCheck> check() const;
-    /// Any thread, never waits long: why something is not in the file, as a sentence; empty: all is. It stays: later
-    /// entries may still be written, but the run has no clean end any more. A file that was deleted, replaced or cut is
-    /// noticed within half a second.
+    /// Any thread, blocks only briefly: sentence of the first write failure; empty without failures. It persists: later
+    /// entries may still be written, but the run gets no regular end. A deleted, replaced or truncated file is noticed
+    /// within half a second.
     std::string failure() const;
-    /// Nothing: this is the first run.
+    /// Empty in the first run.
     const std::optional<LastRun>& before() const { return before_; }
     std::int64_t run() const { return run_; }
 
-    /// Older entries than these go when a run begins.
+    /// Entries beyond the newest `max_entries` are removed when a run starts.
     static constexpr std::int64_t max_entries = 1'000'000;
-    /// The newest entries, whose chain is checked when a run begins: a tenth of a second. check() reads all.
+    /// Number of newest entries whose chain is verified when a run starts, which takes 0.1 s. check() reads all.
     static constexpr std::int64_t checked_at_start = 20'000;
-    /// More than these waiting are refused: the disk does not follow.
+    /// Maximum length of the queue. Beyond it entries are refused, because the disk is too slow.
     static constexpr std::size_t max_waiting = 100'000;
 
   private:
@@ -133,9 +133,9 @@ class Journal {
     std::unique_ptr<FileWatch> files_;
     std::unique_ptr<Database> writer_, reader_;
     std::int64_t run_ = 0;
-    std::int64_t last_number_ = 0;  ///< of the newest entry, with its link in the chain
+    std::int64_t last_number_ = 0;  ///< number of the newest entry, with its chain link
     std::string last_link_;
-    std::map<std::string, std::string> seals_;  ///< of all that is kept
+    std::map<std::string, std::string> seals_;  ///< of all kept values
     std::optional<LastRun> before_;
     mutable std::mutex reading_;
     mutable std::mutex alone_;

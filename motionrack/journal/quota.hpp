@@ -1,9 +1,9 @@
-// How many bytes a journal may have, and what happens near that.
+// Size quota of a journal and the actions near it.
 //
-//   80 %    a sentence, once a run
-//   100 %   the oldest tenth of the entries goes, and a sentence says up to which one
+//  80 %    writes a warning, once per run
+//  100 %   removes the oldest tenth of the entries and writes the last number removed
 //
-// What is removed makes place in the file, which does not get shorter.
+// Removed entries free space inside the file; the file does not shrink.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ class Database;
 
 class Quota {
   public:
-    /// So many of the newest entries stay in any case.
+    /// Number of newest entries that always remain.
     static constexpr std::int64_t min_entries = 100;
 
     explicit Quota(std::int64_t max_bytes) : max_bytes_(max_bytes) {}
 
-    /// On the writing thread, between transactions. The sentence, where there is one. Errors: io.
+    /// On the writing thread, between transactions. Returns the sentence, or empty. Errors: io.
     Result<std::string> look(const Database& file);
 
   private:
@@ -29,7 +29,7 @@ class Quota {
     bool warned_ = false;
 };
 
-/// Bytes that entries and what is kept take up.
+/// Returns the bytes that entries and kept values occupy.
 std::int64_t bytes_used(const Database& file);
 
 }  // namespace motionrack::journal

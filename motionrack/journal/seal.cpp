@@ -15,7 +15,7 @@ Seal& Seal::add(std::string_view text) {
 
 namespace {
 
-/// Looking the algorithm up takes longer than the hash of an entry: it is looked up once.
+/// Looks the algorithm up once, because a lookup takes longer than the hash of an entry.
 const EVP_MD* sha256() {
     static const EVP_MD* const found = EVP_MD_fetch(nullptr, "SHA256", nullptr);
     MOTIONRACK_ASSERT(found != nullptr);

@@ -1,5 +1,5 @@
-// Checksums of rows: a byte that changed on the disk, or by hand, is noticed. They are no signatures: a program that
-// writes rows and seals anew is not noticed.
+// Checksums of rows, which reveal bytes changed on disk or by hand. They are not signatures: a program can rewrite rows
+// together with their seals.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace motionrack::journal {
 
-/// SHA-256 over fields, each with its length in front, so that none runs into the next.
+/// SHA-256 over fields, each prefixed with its length to separate them.
 class Seal {
   public:
     Seal& add(std::string_view text);
@@ -23,11 +23,11 @@ class Seal {
 };
 
 std::string seal_of_kept(std::string_view key, std::string_view value, std::int64_t run, std::int64_t utc_ms);
-/// The end of a run vouches for all that is kept, by the seals, and for the newest entry, by its link: an older state
-/// of them, which fits its own seals, does not fit this one.
+/// Seal of a run's end. It covers all kept values by their seals and the newest entry by its link, so that an older
+/// state with valid seals does not match.
 std::string seal_of_run(std::int64_t run, std::int64_t begun_ms, std::int64_t ended_ms,
                         const std::map<std::string, std::string>& seals, std::string_view link);
-/// The link of an entry in the chain of all entries: it covers the entry and the link before it.
+/// Chain link of an entry: covers the entry and the link before it.
 std::string link_of(std::string_view before, const Entry& entry);
 
 }  // namespace motionrack::journal

@@ -1,4 +1,4 @@
-// Making, upgrading and checking the tables.
+// Creation, upgrade and verification of the tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace motionrack::journal {
 namespace {
 
 constexpr std::int64_t version = 2;
-constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": tells a journal from other files of SQLite
+constexpr std::int64_t mark = 0x4D4A524E;  // "MJRN": distinguishes a journal from other SQLite files
 
-constexpr std::uintmax_t page_bytes = 4096;  // SQLite's default
+constexpr std::uintmax_t page_bytes = 4096;  // SQLite default
 
-constexpr std::int64_t max_number = 1'000'000'000'000'000;  // of an entry or run: none is counted so far
+constexpr std::int64_t max_number = 1'000'000'000'000'000;  // upper bound of a valid entry or run number
 
 constexpr const char* tables = R"(
     CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER,
@@ -29,7 +29,7 @@ constexpr const char* tables = R"(
     CREATE TABLE chain (name TEXT PRIMARY KEY, number INTEGER NOT NULL, link TEXT NOT NULL) WITHOUT ROWID;
 )";
 
-/// Version 1 had neither seals nor links. What it kept is not sealed now: nothing vouches for it.
+/// Version 1 had neither seals nor links. Values kept by it stay unsealed, because nothing confirms them.
 constexpr const char* from_version_1 = R"(
     ALTER TABLE run ADD COLUMN seal TEXT NOT NULL DEFAULT '';
     ALTER TABLE entry ADD COLUMN link TEXT NOT NULL DEFAULT '';
@@ -44,7 +44,7 @@ Entry entry_of(const Statement& row) {
     return {row.number(0), row.number(1), row.number(2), Instant{row.number(3)}, row.text(4), row.text(5), row.text(6)};
 }
 
-/// Inside a transaction: the links of entries that have none.
+/// Inside a transaction: adds links to entries without one.
 Result<void> link_entries(const Database& database) {
     Statement rows(database.get(), all_entries);
     rows.bind(1, 0);
@@ -72,13 +72,13 @@ Result<void> upgrade(const Database& database) {
     return done;
 }
 
-/// Structure of the file: pages, records, order of rows. "ok", or what is wrong.
+/// Checks the file structure: pages, records, order of rows. Returns "ok" or the problem.
 std::string structure_of(const Database& database) {
     Statement check(database.get(), "PRAGMA quick_check(1)");
     return check.row() ? check.text(0) : database.what();
 }
 
-/// Numbers that what follows may count on from. "ok", or what is wrong.
+/// Checks the numbers from which later ones continue. Returns "ok" or the problem.
 std::string numbers_of(const Database& database) {
     for (const char* sql :
          {"SELECT max(number) FROM entry", "SELECT min(number) FROM entry", "SELECT max(number) FROM run",
@@ -89,7 +89,8 @@ std::string numbers_of(const Database& database) {
     return "ok";
 }
 
-/// What is written is of a run: without one it would be taken for a journal that begins. "ok", or what is wrong.
+/// Checks that the data belongs to a run; otherwise the file would look like a new journal. Returns "ok" or the
+/// problem.
 std::string runs_of(const Database& database) {
     if (database.number("SELECT count(*) FROM run") > 0) return "ok";
     for (const char* sql :
@@ -114,7 +115,7 @@ Result<void> quick_check(const Database& database, const std::string& path) {
     return damaged(path, found);
 }
 
-/// A file without tables has a first page at most; one that has more has lost that of its tables.
+/// A file without tables has one page at most. A larger file has lost the page of its tables.
 Result<void> check_new(const std::string& path) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
@@ -132,7 +133,7 @@ ChainEnd chain_end(const Database& database, const char* name) {
 }  // namespace
 
 Result<void> prepare_tables(const Database& database, const std::string& path) {
-    // Before anything is written: a file that was removed does not come back after a power cut either.
+    // Before the first write: a removed file must not reappear after a power cut.
     MOTIONRACK_CHECK(database.run("PRAGMA synchronous = EXTRA"));
     const std::int64_t id = database.number("PRAGMA application_id");
     if (id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0) {
@@ -158,7 +159,7 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
 
 ChainEnd chain_head(const Database& database) {
     ChainEnd head = chain_end(database, "head");
-    // Numbers are never used twice, even where entries were taken away.
+    // Numbers are never reused, even after entries were removed.
     head.number = std::max({head.number, database.number("SELECT max(number) FROM entry"),
                             database.number("SELECT seq FROM sqlite_sequence WHERE name = 'entry'")});
     return head;
@@ -182,7 +183,7 @@ Result<void> remove_old_entries(const Database& database, std::int64_t kept) {
 
 namespace {
 
-/// Where the check of so many entries begins: the entry before them, or the chain's base.
+/// Returns the start of a check of `newest` entries: the entry before them, or the chain's base.
 ChainEnd before_newest(const Database& database, std::int64_t last, std::int64_t newest) {
     Statement found(database.get(), "SELECT number, link FROM entry WHERE number <= ?1 ORDER BY number DESC LIMIT 1");
     found.bind(1, last - newest);
@@ -194,7 +195,7 @@ ChainEnd before_newest(const Database& database, std::int64_t last, std::int64_t
 
 Result<ChainCheck> check_chain(const Database& database, std::int64_t newest) {
     ChainCheck out;
-    MOTIONRACK_CHECK(database.run("BEGIN"));  // one state of the file, whatever is written meanwhile
+    MOTIONRACK_CHECK(database.run("BEGIN"));  // reads one state of the file during concurrent writes
     const ChainEnd head = chain_end(database, "head"), base = before_newest(database, head.number, newest);
     Statement rows(database.get(), all_entries);
     rows.bind(1, newest > 0 ? base.number : 0);

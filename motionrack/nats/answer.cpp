@@ -1,4 +1,4 @@
-// Rows as messages: a head, then "name value", a line a cell.
+// Rows as messages: a head, then one "name value" line per cell.
 #include <algorithm>
 #include <motionrack/nats/distributed_sweep.hpp>
 

@@ -1,4 +1,4 @@
-// Putting points into the queue and taking rows until all are there.
+// Queues points and collects rows until all are complete.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -31,7 +31,7 @@ class Gatherer {
 
     Result<void> run(bool fresh) {
         if (fresh) MOTIONRACK_CHECK(queue_.forget(name_));
-        // Rows first that came while nobody gathered.
+        // First, rows that arrived while no coordinator was running.
         while (!done() && !stop_) {
             MOTIONRACK_TRY(const bool some, take(300));
             if (!some) break;
@@ -40,15 +40,15 @@ class Gatherer {
         GatherClock::time_point heard = GatherClock::now();
         auto patience = min_patience;
         while (!done() && !stop_) {
-            // Short waits, so that Ctrl-C is heard.
+            // Short waits, so that Ctrl-C takes effect.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
             if (some) heard = GatherClock::now(), patience = min_patience;
             if (!some && GatherClock::now() - heard > patience) {
                 if (waits_) waits_(patience.count());
                 patience *= 2;
-                // Should somebody have taken rows away, their points are run again; all others are in the queue and
-                // stay there once.
+                // If another program removed rows, their points run again. All other points are queued and stay there
+                // once.
                 MOTIONRACK_CHECK(offer());
             }
         }
@@ -59,7 +59,7 @@ class Gatherer {
   private:
     bool done() const { return results_.done() == results_.points(); }
 
-    /// What is missing; what is in the queue already stays there once.
+    /// Queues the missing points; a point already in the queue stays there once.
     Result<void> offer() {
         for (const std::int64_t point : results_.missing()) {
             if (stop_) return {};
@@ -76,7 +76,7 @@ class Gatherer {
             Result<sweep::Row> row = read_answer(answer.text);
             if (!row && row.error().kind == ErrorKind::invalid_input) continue;
             if (!row) {
-                // The same command may try it again.
+                // A later run of the command may retry it.
                 (void)queue_.forget(name_, answer.key);
                 return fail(ErrorKind::refused, fmt::format("Point {}: {}", point->second, row.error().message));
             }

@@ -1,4 +1,4 @@
-// Loading of NATS.
+// Loading of the NATS client library.
 #include <fmt/format.h>
 
 #include <motionrack/nats/nats_library.hpp>

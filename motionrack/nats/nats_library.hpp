@@ -1,5 +1,5 @@
-// The client of NATS, loaded with the first sweep over several machines. Its names in the sources of this room are
-// those of the loaded library.
+// NATS client library, loaded for the first sweep over several machines. The sources of this folder use the names of
+// the loaded library.
 #pragma once
 
 #include <nats/nats.h>
@@ -22,7 +22,7 @@
 
 namespace motionrack::nats {
 
-/// The functions of it that this room uses.
+/// Functions of the library that are used here.
 struct Library {
 #define MOTIONRACK_NATS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_NATS_FUNCTIONS(MOTIONRACK_NATS_MEMBER)
@@ -34,9 +34,9 @@ struct Library {
     }
 };
 
-/// Errors: io, it is not installed. Once it is loaded it stays.
+/// Errors: io if the library is not installed. Once loaded, it stays loaded.
 Result<void> load_library();
-/// After load_library().
+/// Requires load_library().
 const Library& library();
 
 }  // namespace motionrack::nats

@@ -1,4 +1,4 @@
-// JetStream through the C client.
+// JetStream over the C client.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr const char *points_stream = "MOTIONRACK_POINTS", *rows_stream = "MOTIONRACK_ROWS";
 constexpr std::int64_t nanoseconds_a_ms = 1'000'000, nanoseconds_a_day = 86'400'000'000'000;
 
-/// Gives a handle of the library back.
+/// Destroys a library handle.
 struct Destroy {
     void operator()(natsOptions* one) const { natsOptions_Destroy(one); }
     void operator()(natsConnection* one) const { natsConnection_Destroy(one); }
@@ -35,7 +35,7 @@ tl::unexpected<Error> trouble(natsStatus status, const char* what) {
                 fmt::format("{}: {}. Is nats-server running there, with JetStream (nats-server -js)?", what, why));
 }
 
-/// Subjects have no dots inside a name.
+/// Subject tokens must not contain dots.
 std::string version_word() {
     std::string out = MOTIONRACK_VERSION;
     std::replace(out.begin(), out.end(), '.', '_');
@@ -49,7 +49,7 @@ std::string rows_subject(const std::string& sweep, const std::string& key) {
     return fmt::format("motionrack.rows.{}.{}.{}", version_word(), sweep, key);
 }
 
-/// Part `n` of a message's subject, from 0.
+/// Returns token `n` of a message's subject, from 0.
 std::string subject_word(natsMsg* message, int n) {
     std::string_view rest = natsMsg_GetSubject(message);
     for (; n > 0; --n) rest.remove_prefix(std::min(rest.find('.'), rest.size() - 1) + 1);
@@ -60,7 +60,7 @@ std::string_view bytes_of(natsMsg* message) {
     return {natsMsg_GetData(message), static_cast<std::size_t>(natsMsg_GetDataLength(message))};
 }
 
-/// Nothing came: there is none, or the server is away and comes back.
+/// Returns true if no message arrived: none is available, or the server is reconnecting.
 bool is_quiet(natsStatus status) {
     return status == NATS_TIMEOUT || status == NATS_NO_RESPONDERS || status == NATS_NO_SERVER ||
            status == NATS_CONNECTION_DISCONNECTED || status == NATS_NOT_FOUND;
@@ -203,7 +203,7 @@ class JetStreamQueue final : public Queue {
     }
 
   private:
-    /// Both streams, and the workers' share of the first. What is there stays as it is.
+    /// Creates both streams and the shared consumer of the workers. Existing ones stay unchanged.
     Result<void> make_streams() {
         const std::string points = "motionrack.points.>", rows = "motionrack.rows.>";
         MOTIONRACK_CHECK(make_stream(points_stream, points.c_str(), js_WorkQueuePolicy));
@@ -253,7 +253,7 @@ class JetStreamQueue final : public Queue {
         return {};
     }
 
-    /// One message a subject; another one is refused, which is as good.
+    /// Publishes one message per subject. A rejected duplicate counts as success.
     Result<void> put(const std::string& subject, std::string_view text, const char* what) {
         jsErrCode code{};
         const natsStatus status =

@@ -1,4 +1,4 @@
-// Taking points, running them, answering.
+// Takes points, runs them and answers them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using WorkClock = std::chrono::steady_clock;
 
-/// Gives signs of life for points that run, from a thread of its own.
+/// Renews the leases of running points on a separate thread.
 class Signs {
   public:
     Signs() : thread_([this] { run(); }) {}
@@ -98,7 +98,7 @@ class Worker {
             return false;
         }
         const Result<void> answered = queue.answer(point->sweep(), key, row ? text_of(*row) : text_of(row.error()));
-        // Without an answer, or with one that was not heard of, somebody gets the point again; his answer is the same.
+        // Without a confirmed answer another worker runs the point again; its answer is the same.
         if (answered) (void)point->done();
         return answered.has_value();
     }
