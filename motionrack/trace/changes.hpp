@@ -1,4 +1,4 @@
-// Changes of signals in the order of time, out of a VCD file or a CSV table of changes (time_s,signal,value).
+// Signal changes in time order, read from a VCD file or a CSV table (time_s,signal,value).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace motionrack::trace {
 
-/// Signals of several files by their names.
+/// Signals of several files by name.
 class SignalNames {
   public:
     std::size_t number(const std::string& name) {
@@ -30,29 +30,29 @@ class SignalNames {
 struct Change {
     std::int64_t at_ps = 0;
     std::size_t signal = 0;
-    std::string value;  ///< "0", "1", "x", a whole or real number; of wider ones in binary without zeros in front
+    std::string value;  ///< "0", "1", "x", an integer or real number; wider values in binary without leading zeros
 };
 
 class ChangeSource {
   public:
     virtual ~ChangeSource() = default;
-    /// False at the end. Errors: io, invalid_input with its line (no change, a time before the last one).
+    /// Returns false at the end. Errors: io, invalid_input with the line (malformed change, decreasing time).
     virtual Result<bool> next(Change& change) = 0;
-    /// Signals that are declared, whether they change or not.
+    /// Declared signals, including those that never change.
     const std::vector<std::size_t>& declared() const { return declared_; }
     virtual double part() const = 0;
-    /// It does not end where a line does.
+    /// Returns true if the file ends inside a line.
     virtual bool cut() const = 0;
 
   protected:
     std::vector<std::size_t> declared_;
 };
 
-/// Reads the head. Errors: io, invalid_input.
+/// Opens the file and reads its head. Errors: io, invalid_input.
 Result<std::unique_ptr<ChangeSource>> open_vcd_changes(const std::string& path, SignalNames& names);
 Result<std::unique_ptr<ChangeSource>> open_csv_changes(const std::string& path, SignalNames& names);
 
-/// Seconds in decimal as whole ps, exactly; false: it is no such time, or beyond 100 days.
+/// Converts decimal seconds to whole ps, exactly; false if the text is not a time or exceeds 100 days.
 bool read_ps(std::string_view seconds, std::int64_t& ps);
 
 }  // namespace motionrack::trace

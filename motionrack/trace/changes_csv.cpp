@@ -1,4 +1,4 @@
-// Changes out of a CSV table of them.
+// Reads changes from a CSV table.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Changes out of a VCD file (IEEE 1364, clause 18).
+// Reads changes from a VCD file (IEEE 1364, clause 18).
 #include <fmt/format.h>
 
 #include <charconv>
@@ -11,7 +11,7 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t max_word = 1 << 16, max_signals = 1'000'000, max_depth = 1000;
-constexpr std::size_t max_name = 1000;  ///< bytes, with its scopes: a long one is kept for each of its signals
+constexpr std::size_t max_name = 1000;  ///< bytes including scopes; limits memory per signal
 
 class VcdChanges final : public ChangeSource {
   public:
@@ -23,7 +23,7 @@ class VcdChanges final : public ChangeSource {
     bool cut() const override { return cut_; }
 
   private:
-    /// The next word between blanks into word_; false at the end.
+    /// Reads the next word into word_; false at the end.
     bool word();
     Result<void> skip_to_end();
     Result<void> timescale();
@@ -163,10 +163,10 @@ Result<bool> VcdChanges::next(Change& change) {
             std::string value = word_.substr(1);
             if (first == 'b' || first == 'B')
                 value.erase(0, std::min(value.find_first_not_of('0'), value.size() - (value.empty() ? 0 : 1)));
-            if (!word()) return false;  // cut off between the two
+            if (!word()) return false;  // truncated between value and code
             return changed(word_, std::move(value), change);
         } else if (first == '$') {
-            if (word_ == "$comment") MOTIONRACK_CHECK(skip_to_end());  // $dumpvars and its $end hold changes
+            if (word_ == "$comment") MOTIONRACK_CHECK(skip_to_end());  // $dumpvars ... $end contains changes
         } else if (first == '0' || first == '1' || first == 'x' || first == 'X' || first == 'z' || first == 'Z') {
             return changed(word_.substr(1), std::string(1, first), change);
         } else {

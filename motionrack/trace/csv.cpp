@@ -1,4 +1,4 @@
-// The CSV writer.
+// CSV writer.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t csv_buffer_size = 256 * 1024;
 
-/// "X" as the start of a column's name: small letters, digits and '_'.
+/// Converts "X" to the start of a column name: lower-case letters, digits and '_'.
 std::string column_name(const std::string& axis, const std::string& quantity, const std::string& unit) {
     std::string out;
     for (const char c : axis + "_" + quantity + "_" + unit) {
@@ -101,7 +101,7 @@ CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
     return *this;
 }
 
-// Not closed: an error unwinds, and what is written so far does not take the name.
+// Not closed, because an exception is active: the incomplete file does not replace the final name.
 CsvWriter::~CsvWriter() {
     if (file_) write_out();
 }
@@ -150,7 +150,7 @@ void CsvWriter::end_line() {
     buffer_.clear();
 }
 
-/// What could not be written stays in the buffer.
+/// Unwritten data stays in the buffer.
 void CsvWriter::write_out() {
     if (!gave_up_) file_.try_again();
     const std::uint64_t before = file_.written();

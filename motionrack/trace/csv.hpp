@@ -1,4 +1,4 @@
-// Sampled values as CSV (RFC 4180): a head with units, then one line a sample; lines end in CR LF, points in numbers.
+// Sampled values as CSV (RFC 4180): a head with units, then one line per sample; CR LF line ends, decimal points.
 //
 //     time_s,x_position_mm,x_speed_mm_s
 //     0,0,0
@@ -19,14 +19,14 @@
 
 namespace motionrack::trace {
 
-/// Writes one CSV file, line by line, through a buffer. Numbers are the shortest text that reads back as the same
-/// number; what is not finite is an empty field. A write error stops the writing and is told by close.
+/// Writes one CSV file line by line through a buffer. Numbers use the shortest text that reads back as the same number;
+/// non-finite values become empty fields. A write error stops writing; close() reports it.
 class CsvWriter {
   public:
-    /// `columns`: names with units, "x_position_mm"; they are quoted where RFC 4180 asks for it. Errors: io.
-    /// The file takes its name when it is closed; what stood there before stays until then.
+    /// `columns`: names with units, "x_position_mm", quoted as RFC 4180 requires. Errors: io. The file gets its final
+    /// name on close; an existing file stays until then.
     static Result<CsvWriter> create(const std::string& path, const std::vector<std::string>& columns);
-    /// A log: the file is there from its first line on.
+    /// Creates a log: the file has its final name from the first line.
     static Result<CsvWriter> create_log(const std::string& path, const std::vector<std::string>& columns);
 
     CsvWriter(CsvWriter&& other) noexcept;
@@ -35,17 +35,17 @@ class CsvWriter {
     CsvWriter& operator=(const CsvWriter&) = delete;
     ~CsvWriter();
 
-    /// The fields of a line, from the left; end_line needs as many as there are columns.
+    /// Adds the fields of a line from left to right; end_line() requires one per column.
     void add(double value);
     void add(float value);
     void add(std::int64_t value);
     void add(std::string_view text);
     void end_line();
 
-    /// The lines so far are in the file, whatever becomes of this program. Errors: as close.
+    /// Writes the lines so far to the file, so that they survive a crash. Errors: as close.
     Result<void> flush();
-    /// Errors: io, the first error met; what was written is kept under the name that the sentence says. If only the
-    /// end is missing it can go on and be closed again.
+    /// Errors: io, the first error; the written part is kept under the name in the sentence. If only the end is
+    /// missing, writing can continue and close() can be called again.
     Result<void> close();
 
   private:
@@ -56,19 +56,19 @@ class CsvWriter {
     void write_out();
 
     disk::NewFile file_;
-    bool gave_up_ = false;  ///< bytes were left out: the file cannot become whole
+    bool gave_up_ = false;  ///< bytes were dropped: the file cannot be completed
     std::string buffer_;
     std::size_t columns_ = 0;
     std::size_t fields_ = 0;
 };
 
-/// What happened in a run, in order of time: the start of each block, warnings, the worst deviation, the stop. Columns
-/// time_s, event ("block", "warning", "worst deviation", "stop"), line, x_mm, y_mm, z_mm (where the machine was), text
-/// (the block's kind, what the warning says). What is not known is empty; what has no instant comes first. Errors: io.
+/// Writes the events of a run in time order: block starts, warnings, the maximum deviation, the stop. Columns: time_s,
+/// event ("block", "warning", "worst deviation", "stop"), line, x_mm, y_mm, z_mm (true position), text (kind of block,
+/// warning). Unknown values are empty; events without an instant come first. Errors: io.
 Result<void> write_events_csv(const ReportData& data, const std::string& path);
 
-/// All samples of a run, not thinned: time, position, speed and acceleration of each axis that has them, the driven
-/// path and the deviation. Errors: io.
+/// Writes all samples of a run, not decimated: time; position, velocity and acceleration of each axis that has them;
+/// actual path and deviation. Errors: io.
 Result<void> write_csv(const ReportData& data, const std::string& path);
 
 }  // namespace motionrack::trace

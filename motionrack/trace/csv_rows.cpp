@@ -1,4 +1,4 @@
-// Taking rows apart.
+// Splits rows into fields.
 #include <fmt/format.h>
 
 #include <motionrack/trace/csv_rows.hpp>
@@ -14,7 +14,7 @@ constexpr std::size_t max_field = 1 << 20, max_fields = 4096;
 Result<CsvRows> CsvRows::open(const std::string& path) {
     CsvRows out;
     MOTIONRACK_TRY(out.bytes_, FileBytes::open(path));
-    // Spreadsheets begin a file with a byte order mark.
+    // Spreadsheets write a byte order mark at the start of a file.
     for (const int mark : {0xEF, 0xBB, 0xBF})
         if (out.bytes_.peek() == mark) out.bytes_.get();
     MOTIONRACK_TRY(const bool any, out.read(out.head_));

@@ -1,4 +1,4 @@
-// A CSV file (RFC 4180) read row by row; a byte order mark and empty lines are passed over.
+// Reads a CSV file (RFC 4180) row by row; skips a byte order mark and empty lines.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@ namespace motionrack::trace {
 
 class CsvRows {
   public:
-    /// Reads the head. Errors: io, invalid_input (there is none).
+    /// Opens the file and reads its head. Errors: io, invalid_input (no head).
     static Result<CsvRows> open(const std::string& path);
 
     const std::vector<std::string>& head() const { return head_; }
-    /// The next row into `fields`, as many as the head has; false at the end. Errors: io, invalid_input with its line:
-    /// another number of fields, a field of more than 1 MB.
+    /// Reads the next row into `fields`, as many as the head has; false at the end. Errors: io, invalid_input with the
+    /// line: wrong number of fields, or a field above 1 MB.
     Result<bool> next(std::vector<std::string>& fields);
-    /// The line on which the last row began, from 1.
+    /// First line of the last row, from 1.
     int line() const { return line_; }
     double part() const { return bytes_.part(); }
-    /// The last row was not ended: the file was cut off in it.
+    /// Returns true if the file ends inside the last row.
     bool cut() const { return cut_; }
 
   private:

@@ -1,4 +1,4 @@
-// Thinning of series (extremes of equal parts) and of paths (Ramer, Douglas and Peucker, in pieces of bounded length).
+// Decimation of series (extremes of equal parts) and of paths (Ramer-Douglas-Peucker, in pieces of limited length).
 #include <algorithm>
 #include <cmath>
 #include <motionrack/trace/decimated_path.hpp>
@@ -10,9 +10,9 @@ namespace {
 
 using Indices = std::vector<std::size_t>;
 
-constexpr std::size_t max_piece_elements = 1024;  ///< bounds the work for paths that resist
+constexpr std::size_t max_piece_elements = 1024;  ///< limits the run time for paths that cannot be simplified
 
-/// Square of the distance of p from the chord a b.
+/// Returns the squared distance of p from the chord a b.
 double distance_squared(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
     double along = 0, length = 0, apart = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -30,7 +30,7 @@ double distance_squared(const PathPoint& p, const PathPoint& a, const PathPoint&
     return beyond;
 }
 
-/// Marks what must stay between the ends of one piece of `indices`.
+/// Marks the points to keep between the ends of one piece of `indices`.
 void split(const std::vector<PathPoint>& points, const Indices& indices, std::size_t first, std::size_t last,
            double limit, std::vector<bool>& keep) {
     std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
@@ -115,7 +115,7 @@ DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<
         if (kept.size() <= most) return path;
         tolerance = tolerance > 0 ? tolerance * 2 : 1e-9;
     }
-    Indices some;  // coordinates too wild for any tolerance
+    Indices some;  // coordinates too irregular for any tolerance
     for (std::size_t i = 0; i + 1 < most; ++i) some.push_back(kept[i * (kept.size() - 1) / (most - 1)]);
     some.push_back(kept.back());
     return {some, -1};

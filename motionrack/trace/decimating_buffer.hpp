@@ -1,4 +1,4 @@
-// Samples of any number, kept in bounded memory: whenever there are too many, every second one goes.
+// Stores any number of samples in bounded memory: when full, drops every second sample.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace motionrack::trace {
 
-/// A sample is kept with the deviation that belongs to it; of two that become one the greater deviation stays.
+/// Stores each sample with its deviation; when two samples merge, keeps the larger deviation.
 template <class Sample>
 class DecimatingBuffer {
   public:
-    /// `most`: 16 or more are kept.
+    /// `most`: capacity, at least 16.
     explicit DecimatingBuffer(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
 
-    /// Keeps it, or makes it one with the last that is kept.
+    /// Appends the sample or merges it with the last one.
     void add(const Sample& sample, double deviation) {
         if (++skipped_ < keep_every_) {
             deviations_.back() = std::max(deviations_.back(), deviation);

@@ -1,4 +1,4 @@
-// Which comparison two files need, and how its result is told.
+// Chooses the comparison for two files and prints its result.
 #include <fmt/format.h>
 
 #include <algorithm>

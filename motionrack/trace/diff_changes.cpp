@@ -1,4 +1,4 @@
-// Two files of changes side by side: at every instant at which one of them changes, what both then are.
+// Compares two files of changes: at each instant with a change, compares the values of both.
 #include <algorithm>
 #include <motionrack/trace/changes.hpp>
 #include <motionrack/trace/diff_parts.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t changes_between_looks = 1 << 16;
 
-/// One of the two files: its next change, and what its signals are.
+/// One of the two files: its next change and its current signal values.
 struct Side {
     std::unique_ptr<ChangeSource> source;
     Change next;
@@ -26,7 +26,7 @@ struct Side {
         values.resize(size);
         known.resize(size);
     }
-    /// Takes what changes at this instant.
+    /// Applies the changes at this instant.
     Result<void> take(std::int64_t at_ps, const SignalNames& names, std::vector<std::size_t>& touched,
                       std::uint64_t& taken) {
         while (more && next.at_ps == at_ps) {
@@ -82,7 +82,7 @@ class Comparison {
                                     shown_change(b_.values[signal]), ""});
     }
 
-    /// Signals that only one of them has are no differences of a signal.
+    /// Reports signals that only one file has; these are not signal differences.
     void tell_missing(Diff& diff) {
         for (const std::size_t signal : a_.source->declared()) a_.known[signal] = true;
         for (const std::size_t signal : b_.source->declared()) b_.known[signal] = true;

@@ -1,4 +1,4 @@
-// Two recordings, signal by signal, event by event.
+// Compares two recordings, signal by signal and event by event.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::size_t first_line_that_differs(std::string_view a, std::string_view b) {
     return line;
 }
 
-/// What the two were made of.
+/// Compares the origins of the two recordings.
 void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& diff) {
     const RecordingHead &x = a.head(), &y = b.head();
     if (x.program != y.program)
@@ -73,12 +73,12 @@ void compare_outcomes(const RecordingReader& a, const RecordingReader& b, Diff& 
                 fmt::format("the outcomes differ in {}: {} | {}", name, value(a, name), value(b, name)));
 }
 
-/// The same bits, so that two NaN are equal.
+/// Compares bits, so that two NaN are equal.
 bool same_number(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// Times and values of a signal, a block at a time.
+/// Times and values of a signal, read in blocks.
 struct Window {
     RecordingReader::Columns columns;
     std::vector<std::int64_t> times = std::vector<std::int64_t>(diff_block),

@@ -1,4 +1,4 @@
-// Two CSV tables row by row.
+// Compares two CSV tables row by row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::uint64_t rows_between_looks = 1 << 12;
 
-/// A column that both have.
+/// A column that both tables have.
 struct Column {
     std::string name;
     std::size_t a = 0, b = 0;
     bool differs = false;
 };
 
-/// By their names; of several with one name the first belongs to the first, and so on.
+/// Matches columns by name; duplicates of a name are matched in order.
 std::vector<Column> common_columns(const CsvRows& a, const CsvRows& b, Diff& diff) {
     std::vector<Column> out;
     std::vector<bool> taken(b.head().size());
@@ -40,7 +40,7 @@ std::vector<Column> common_columns(const CsvRows& a, const CsvRows& b, Diff& dif
     return out;
 }
 
-/// Equal as text, or as numbers.
+/// Equal as text or as numbers.
 bool equal(const std::string& a, const std::string& b) {
     if (a == b) return true;
     const double x = number_of(a), y = number_of(b);
@@ -69,7 +69,7 @@ void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& 
     }
 }
 
-/// The longer one goes on with this row.
+/// Reports that the longer table continues with this row.
 void tell_rest(const std::vector<Column>& columns, const std::vector<std::string>& row, bool of_a, std::uint64_t rows,
                Diff& diff) {
     std::vector<Column> own = columns;

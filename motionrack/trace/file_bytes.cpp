@@ -1,4 +1,4 @@
-// Reading through a buffer.
+// Buffered reading.
 #include <fmt/format.h>
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-// A file read from its beginning to its end, byte by byte, through a buffer.
+// Reads a file sequentially, byte by byte, through a buffer.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@ class FileBytes {
     /// Errors: io.
     static Result<FileBytes> open(const std::string& path);
 
-    /// The next byte, -1 at the end (or where it cannot be read: see check).
+    /// Returns the next byte; -1 at the end or on a read error, see check().
     int get() { return at_ < end_ || fill() ? static_cast<unsigned char>(buffer_[at_++]) : -1; }
-    /// The next byte stays; -1 at the end.
+    /// Returns the next byte without consuming it; -1 at the end.
     int peek() { return at_ < end_ || fill() ? static_cast<unsigned char>(buffer_[at_]) : -1; }
-    /// How much of the file was read, 0 .. 1.
+    /// Returns the part of the file read so far, 0 .. 1.
     double part() const { return total_ > 0 ? static_cast<double>(read_) / static_cast<double>(total_) : 1; }
     /// Errors: io, if a read failed.
     Result<void> check() const;

@@ -1,4 +1,4 @@
-// The library's C interface, with its handles closed and its errors told as sentences.
+// RAII handles and error sentences over the C interface of HDF5.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,14 +15,12 @@ namespace motionrack::trace::hdf5 {
 
 namespace {
 
-constexpr unsigned deflate_level = 2;  // of 9; higher ones take twice the time for a tenth less
+constexpr unsigned deflate_level = 2;  // of 9; higher levels take twice the time to save a tenth
 
-/// The library prints its errors by itself unless it is told not to, for each thread. And when the program ends it
-/// closes once more what a full disk did not let it close, which ends in a crash: every file here is closed by its
-/// handle instead.
+/// Disables the error output of the library, per thread. Also disables its exit handler. After a full disk that handler
+/// would close files a second time and crash; here, each file is closed by its handle.
 void be_quiet() {
-    static const herr_t once =
-        H5dont_atexit();  // in time only if nobody else in the program has begun to use the library
+    static const herr_t once = H5dont_atexit();  // effective only if the library was not yet used in this program
     static_cast<void>(once);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
@@ -32,8 +30,7 @@ herr_t keep_deepest(unsigned n, const H5E_error2_t* error, void* out) {
     return 0;
 }
 
-/// What the library says of the last failure; where it was the system's, only what the system says: "errno = 28, error
-/// message = '...'".
+/// Returns the library's last error; for system errors only the system's part: "errno = 28, error message = '...'".
 std::string why() {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_deepest, &text);
@@ -45,7 +42,7 @@ std::string why() {
     return text.empty() ? "the HDF5 library does not say why" : text;
 }
 
-/// The format of HDF5 1.10, which alone can be read while it is written and has checksums.
+/// Selects the format of HDF5 1.10, the first with checksums and reading during writing.
 Handle access_settings() {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
@@ -66,7 +63,7 @@ Handle column_settings(std::size_t chunk) {
     H5Pset_shuffle(settings.get());
     H5Pset_deflate(settings.get(), deflate_level);
     H5Pset_fletcher32(settings.get());
-    // The same columns are the same bytes, whenever they were made.
+    // Without times, so that equal columns give equal bytes at any time.
     H5Pset_obj_track_times(settings.get(), false);
     return settings;
 }
@@ -76,7 +73,7 @@ Handle column_settings(std::size_t chunk) {
 Handle text_type(std::size_t bytes) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type.get(), std::max<std::size_t>(bytes, 1));
-    // UTF-8 inside, but not called so: Octave reads no text that says it is UTF-8.
+    // The content is UTF-8 but not declared so: Octave rejects text declared as UTF-8.
     H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
     return type;
 }
@@ -99,7 +96,7 @@ std::int64_t number_type(Type type) {
     return H5T_C_S1;
 }
 
-// ---- columns that grow
+// ---- growing columns
 
 bool Writer::append(const void* data, std::size_t count) {
     if (!set_) return false;
@@ -154,7 +151,7 @@ bool File::good(std::int64_t code, const char* what) {
 Result<File> File::create(const std::string& path) {
     MOTIONRACK_CHECK(load_library());
     be_quiet();
-    // The library says less than the system about a place where nothing can be made.
+    // System errors are more specific than library errors if the file cannot be created.
     Result<disk::NewFile> made = disk::NewFile::create(path);
     const auto not_made = [&](const std::string& reason) {
         return fail(ErrorKind::io, fmt::format("The recording could not be made: {}. Choose another place.", reason),
@@ -263,13 +260,13 @@ Result<void> File::close() {
     return close_library();
 }
 
-// ---- opening to read
+// ---- opening for reading
 
 namespace {
 
 constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
 
-/// Whether the file begins as ours do. Errors: io, invalid_input.
+/// Checks the signature of the file. Errors: io, invalid_input.
 Result<void> check_signature(const std::string& path) {
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr) {
@@ -310,8 +307,7 @@ Result<File> File::open(const std::string& path) {
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
     if (out.file_) return out;
     const std::string first = why();
-    // Beside a writer the library looks again at what does not fit together, waiting twice as long each time: 20 looks
-    // take a ms.
+    // While a writer is active, the library re-reads inconsistent metadata with doubling delays: 20 attempts take 1 ms.
     H5Pset_metadata_read_attempts(access.get(), 20);
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
     out.unfinished_ = true;
@@ -322,7 +318,7 @@ Result<File> File::open(const std::string& path) {
 }
 
 bool File::has(const std::string& path) const {
-    // H5Lexists asks for every group on the way.
+    // H5Lexists requires a check of every group along the path.
     for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
         if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
     return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;

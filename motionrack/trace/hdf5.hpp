@@ -1,13 +1,12 @@
-// Files of HDF5 (1.10 or later), as recordings need them: groups, attributes, texts, and columns that grow at their
-// end.
+// HDF5 files (1.10 or later) for recordings: groups, attributes, texts, and columns that grow at their end.
 //
 //   create ──► groups, texts, columns ──► begin_streaming ──► append, flush, append, flush ...  ──► close
-//                                              │ from here on nothing else may be made (SWMR: one writes, many read);
-//                                              │ what was flushed stays readable, whatever becomes of the writer
-//   reopen ──► more groups, texts ──► close: read back whole, and put in its place
-//   open   ──► read; a file that its writer never closed opens, too, and says so
+//                                             │ from here on no new objects (SWMR: one writer, many readers);
+//                                             │ flushed data stays readable after a crash of the writer
+//  reopen ──► more groups, texts ──► close: verified against the written data, then renamed
+//  open   ──► read; also opens a file that its writer never closed, and reports so
 //
-// Everything is compressed and carries checksums, the library's own structures too, so that damage is found and told.
+// All data is compressed and checksummed, including the structures of the library, so that damage is detected.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@
 
 namespace motionrack::trace::hdf5 {
 
-/// Something of the library that is closed by itself.
+/// RAII handle of a library object.
 class Handle {
   public:
     using Close = int (*)(std::int64_t);
@@ -41,7 +40,7 @@ class Handle {
 
     std::int64_t get() const { return id_; }
     explicit operator bool() const { return id_ >= 0; }
-    /// False: it could not be closed, so what it held may not be on disk.
+    /// Returns false if closing failed, so that its data may not be on disk.
     bool close() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
   private:
@@ -64,29 +63,29 @@ inline constexpr Type type_of<float> = Type::float32;
 template <>
 inline constexpr Type type_of<double> = Type::float64;
 
-/// A column that does not exist yet.
+/// Settings of a new column.
 struct ColumnSettings {
     Type type = Type::int64;
-    std::size_t text_bytes = 0;   ///< of each element, if it is text
-    std::size_t chunk = 1 << 14;  ///< elements that are compressed and written together
-    std::string unit;             ///< "s", "mm", "count"; empty: none
-    double scale = 1;             ///< a stored number times this is in the unit
+    std::size_t text_bytes = 0;   ///< of each element, if it is text; bytes
+    std::size_t chunk = 1 << 14;  ///< elements compressed and written together
+    std::string unit;             ///< "s", "mm", "count"; empty: no unit
+    double scale = 1;             ///< value in `unit` = stored number times this
 };
 
-/// How a column or an attribute must be found when the file is read back.
+/// Expected state of a column or an attribute when the file is read back.
 struct Written {
     Type type = Type::int64;
     std::uint64_t size = 0;      ///< elements; bytes of an attribute
-    std::size_t text_bytes = 0;  ///< of each element, if it is text
+    std::size_t text_bytes = 0;  ///< of each element, if it is text; bytes
     unsigned long checksum = 0;  ///< CRC-32 of its bytes
 
     void add(const void* data, std::size_t bytes);
 };
 
-/// One dataset that is written at its end.
+/// Dataset that grows at its end.
 class Writer {
   public:
-    /// `data`: `count` elements of its type. False: it could not be written (see File::trouble).
+    /// `data`: `count` elements of its type. Returns false on a write error (see File::trouble).
     bool append(const void* data, std::size_t count);
     std::uint64_t size() const { return size_; }
     std::size_t text_bytes() const { return text_bytes_; }
@@ -100,16 +99,16 @@ class Writer {
     std::shared_ptr<Written> written_;
 };
 
-/// One dataset that is read in pieces.
+/// Dataset that is read in pieces.
 class Reader {
   public:
     std::uint64_t size() const { return size_; }
-    /// Elements [from, from + count) as T, whatever number they were stored as. Errors: io, damage among them.
+    /// Returns elements [from, from + count) converted to T. Errors: io, including damage.
     template <class T>
     Result<void> read(std::uint64_t from, std::size_t count, T* out) const {
         return read(type_of<T>, from, count, out);
     }
-    /// Element `at`, a text without the zeros at its end. Errors: io, invalid_input (it is none).
+    /// Returns text element `at` without trailing zeros. Errors: io, invalid_input (not text).
     Result<std::string> text(std::uint64_t at) const;
 
   private:
@@ -124,47 +123,48 @@ class Reader {
 
 class File {
   public:
-    /// It takes its name when it is closed: what was there stays until then. Errors: io.
+    /// Creates a file that gets its final name on close; an existing file stays until then. Errors: io.
     static Result<File> create(const std::string& path);
-    /// For reading. Errors: io (it is not there, it cannot be read), invalid_input (it is no such file, it is damaged).
+    /// Opens for reading. Errors: io (missing or unreadable), invalid_input (not an HDF5 file, damaged).
     static Result<File> open(const std::string& path);
 
-    /// Of a file that was opened for reading: its writer has not closed it, it was cut off or goes on.
+    /// For a file opened for reading: its writer did not close it and was killed or is still running.
     bool unfinished() const { return unfinished_; }
     const std::string& path() const { return path_; }
 
-    // ---- writing; what goes wrong is remembered: see trouble()
-    /// With all groups above it: "axes/x/steps".
+    // ---- writing; errors are stored, see trouble()
+    /// Creates the group and all its parents: "axes/x/steps".
     void make_group(const std::string& path);
     Writer make_column(const std::string& path, const ColumnSettings& settings);
     void write_text(const std::string& path, std::string_view text);
-    /// `object`: a group or a column; "/": the file.
+    /// `object`: a group or a column; "/" for the file.
     void set(const std::string& object, const char* name, std::string_view text);
     void set(const std::string& object, const char* name, double value);
     void set(const std::string& object, const char* name, std::int64_t value);
-    /// From now on columns grow, and nothing else may be made. What there is of the file stays from now on, beside its
-    /// name, whatever becomes of the writer.
+    /// From now on columns grow and no other objects can be created. The incomplete file, beside its final name,
+    /// survives a crash of the writer.
     void begin_streaming();
-    /// All that was appended can be read from now on, even if this program is killed.
+    /// Makes all appended data readable, even if the program is killed afterwards.
     void flush();
-    /// Ends the streaming: more may be made. Columns and other handles must be gone. Errors: as close.
+    /// Ends streaming, so that more objects can be created. Requires that columns and other handles are closed. Errors:
+    /// as close.
     Result<void> reopen();
-    /// Columns and other handles must be gone. All of the file is read once more before it takes its name. Errors: io,
-    /// the first trouble since the file was created.
+    /// Requires that columns and other handles are closed. Verifies the whole file before renaming it. Errors: io, the
+    /// first error since the file was created.
     Result<void> close();
     const std::string& trouble() const { return trouble_; }
-    /// What close() tells if there was none before: "could not be written".
+    /// Stores the error that close() reports, unless one exists.
     void set_trouble(const std::string& text) {
         if (trouble_.empty()) trouble_ = text;
     }
 
     // ---- reading
     bool has(const std::string& path) const;
-    /// Errors: invalid_input, there is no such column or its size cannot be true.
+    /// Errors: invalid_input if the column is missing or its size is implausible.
     Result<Reader> column(const std::string& path) const;
     /// Errors: as column, io.
     Result<std::string> text(const std::string& path) const;
-    /// An attribute of the file itself or of a group; empty, or 0: it has none.
+    /// Returns an attribute of the file or a group; empty, or 0, if missing.
     std::string attribute_text(const char* name, const std::string& group = "/") const;
     std::int64_t attribute_number(const char* name) const;
 
@@ -175,11 +175,11 @@ class File {
     void put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value);
 
     std::string path_;
-    disk::NewFile made_;  ///< of one that is written
-    Handle file_;         ///< of the library; closed first
+    disk::NewFile made_;  ///< file being written
+    Handle file_;         ///< library handle; closed first
     bool unfinished_ = false;
     std::string trouble_;
-    std::map<std::string, std::shared_ptr<Written>> columns_;            ///< by their paths
+    std::map<std::string, std::shared_ptr<Written>> columns_;            ///< by path
     std::map<std::pair<std::string, std::string>, Written> attributes_;  ///< by object and name
 };
 

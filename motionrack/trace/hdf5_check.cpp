@@ -1,5 +1,5 @@
-// Reading a file back. The library finds bytes that changed, but not those of an older state that were never replaced,
-// because a disk lost a write: so all is compared with what was written.
+// Verifies a written file against its data. The library detects changed bytes, but not stale data after a lost disk
+// write; hence the full comparison.
 #include <zlib.h>
 
 #include <algorithm>

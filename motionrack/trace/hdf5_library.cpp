@@ -1,4 +1,4 @@
-// Loading HDF5.
+// Loading of the HDF5 library.
 #include <fmt/format.h>
 
 #include <motionrack/trace/hdf5_library.hpp>

@@ -1,5 +1,5 @@
-// The HDF5 library, loaded with the first recording that is made or read: a third of all libraries that the program
-// would load at its start lie below it. Its names in the sources of this room are those of the loaded library.
+// HDF5 library, loaded for the first recording: its dependencies are a third of all libraries that the program would
+// load at start. The sources of this folder use the names of the loaded library.
 #pragma once
 
 #include <hdf5.h>
@@ -28,7 +28,7 @@
 
 namespace motionrack::trace::hdf5 {
 
-/// The functions and numbers of it that this room uses.
+/// Functions and constants of the library that are used here.
 struct Library {
 #define MOTIONRACK_HDF5_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_MEMBER)
@@ -42,9 +42,9 @@ struct Library {
     }
 };
 
-/// Errors: io, it is not installed. Once it is loaded it stays.
+/// Errors: io if the library is not installed. Once loaded, it stays loaded.
 Result<void> load_library();
-/// After load_library().
+/// Requires load_library().
 const Library& library();
 
 }  // namespace motionrack::trace::hdf5

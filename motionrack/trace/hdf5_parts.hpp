@@ -1,13 +1,13 @@
-// What the writing and the reading half of hdf5.hpp share.
+// Shared parts of the writing and the reading half of hdf5.hpp.
 #pragma once
 
 #include <motionrack/trace/hdf5.hpp>
 
 namespace motionrack::trace::hdf5 {
 
-/// A text of so many bytes (at least 1), zeros after its end.
+/// Returns a text type of this many bytes (at least 1), zero-padded.
 Handle text_type(std::size_t bytes);
-/// The library's number for it; of text that of a byte.
+/// Returns the library's type number; for text that of a byte.
 std::int64_t number_type(Type type);
 
 }  // namespace motionrack::trace::hdf5

@@ -1,4 +1,4 @@
-// Reading columns, texts and attributes: nothing that a file says is believed before it was checked.
+// Reads columns, texts and attributes; validates all sizes in the file before use.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +10,9 @@ namespace motionrack::trace::hdf5 {
 
 namespace {
 
-/// No compression of zlib's makes more out of a byte.
+/// Maximum expansion of zlib-compressed data.
 constexpr std::uint64_t max_growth = 1100;
-/// A text this long is no text of ours.
+/// Longer texts were not written by this program.
 constexpr std::size_t max_attribute = 1 << 16;
 constexpr std::size_t max_text = std::size_t{1} << 30;
 

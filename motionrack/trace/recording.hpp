@@ -1,8 +1,8 @@
-// A recording of a run in one file of HDF5: what was run, what came from outside, every event with its tick, where the
-// machine was, and what came of it. The layout is told in docs/reference/recording.md.
+// Recording of a run in one HDF5 file: program and rack, external inputs, every event with its tick, axis positions,
+// and the outcome. docs/reference/recording.md describes the layout.
 //
-//   RecordingWriter:  create(head) ──► event, sample, input, flush ... ──► close(outcome)       bounded memory,
-//   RecordingReader:  open ──► head, columns of each signal, report data   whole or cut off     whatever the length
+//  RecordingWriter:  create(head) ──► event, sample, input, flush ... ──► close(outcome)       memory is bounded
+//  RecordingReader:  open ──► head, columns of each signal, report data   also if truncated    for any length
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace motionrack::trace {
 
-/// What entered the rack from outside: "stop", "hold", "feed=0.5", or a fault as its user wrote it, without the time.
+/// External input of the rack: "stop", "hold", "feed=0.5", or a fault as the user wrote it, without the time.
 struct RecordedInput {
     Instant at{};
     std::string text;
@@ -30,19 +30,19 @@ struct RecordedInput {
 };
 
 enum class SignalKind : std::uint8_t {
-    steps,   ///< pulses at a motor: every one of them, its value is +1 or -1
-    counts,  ///< counts of an encoder: every one of them, its value is the count after it
-    levels   ///< wires and counters: every change
+    steps,   ///< motor pulses: each event is one pulse, value +1 or -1
+    counts,  ///< encoder counts: each event is one count, value is the new count
+    levels   ///< wires and counters: each event is a change
 };
 
-/// Something that events are recorded of.
+/// A signal with recorded events.
 struct RecordedSignal {
-    std::string name;  ///< for people: "X.steps", "X.limit_plus", "motion.lp_x"
-    std::string path;  ///< its group in the file: "axes/x/steps"
+    std::string name;  ///< display name: "X.steps", "X.limit_plus", "motion.lp_x"
+    std::string path;  ///< group in the file: "axes/x/steps"
     SignalKind kind = SignalKind::levels;
     std::string unit;          ///< of the values: "step", "count"; empty: a level
-    std::int64_t initial = 0;  ///< value when the recording begins
-    double scale = 1;          ///< a value times this is in the unit
+    std::int64_t initial = 0;  ///< value at the start of the recording
+    double scale = 1;          ///< value in `unit` = stored value times this
     friend bool operator==(const RecordedSignal&, const RecordedSignal&) = default;
 };
 
@@ -50,56 +50,56 @@ struct RecordedAxis {
     std::string name;         ///< "X"
     std::string unit = "mm";  ///< or "deg"
     bool servo = false;
-    double pulses_per_unit = 1, counts_per_unit = 0;  ///< counts: 0, there is no encoder
-    double origin = 0;                                ///< where both counts are 0, mm or degrees
-    double min_position = 0, max_position = 0, max_velocity = 0, max_accel = 0;  ///< as ReportAxis has them
+    double pulses_per_unit = 1, counts_per_unit = 0;  ///< counts: 0 without encoder
+    double origin = 0;                                ///< position at which both counts are 0, mm or degrees
+    double min_position = 0, max_position = 0, max_velocity = 0, max_accel = 0;  ///< as in ReportAxis
     friend bool operator==(const RecordedAxis&, const RecordedAxis&) = default;
 };
 
-/// What is known before the run begins.
+/// Data known before the run.
 struct RecordingHead {
-    std::string version;  ///< of the program that records
+    std::string version;  ///< of the recording program
     std::string program_name, program;
-    std::string rack_name, rack_file, rack;  ///< what the rack calls itself, its file's name and text
+    std::string rack_name, rack_file, rack;  ///< name of the rack, file name and text
     bool block_delete = false, stream = false;
-    std::string tools;                               ///< the tool table, as text
-    std::map<std::string, std::string> subprograms;  ///< texts by name, of those that are not in the program
-    bool live = false;                               ///< driven so that orders can come (holds, overrides)
-    std::vector<RecordedInput> inputs;               ///< planned ones; later ones are added as they come
+    std::string tools;                               ///< tool table as text
+    std::map<std::string, std::string> subprograms;  ///< texts by name, for subprograms outside the program
+    bool live = false;                               ///< interactive run: commands (feed hold, overrides) are possible
+    std::vector<RecordedInput> inputs;               ///< planned inputs; others are added when they occur
     Duration sample_period{};
     std::vector<RecordedAxis> axes;
     std::vector<RecordedSignal> signals;
 };
 
-/// Where one axis was at a sample.
+/// State of one axis at a sample.
 struct AxisSample {
     double position = 0;   ///< of the rotor, mm or degrees
     double commanded = 0;  ///< by the card's pulses
-    double speed = 0;      ///< a second
-    float accel = 0;       ///< a second squared; NaN: it jumped
-    float volts = 0;       ///< of a servo
+    double speed = 0;      ///< mm/s or deg/s
+    float accel = 0;       ///< mm/s2 or deg/s2; NaN: velocity step
+    float volts = 0;       ///< of a servo, V
 };
 
-/// A number or a text of an outcome, by its name.
+/// Named number or text of an outcome.
 struct OutcomeField {
     std::string name;
-    std::string text;  ///< as it is to be read
+    std::string text;  ///< display text
     friend bool operator==(const OutcomeField&, const OutcomeField&) = default;
 };
 
-/// What is known when the run is over.
+/// Data known after the run.
 struct RecordingEnd {
     Instant at{};
     std::vector<OutcomeField> outcome;
-    ReportData report;                  ///< its series are left out: they are made of the samples again
+    ReportData report;                  ///< without its series, which are rebuilt from the samples
     std::size_t max_samples = 200'000;  ///< of the report, see DecimatingBuffer
 };
 
 class RecordingWriter {
   public:
-    /// `began`: instant of the rack at which the recording begins. Errors: io.
+    /// `began`: simulated time at which the recording starts. Errors: io.
     static Result<RecordingWriter> create(const std::string& path, const RecordingHead& head, Instant began);
-    /// Writes nothing until one that was created is moved here.
+    /// Writes nothing until a created writer is moved here.
     RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -107,16 +107,16 @@ class RecordingWriter {
     RecordingWriter& operator=(RecordingWriter&&) noexcept;
     ~RecordingWriter();
 
-    /// Event of signal number `signal` of the head; of one signal in the order of time. Of levels what does not change
-    /// is left out.
+    /// Adds an event of signal number `signal` of the head; events of one signal must be in time order. Skips unchanged
+    /// levels.
     void event(std::size_t signal, Instant at, std::int64_t value);
-    /// `axes` as many as the head has.
+    /// Requires as many `axes` as in the head.
     void sample(Instant at, double deviation_mm, std::span<const AxisSample> axes);
     void input(const RecordedInput& input);
-    /// Everything up to `now` is in the file and can be read from now on, whatever becomes of this program.
+    /// Makes all data up to `now` readable, even if the program is killed afterwards.
     void flush(Instant now);
     std::uint64_t events() const { return events_; }
-    /// Errors: io, the first one met since the file was made.
+    /// Errors: io, the first error since the file was created.
     Result<void> close(const RecordingEnd& end);
 
   private:
@@ -138,44 +138,43 @@ class RecordingWriter {
 struct RecordedSeries {
     std::string name;         ///< "X.steps", "X.position"
     std::string unit;         ///< of the values
-    bool number = true;       ///< the values are integers; else double
-    std::string time, value;  ///< the columns' paths
+    bool number = true;       ///< integer values; else double
+    std::string time, value;  ///< paths of the columns
 };
 
 class RecordingReader {
   public:
-    /// Errors: io, invalid_input (no recording, a newer format, damaged before anything could be read).
+    /// Errors: io, invalid_input (not a recording, a newer format, or damaged before any readable data).
     static Result<RecordingReader> open(const std::string& path);
 
     const RecordingHead& head() const { return head_; }
-    /// With those that came during the run, in the order of the file.
+    /// Includes inputs from during the run, in file order.
     const std::vector<RecordedInput>& inputs() const { return inputs_; }
-    /// Ended properly; else it was cut off, and all before known_to() is there.
+    /// Returns true if the recording was closed; otherwise it was truncated and is complete up to known_to().
     bool whole() const { return whole_; }
     Instant began() const { return began_; }
     Instant known_to() const { return known_to_; }
-    /// A sentence about a recording that is not whole.
+    /// Sentence about a truncated recording.
     std::string cut_sentence() const;
     const std::vector<OutcomeField>& outcome() const { return outcome_; }
     const std::string& path() const { return file_.path(); }
 
     const std::vector<RecordedSeries>& series() const { return series_; }
-    /// nullptr: there is none of that name.
+    /// nullptr: unknown name.
     const RecordedSeries* find(std::string_view name) const;
-    /// How many of a series' elements can be used: both columns have them, and of a recording that was cut off those
-    /// before known_to().
+    /// Number of usable elements of a series: those present in both columns and, in a truncated recording, before
+    /// known_to().
     struct Columns {
         hdf5::Reader time, value;
         std::uint64_t size = 0;
 
-        /// Only what is before this instant is used. Errors: io.
+        /// Uses only elements before this instant. Errors: io.
         Result<void> end_before(Instant until);
     };
     /// Errors: invalid_input, io.
     Result<Columns> columns(const RecordedSeries& series) const;
 
-    /// The data of the page, the same as the run itself had; of a recording that was cut off what is there. Errors:
-    /// invalid_input, io.
+    /// Returns the report data of the run; of a truncated recording, the available part. Errors: invalid_input, io.
     Result<ReportData> report() const;
 
   private:
@@ -197,7 +196,7 @@ class RecordingReader {
     Instant began_{}, known_to_{};
 };
 
-/// The number of the layout that is written; newer ones are refused.
+/// Version of the written layout; newer ones are rejected.
 inline constexpr std::int64_t recording_format = 1;
 
 }  // namespace motionrack::trace

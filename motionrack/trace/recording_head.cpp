@@ -1,4 +1,4 @@
-// A recording's head as JSON and back.
+// Head of a recording as JSON and back.
 #include <fmt/format.h>
 
 #include <motionrack/trace/recording_parts.hpp>
@@ -32,7 +32,7 @@ SignalKind kind_of(const std::string& name) {
     throw std::runtime_error("unknown kind");
 }
 
-/// A path that cannot lead out of its group.
+/// Returns a path that cannot leave its group.
 std::string path_of(const HeadJson& json) {
     std::string path = json.at("path");
     if (path.empty() || path.front() == '/' || path.find("..") != std::string::npos ||
@@ -41,8 +41,7 @@ std::string path_of(const HeadJson& json) {
     return path;
 }
 
-/// Calls `field(name, member)` for what is written as it is, in the order of the file; `head` to be read or to be
-/// written.
+/// Calls `field(name, member)` for the plain fields, in file order; `head` is read or written.
 template <class Head, class Field>
 void each_field_of_head(Head& head, Field field) {
     field("version", head.version);
@@ -63,7 +62,7 @@ void each_field_of_axis(Axis& axis, Field field) {
     each_number_of_axis(axis, field);
 }
 
-/// Puts fields into an object; takes them out of one, in which each must be.
+/// Writes fields into an object, or reads them; each is required.
 auto into(HeadJson& json) {
     return [&json](const char* name, const auto& value) { json[name] = value; };
 }
@@ -130,7 +129,7 @@ Result<RecordingHead> head_from_json(std::string_view text) {
                                     signal.at("initial"), signal.value("scale", 1.0)});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");
     } catch (const std::bad_alloc&) {
-        throw;  // the recording is not to blame
+        throw;  // not an error of the recording
     } catch (const std::exception&) {
         return fail(ErrorKind::invalid_input, "The recording is damaged: what it says of its run cannot be read.");
     }

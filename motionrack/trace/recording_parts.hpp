@@ -1,4 +1,4 @@
-// What the writer and the reader of recordings share.
+// Shared parts of the recording writer and reader.
 #pragma once
 
 #include <motionrack/trace/recording.hpp>
@@ -7,10 +7,10 @@
 
 namespace motionrack::trace {
 
-/// "X" -> "x": how an axis' groups are called.
+/// "X" -> "x": group name of an axis.
 std::string axis_folder(std::string_view name);
 
-/// Calls `field(name, member)` for the numbers of an axis, under the names that they have in the file.
+/// Calls `field(name, member)` for the numbers of an axis with their names in the file.
 template <class Axis, class Field>
 void each_number_of_axis(Axis& axis, Field field) {
     field("pulses_per_unit", axis.pulses_per_unit);
@@ -22,10 +22,10 @@ void each_number_of_axis(Axis& axis, Field field) {
     field("max_acceleration", axis.max_accel);
 }
 
-/// The column of a signal's values beside that of its times.
+/// Name of the value column beside the time column of a signal.
 const char* value_column(SignalKind kind);
 
-/// All of a head but the texts of program and rack, as JSON.
+/// Head as JSON, without the texts of program and rack.
 std::string head_json(const RecordingHead& head);
 /// Errors: invalid_input.
 Result<RecordingHead> head_from_json(std::string_view text);

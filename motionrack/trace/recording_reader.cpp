@@ -1,4 +1,4 @@
-// Reading a recording, whole or cut off.
+// Reads a recording, complete or truncated.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t read_block = 1 << 14;
 constexpr std::uint64_t max_inputs = 1'000'000;
-/// The outcome's facts, in the order in which they are told.
+/// Fields of the outcome, in display order.
 constexpr const char* fact_names[] = {"ended",
                                       "message",
                                       "line",
@@ -139,7 +139,7 @@ Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& 
     return out;
 }
 
-/// Times rise, so the last one is found by halving.
+/// Finds the last time by bisection, as times increase.
 Result<void> RecordingReader::Columns::end_before(Instant until) {
     std::uint64_t low = 0, high = size;
     while (low < high) {
@@ -164,7 +164,7 @@ struct Kept {
     std::array<AxisSample, 6> axes = {};
 };
 
-/// The columns of one axis, and a block of each.
+/// Columns of one axis, with a block of each.
 struct AxisBlock {
     hdf5::Reader position, speed, accel, volts;
     bool servo = false;
@@ -179,12 +179,12 @@ struct AxisBlock {
     }
 };
 
-/// The path goes along X, Y, Z; -1: no such axis.
+/// Index of a path axis X, Y, Z; -1: another axis.
 int path_axis(const std::string& name) {
     return name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z' ? name[0] - 'X' : -1;
 }
 
-/// What the kept samples are in a report.
+/// Copies the stored samples into the report.
 void put(ReportData& data, const DecimatingBuffer<Kept>& keeper, const std::vector<RecordedAxis>& axes) {
     const std::vector<Kept>& kept = keeper.samples();
     for (const Kept& sample : kept) {

@@ -1,4 +1,4 @@
-// Writing a recording: buffers for each column, handed to the file when they are full or at a flush.
+// Writes a recording: one buffer per column, written to the file when full or on flush.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace motionrack::trace {
 namespace {
 
 constexpr double tick_s = 1e-10;
-// A chunk that was flushed before it was full is written again in another place: the smaller, the less is lost by that.
+// A chunk flushed before it is full is rewritten elsewhere; smaller chunks waste less space.
 constexpr std::size_t edge_chunk = 1 << 12, level_chunk = 1 << 9, sample_chunk = 1 << 10;
 constexpr std::size_t edge_buffer = 1 << 12, level_buffer = 1 << 7, sample_buffer = 1 << 9;
 
-/// Elements that wait to be written.
+/// Elements waiting to be written.
 template <class T>
 class Buffered {
   public:
@@ -47,7 +47,7 @@ struct RecordingWriter::Signal {
     std::int64_t last = 0;
     Buffered<std::int64_t> times;
     Buffered<std::int8_t> directions;  // of steps
-    Buffered<std::int64_t> values;     // of the others
+    Buffered<std::int64_t> values;     // of other signals
 
     bool write() { return times.write() && (kind == SignalKind::steps ? directions.write() : values.write()); }
 };
@@ -208,7 +208,7 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     for (const OutcomeField& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
     file_.write_text("run/report", report_json(end.report));
     file_.set("/", "most_samples", static_cast<std::int64_t>(end.max_samples));
-    file_.set("/", "ended_ticks", end.at.count());  // last: who finds it finds everything
+    file_.set("/", "ended_ticks", end.at.count());  // last: its presence marks a complete file
     return file_.close();
 }
 

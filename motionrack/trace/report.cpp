@@ -1,4 +1,4 @@
-// The report's page: its parts put into the template in one pass, so that nothing of the run is taken for a part.
+// Report page: inserts its parts into the template in one pass, so that run data is never taken for a placeholder.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/trace/report.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using Parts = std::vector<std::pair<std::string_view, std::string>>;
 
-/// Replaces each {{name}} of the template by its part.
+/// Replaces each {{name}} of the template.
 std::string filled(std::string_view page, const Parts& parts) {
     std::string out;
     while (true) {

@@ -1,4 +1,4 @@
-// What a run is told as: one page with the verdict, the path, the charts and the tables, in one HTML file of its own.
+// Report of a run: one HTML file with the verdict, the path, charts and tables.
 #pragma once
 
 #include <array>
@@ -13,73 +13,73 @@ namespace motionrack::trace {
 /// Machine coordinates X, Y, Z in mm.
 using Xyz = std::array<double, 3>;
 
-/// "As programmed" or what went wrong, in words.
+/// "As programmed", or a description of the problem.
 struct ReportVerdict {
     bool ok = false;
-    std::string text;  ///< one or two sentences for a person
+    std::string text;  ///< one or two sentences
 };
 
-/// One of the large numbers under the verdict, as it is to be read: {"Duration", "12.48", "s"}.
+/// One of the large numbers under the verdict, as displayed: {"Duration", "12.48", "s"}.
 struct ReportNumber {
     std::string label;
     std::string value;
     std::string unit;  ///< empty: no unit
 };
 
-/// One axis. `unit` is "mm" or "deg"; positions are in it, speeds in unit/s, accelerations in unit/s^2.
+/// One axis. `unit` is "mm" or "deg"; positions are in it, velocities in unit/s, accelerations in unit/s^2.
 struct ReportAxis {
     std::string name;         ///< "X"
     std::string unit = "mm";  ///< "mm" or "deg"
-    bool servo = false;       ///< it follows a voltage: no pulses are sent, and none can be lost
-    double min_position = 0;  ///< travel; min >= max: the travel is not limited
+    bool servo = false;       ///< driven by a voltage: no pulses are sent or lost
+    double min_position = 0;  ///< travel; min >= max: unlimited
     double max_position = 0;
-    double max_velocity = 0;           ///< limit; 0: none
-    double max_accel = 0;              ///< limit; 0: none
+    double max_velocity = 0;           ///< limit; 0: unlimited
+    double max_accel = 0;              ///< limit; 0: unlimited
     std::int64_t pulses_sent = 0;      ///< counted on the wire, both directions
     std::int64_t pulses_net = 0;       ///< counted on the wire, forward less backward
-    std::int64_t pulse_counter = 0;    ///< by how much the card's own counter of them changed
-    std::int64_t counts_read = 0;      ///< encoder counts the card read back
-    std::int64_t counts_expected = 0;  ///< encoder counts that the pulses sent should give
+    std::int64_t pulse_counter = 0;    ///< change of the card's own pulse counter
+    std::int64_t counts_read = 0;      ///< encoder counts read by the card
+    std::int64_t counts_expected = 0;  ///< encoder counts expected from the pulses sent
     std::int64_t lost_steps = 0;
-    double peak_velocity = 0;       ///< greatest absolute value measured
-    double peak_accel = 0;          ///< greatest absolute value measured
-    double peak_velocity_step = 0;  ///< greatest change of speed at once (from standstill or at a corner), unit/s
-    double planned_end = 0;         ///< where the program ends
-    double real_end = 0;            ///< where the motor really is
-    /// Series over ReportData::seconds: each is empty or as long as it. Values that are not finite are left out.
+    double peak_velocity = 0;       ///< maximum absolute value measured
+    double peak_accel = 0;          ///< maximum absolute value measured
+    double peak_velocity_step = 0;  ///< maximum velocity step (from standstill or at a corner), unit/s
+    double planned_end = 0;         ///< programmed end position
+    double real_end = 0;            ///< true end position of the motor
+    /// Series over ReportData::seconds: each is empty or of the same length. Non-finite values are skipped.
     std::vector<float> position;
     std::vector<float> speed;
     std::vector<float> accel;
-    std::vector<float> volts;  ///< at a servo's amplifier, V; of other axes empty
+    std::vector<float> volts;  ///< at a servo's amplifier, V; empty for other axes
 };
 
-/// A piece of the programmed path, from its start to its end; arcs come as the points of a polyline.
+/// Segment of the programmed path, from start to end; an arc is the points of a polyline.
 struct ReportSegment {
     std::vector<Xyz> points;
     bool rapid = false;  ///< drawn dashed
-    int line = 0;        ///< line of the part program, 0: none
+    int line = 0;        ///< line of the part program; 0: unknown
 };
 
-/// The place where the machine was farthest from the programmed path.
+/// Point of maximum deviation from the programmed path.
 struct ReportMaxDeviation {
     double mm = 0;
     double seconds = 0;
-    int line = 0;  ///< 0: none
-    Xyz at{};      ///< where the machine was
+    int line = 0;  ///< 0: unknown
+    Xyz at{};      ///< true position
 };
 
-/// Where motion ended before the program did.
+/// Point at which motion ended before the end of the program.
 struct ReportStop {
     double seconds = 0;
-    int line = 0;  ///< 0: none
+    int line = 0;  ///< 0: unknown
     Xyz at{};
-    std::string text;  ///< why
+    std::string text;  ///< reason
 };
 
-/// One block as it was driven. Lengths and speeds are of the path: mm and mm/s, or deg and deg/s as `unit` says.
+/// One executed block. Lengths and velocities are along the path: mm and mm/s, or deg and deg/s, according to `unit`.
 struct ReportMove {
     int line = 0;
-    std::string text;  ///< the line as written in the part program
+    std::string text;  ///< line text of the part program
     std::string kind;  ///< "traverse", "line", "arc", "dwell"
     double length = 0;
     std::string unit = "mm";  ///< "mm" or "deg"
@@ -88,75 +88,75 @@ struct ReportMove {
     double entry_speed = 0;
     double peak_velocity = 0;
     double exit_speed = 0;
-    double deviation_mm = 0;  ///< greatest distance from the programmed path
+    double deviation_mm = 0;  ///< maximum distance from the programmed path
 };
 
 struct ReportWarning {
     double seconds = -1;  ///< < 0: no instant
-    int line = 0;         ///< 0: none
+    int line = 0;         ///< 0: unknown
     std::string text;
 };
 
-/// A picture beside others: an SVG that takes its style from the page.
+/// Picture beside others: an SVG in the style of the page.
 struct ReportPicture {
     std::string title;
-    std::vector<std::string> words;  ///< lines below the title
+    std::vector<std::string> words;  ///< caption lines below the title
     std::string svg;
-    bool wide = false;  ///< takes the page's whole width
+    bool wide = false;  ///< uses the full width of the page
 };
 
-/// A table of texts; `rows` as long as `heads`.
+/// Table of texts; each row has as many cells as `heads`.
 struct ReportTable {
     std::string title, caption;
     std::vector<std::string> heads;
     std::vector<std::vector<std::string>> rows;
 };
 
-/// A line over ReportData::seconds in a chart of its own.
+/// A series over ReportData::seconds in a separate chart.
 struct ReportSeries {
-    std::string title;  ///< with the unit: "X, mm"
+    std::string title;  ///< with unit: "X, mm"
     std::string look;   ///< "x", "y", "z", "a", "b", "c" or "d"
     std::vector<float> values;
     std::string limits_name;     ///< "field"
-    std::vector<double> limits;  ///< none, or two
+    std::vector<double> limits;  ///< empty, or two
 };
 
-/// A file as it was written.
+/// A file, unchanged.
 struct ReportSource {
     std::string title, text;
 };
 
-/// All that a report shows. Everything may be empty; what is not there is not drawn.
+/// All data of a report. Any part may be empty; empty parts are not drawn.
 struct ReportData {
     std::string title;
-    std::string program_kind = "Program";  ///< what the file that was run is called
+    std::string program_kind = "Program";  ///< name for the kind of the run's file
     std::string program_name;
     std::string rack_name;
     ReportVerdict verdict;
     std::vector<ReportNumber> numbers;
     std::vector<ReportAxis> axes;
-    std::vector<double> seconds;      ///< instants of all series, s, never falling
-    std::vector<float> deviation_mm;  ///< distance of the machine from the programmed path, over `seconds`
-    double tolerance_mm = 0;          ///< what the deviation is held against; 0: no line is drawn
+    std::vector<double> seconds;      ///< instants of all series, s, not decreasing
+    std::vector<float> deviation_mm;  ///< distance of the true position from the programmed path, over `seconds`
+    double tolerance_mm = 0;          ///< reference line of the deviation; 0: not drawn
     std::vector<ReportSegment> planned;
-    std::vector<Xyz> driven;  ///< where the machine was, over `seconds`
+    std::vector<Xyz> driven;  ///< true positions over `seconds`
     std::optional<ReportMaxDeviation> worst;
     std::optional<ReportStop> stop;
-    std::vector<ReportMove> blocks;  ///< in the order driven; the page lists the first 2,000
+    std::vector<ReportMove> blocks;  ///< in execution order; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
     std::vector<ReportPicture> pictures;
-    std::string pictures_hint;  ///< what their lines are
+    std::string pictures_hint;  ///< caption of their lines
     std::vector<ReportTable> tables;
     std::vector<ReportSeries> series;
     std::optional<ReportSource> source;
-    std::vector<std::string> notes;  ///< what this report does not show, in sentences
+    std::vector<std::string> notes;  ///< omissions of this report, in sentences
 };
 
-/// The page: one HTML text with its style, drawings, numbers and script inside; it fetches nothing. The same data gives
-/// the same bytes. Series are thinned so that extremes stay, so the page stays below about 4 MB whatever comes in.
+/// Returns the page: one HTML text including style, drawings, numbers and script; it loads nothing. Equal data gives
+/// equal bytes. Series are decimated without losing extremes, so that the page stays below about 4 MB.
 std::string report_html(const ReportData& data);
 
-/// Writes report_html to `path`, over what was there. Errors: io.
+/// Writes report_html to `path` and replaces an existing file. Errors: io.
 Result<void> write_report(const ReportData& data, const std::string& path);
 
 }  // namespace motionrack::trace

@@ -1,4 +1,4 @@
-// The charts of the report's page and the numbers its script draws from.
+// Charts of the report page and the numbers drawn by its script.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,15 +13,15 @@ namespace motionrack::trace {
 namespace {
 
 constexpr std::size_t all_chart_points = 90'000;  ///< of all charts together: about 10 bytes each
-constexpr std::size_t max_driven = 16'000;        ///< points of the driven path: about 25 bytes each
+constexpr std::size_t max_driven = 16'000;        ///< points of the actual path: about 25 bytes each
 constexpr std::size_t max_planned = 30'000;       ///< points of the planned path: about 18 bytes each
 
-/// A number as JSON; what is not finite becomes 0.
+/// Returns a number as JSON; 0 for non-finite values.
 std::string json_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : "0";
 }
 
-/// Values as {"from":f,"step":s,"d":[...]}: value i is f + s * (d0 + ... + di).
+/// Returns values as {"from":f,"step":s,"d":[...]}: value i is f + s * (d0 + ... + di).
 std::string packed(const std::vector<double>& values, double step) {
     if (!(step > 0) || !std::isfinite(step)) step = 1;
     const double from = values.empty() ? 0 : values.front();
@@ -37,7 +37,7 @@ std::string packed(const std::vector<double>& values, double step) {
     return out + "]}";
 }
 
-/// A step that makes a hundred thousandth of what the values span.
+/// Returns a step of a hundred-thousandth of the value range.
 double fine_step(const std::vector<double>& values) {
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return values.empty() ? 1 : (*high - *low) / 100'000;
@@ -79,7 +79,7 @@ std::string xyz_json(const Xyz& p) {
     return fmt::format("[{},{},{}]", json_number(p[0]), json_number(p[1]), json_number(p[2]));
 }
 
-/// What the drawn paths may be off: a fifth of the worst deviation, so that zooming in shows it, within reason.
+/// Tolerance of the drawn paths: a fifth of the maximum deviation, within bounds, so that zooming in shows it.
 double path_tolerance(const ReportData& data, double size) {
     const double worst = data.worst && data.worst->mm > 0 ? data.worst->mm : size;
     return std::clamp(worst / 5, size / 2'000'000, size / 20'000);
@@ -169,7 +169,7 @@ std::string limits_as_text(const std::vector<SvgLimit>& limits) {
     return "travel " + number(first) + " \xE2\x80\xA6 " + number(second);
 }
 
-/// What the limits are, and that they are off the chart where no line of them is in it. `drawn`: some line is.
+/// Describes the limits, and states if they are outside the chart. `drawn`: at least one limit line is visible.
 std::string limit_words(const SvgChart& chart, bool& drawn) {
     drawn = false;
     if (chart.limits.empty()) return {};

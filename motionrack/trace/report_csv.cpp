@@ -1,4 +1,4 @@
-// Columns found by their names, and read into the series of a report.
+// Finds columns by name and reads them into the series of a report.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ ReportAxis& axis_of(ReportData& data, char letter, const std::string& unit) {
     return made;
 }
 
-/// "x_speed_mm_s": what is done with its values; empty: nothing.
+/// Returns the handler of a column ("x_speed_mm_s"); empty if unknown.
 Put reader_of(ReportData& data, const std::string& column) {
     if (column == "deviation_mm")
         return [](ReportData& to, double value) { to.deviation_mm.push_back(static_cast<float>(value)); };
@@ -78,7 +78,7 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
                 {1, 0}, path);
 }
 
-/// What the samples themselves tell of an axis.
+/// Computes the peak values of an axis from its samples.
 void add_tops(ReportAxis& axis) {
     for (const float speed : axis.speed)
         if (std::isfinite(speed))

@@ -1,4 +1,4 @@
-// One list of fields for each struct, read and written by it.
+// One list of fields per struct, used for reading and writing.
 #include <limits>
 #include <motionrack/trace/report_json.hpp>
 #include <new>
@@ -13,7 +13,7 @@ namespace {
 
 using ReportJson = nlohmann::json;
 
-/// Puts fields into an object, or takes them out of one.
+/// Writes fields into an object, or reads them.
 class Fields {
   public:
     Fields(ReportJson& json, bool reading) : json_(json), reading_(reading) {}
@@ -29,7 +29,7 @@ class Fields {
     }
 
   private:
-    // What JSON has no number for is null.
+    // Non-finite values become null.
     ReportJson to(double& value) const { return value - value == 0 ? ReportJson(value) : ReportJson(); }
     ReportJson to(float& value) const {
         return value - value == 0 ? ReportJson(static_cast<double>(value)) : ReportJson();
@@ -169,7 +169,7 @@ Result<ReportData> report_from_json(std::string_view text) {
         Fields fields(json, true);
         fields_of(data, fields);
     } catch (const std::bad_alloc&) {
-        throw;  // the recording is not to blame
+        throw;  // not an error of the recording
     } catch (const std::exception&) {
         return fail(ErrorKind::invalid_input, "The recording is damaged: what its report says cannot be read.");
     }

@@ -1,4 +1,4 @@
-// The data of a report as JSON and back: what stands in a recording beside the samples.
+// Report data as JSON and back, as stored in a recording beside the samples.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -8,8 +8,7 @@
 
 namespace motionrack::trace {
 
-/// All of it but what lies over ReportData::seconds (that, the axes' series, deviation, the driven path). Numbers keep
-/// every bit.
+/// Excludes the series over ReportData::seconds (seconds, axis series, deviation, actual path). Numbers keep every bit.
 std::string report_json(const ReportData& data);
 
 /// Errors: invalid_input.

@@ -1,4 +1,4 @@
-// The parts of the report's page: texts and tables as HTML, the drawings' numbers as JSON.
+// Parts of the report page: texts and tables as HTML, drawing data as JSON.
 #pragma once
 
 #include <motionrack/trace/report.hpp>
@@ -12,27 +12,27 @@ namespace motionrack::trace {
 inline constexpr std::size_t max_blocks = 2000;      ///< rows of the table of blocks
 inline constexpr std::size_t max_warnings = 500;     ///< rows of the table of warnings
 inline constexpr std::size_t max_axes = 16;          ///< axes with charts
-inline constexpr std::size_t max_rows = 2000;        ///< of each other table
-inline constexpr std::size_t max_text_bytes = 2000;  ///< bytes of any text of the run that are shown
+inline constexpr std::size_t max_rows = 2000;        ///< of every other table
+inline constexpr std::size_t max_text_bytes = 2000;  ///< displayed bytes of any text of the run
 inline constexpr std::size_t max_source_bytes = 200'000;
 
-/// `text` cut to `most` bytes with "..." and escaped.
+/// Truncates `text` to `most` bytes with "..." and escapes it.
 std::string shown(const std::string& text, std::size_t most = max_text_bytes);
 
-/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation and other
+/// Charts of the page: position, velocity and acceleration of each axis that has them, then the deviation and other
 /// series.
 struct PageChart {
-    int axis = -1;  ///< in ReportData::axes; -1: of none
+    int axis = -1;  ///< in ReportData::axes; -1: not of an axis
     SvgChart chart;
 };
 std::vector<PageChart> charts_of(const ReportData& data);
 
-/// Where the machine was at an instant, in mm; nothing where that was not recorded.
+/// Returns the true position at an instant, mm; empty if it was not recorded.
 std::optional<Xyz> driven_at(const ReportData& data, double seconds);
 
 std::string header_html(const ReportData& data);
 std::string charts_html(const ReportData& data, const std::vector<PageChart>& charts);
-/// The charts that are of no axis.
+/// Charts that do not belong to an axis.
 std::string series_html(const std::vector<PageChart>& charts);
 std::string pictures_html(const ReportData& data);
 std::string tables_html(const ReportData& data);
@@ -42,7 +42,7 @@ std::string blocks_html(const ReportData& data);
 std::string warnings_html(const ReportData& data);
 std::string notes_html(const ReportData& data);
 
-/// What the script draws: series, paths and blocks, thinned, as whole numbers that tell the step to the one before.
+/// Data for the script: series, paths and blocks, decimated, as integer differences.
 std::string drawing_json(const ReportData& data, const std::vector<PageChart>& charts);
 
 }  // namespace motionrack::trace

@@ -1,4 +1,4 @@
-// Header, tables and lists of the report's page.
+// Header, tables and lists of the report page.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string cell(const std::string& html, const char* kind = "n") {
     return fmt::format("<td class=\"{}\">{}</td>", kind, html);
 }
 
-/// Words at the end of the text are worth more than a character cut in half.
+/// Truncates at a character boundary.
 std::string cut_text(const std::string& text, std::size_t most) {
     if (text.size() <= most) return text;
     std::size_t end = most;
@@ -23,7 +23,7 @@ std::string cut_text(const std::string& text, std::size_t most) {
     return text.substr(0, end) + "...";
 }
 
-/// A value, its limit and a bar of the share of it; red and a word where it is above.
+/// Shows a value, its limit and a bar of the ratio; marks an exceeded limit in red and with a word.
 std::string against(double value, double limit, const std::string& unit) {
     std::string out = number(value) + " <small>" + unit + "</small>";
     if (!(limit > 0) || !std::isfinite(limit) || !std::isfinite(value)) return out;
@@ -225,7 +225,7 @@ std::string source_html(const ReportData& data) {
     if (!data.source) return {};
     std::string lines;
     std::istringstream in(cut_text(data.source->text, max_source_bytes));
-    in.exceptions(std::ios::badbit);  // else missing memory would look like the end of the text
+    in.exceptions(std::ios::badbit);  // otherwise a failed allocation would look like the end of the text
     for (std::string line; std::getline(in, line);) lines += escaped(line) + "\n";
     return section("source", shown(data.source->title).c_str(), "<pre class=\"card\">" + lines + "</pre>\n");
 }

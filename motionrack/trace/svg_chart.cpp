@@ -14,7 +14,7 @@ namespace {
 constexpr double plot_left = chart_left, plot_right = chart_right, plot_top = 24, plot_bottom = 22;
 constexpr std::size_t buckets = 220;
 
-/// Seconds and values to pixels.
+/// Converts seconds and values to pixels.
 struct Frame {
     double begin = 0;
     double end = 1;
@@ -98,7 +98,7 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
     return out;
 }
 
-/// Title, names of the series with the look of their lines, and what the axis of time is.
+/// Title, series names with their line styles, and the label of the time axis.
 std::string chart_heading(const SvgChart& chart, const SvgLook& look) {
     return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", plot_left, escaped(chart.title)) +
            series_names(chart, look.width - plot_right - 64, 15) +

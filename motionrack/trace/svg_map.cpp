@@ -1,4 +1,4 @@
-// A value over two numbers, as colour.
+// A value over two variables, as colour.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ class Map {
     static std::size_t index(const std::vector<double>& all, double one) {
         return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), one) - all.begin());
     }
-    /// Of a cell its middle.
+    /// Centre of a cell.
     double x(double value) const {
         if (cells_) return map_left + (static_cast<double>(index(xs_, value)) + 0.5) * cell_width();
         return map_left + (0.03 + 0.94 * part_of(value, xs_.front(), xs_.back())) * wide();
@@ -74,7 +74,7 @@ class Map {
     }
 
     std::string cell_text(double value) const { return fmt::format("{:.{}g}", value, digits_); }
-    /// All cells have room for their numbers.
+    /// Returns true if all numbers fit into their cells.
     bool all_fit() const {
         return cells_ && cell_height() >= 14 &&
                std::all_of(map_.spots.begin(), map_.spots.end(), [this](const SvgSpot& spot) {
@@ -130,7 +130,7 @@ class Map {
                            coordinate(x), coordinate(y));
     }
 
-    /// From least to greatest, between their numbers, below the title.
+    /// Colour scale from minimum to maximum, with both numbers, below the title.
     std::string scale() const {
         const double from = map_left + letter_width * static_cast<double>(number(low_).size()) + 6, step = 6, at = 25;
         std::string out = svg_text(map_left, at + 9, "start", number(low_));
@@ -145,7 +145,7 @@ class Map {
     const SvgLook look_;
     std::vector<double> xs_, ys_;
     bool cells_ = false;
-    int digits_ = 0;  ///< of the numbers in cells; below 2: there are none
+    int digits_ = 0;  ///< decimals of the numbers in cells; below 2: no numbers
     double low_ = 0, high_ = 0;
 };
 

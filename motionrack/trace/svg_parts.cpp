@@ -1,4 +1,4 @@
-// What the pictures of this room share.
+// Shared parts of the pictures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -103,7 +103,7 @@ Extent frame_of(const ReportData& data) {
     const double wide = path.high[0] - path.low[0], high = path.high[1] - path.low[1];
     const bool lost = wide < 0.4 * (travel.high[0] - travel.low[0]) && high < 0.4 * (travel.high[1] - travel.low[1]);
     Extent frame = lost ? path : travel;
-    for (std::size_t i = 0; i < 2; ++i) {  // a picture needs some size
+    for (std::size_t i = 0; i < 2; ++i) {  // minimum size of a picture
         const double small = std::max(1e-3, 0.02 * frame.diagonal());
         if (frame.high[i] - frame.low[i] < small) frame.low[i] -= small, frame.high[i] += small;
     }

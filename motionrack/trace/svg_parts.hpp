@@ -1,4 +1,4 @@
-// What the pictures of this room share: the head with its style, texts, and the thinned planned path.
+// Shared parts of the pictures: the head with its style, texts, and the simplified planned path.
 #pragma once
 
 #include <motionrack/trace/svg.hpp>
@@ -7,36 +7,36 @@
 
 namespace motionrack::trace {
 
-/// What a chart leaves free for its scale, left and right of the plot, in px.
+/// Margins for the scale, left and right of the plot, px.
 inline constexpr double chart_left = 56, chart_right = 12;
-/// Of a letter in the pictures' small type, in px.
+/// Width of a letter in the small type, px.
 inline constexpr double letter_width = 6.2;
 
-/// The opening tag, with `title` for those who cannot see the picture.
+/// Returns the opening tag, with `title` for screen readers.
 std::string svg_head(const SvgLook& look, const std::string& title);
 
-/// `anchor`: "start", "middle" or "end". The text is escaped here.
+/// `anchor`: "start", "middle" or "end". Escapes the text.
 std::string svg_text(double x, double y, const char* anchor, const std::string& text);
 
-/// The colour of a value, 0 .. 1, from bright to dark: "#f69721"; apart from each other for every eye.
+/// Returns the colour of a value, 0 .. 1, from bright to dark ("#f69721"); distinguishable with any colour vision.
 std::string svg_shade(double part);
-/// What is written upon such a colour.
+/// Returns the text colour on such a colour.
 const char* svg_ink(double part);
 
-/// The names of a chart's series with the looks of their lines, leftwards from `right`; `baseline` is that of the text.
-/// Series without a name are left out.
+/// Series names with their line styles, placed leftwards from `right`; `baseline`: that of the text. Skips series
+/// without a name.
 std::string series_names(const SvgChart& chart, double right, double baseline);
 
-/// The planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].
+/// Planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].
 struct PlannedPath {
     std::vector<Xyz> points;
     std::vector<int> line;
     std::vector<bool> rapid;
-    std::vector<bool> starts;  ///< the path begins anew here: no edge ends in this point
-    double within = 0;         ///< what was left out lies no farther than this from the edges, mm; < 0: not known
+    std::vector<bool> starts;  ///< a new part of the path starts here: no edge ends in this point
+    double within = 0;         ///< maximum distance of dropped points from the edges, mm; < 0: unknown
 };
 
-/// The planned path with at most `most` points, ends of segments kept where they fit.
+/// Simplifies the planned path to at most `most` points; keeps the ends of segments as far as possible.
 PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolerance);
 
 }  // namespace motionrack::trace

@@ -21,7 +21,7 @@ struct Flat {
     double y = 0;
 };
 
-/// Machine coordinates to pixels.
+/// Converts machine coordinates to pixels.
 class Projection {
   public:
     Projection(const Extent& frame, PathView view, const SvgLook& look) : view_(view) {
@@ -73,7 +73,7 @@ std::string line_through(const std::vector<Flat>& points, const char* look) {
     return out + "/>\n";
 }
 
-/// `floor`: the height in mm of the grid in perspective.
+/// `floor`: height of the grid in perspective, mm.
 std::string grid(const Extent& frame, double floor, const Projection& at, PathView view, const SvgLook& look) {
     const double reach_x = look.width / at.scale() / 2, reach_y = look.height / at.scale() / 2;
     const double step = nice_step(std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]), 6);
@@ -95,7 +95,7 @@ std::string grid(const Extent& frame, double floor, const Projection& at, PathVi
             out += line_through({at(from), at(to)}, "grid");
             if (!plan) continue;
             const Flat label = at(from);
-            if (axis == 0 ? label.x > look.width - 60 : label.y < 30) continue;  // there the axis' name is
+            if (axis == 0 ? label.x > look.width - 60 : label.y < 30) continue;  // position of the axis name
             out += axis == 0 ? svg_text(label.x, look.height - 6.0, "middle", number(k * step))
                              : svg_text(6, label.y - 3, "start", number(k * step));
         }
@@ -137,12 +137,12 @@ double length_of(const std::vector<Flat>& points) {
     return sum;
 }
 
-/// Arrows along a line, which tell the way it was driven; about forty at most, so that they do not hide a dense path.
+/// Arrows in the direction of motion; about forty at most, so that they do not hide a dense path.
 std::string arrows(const std::vector<Flat>& points) {
     const double apart = std::max(90.0, length_of(points) / 40);
     if (!std::isfinite(apart)) return {};
     std::string out;
-    double run = apart / 2;  // since the last arrow
+    double run = apart / 2;  // distance since the last arrow
     for (std::size_t i = 1; i < points.size(); ++i) {
         const Flat &a = points[i - 1], &b = points[i];
         const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
@@ -177,7 +177,7 @@ std::string shade_colour(int step) {
     return svg_shade(static_cast<double>(step) / (shade_steps - 1));
 }
 
-/// One line for each run of steps that have the same colour.
+/// One line for each run of edges with the same colour.
 std::string shaded_line(const ReportData& data, const Projection& at, const SvgShade& shade) {
     const double size = extent_of_path(data).diagonal();
     std::vector<PathPoint> points;

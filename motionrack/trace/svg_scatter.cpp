@@ -1,4 +1,4 @@
-// Dots over numbers or names.
+// Dots over numbers or categories.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Span {
         high = some ? std::max(high, value) : value;
         some = true;
     }
-    /// With a part of it left free on both sides; of one value something about it.
+    /// Widens the range by `part` on both sides; gives a single value a nonzero range.
     void widen(double part) {
         const double air = high > low ? part * (high - low) : std::max(1e-9, 0.1 * std::fabs(high));
         low -= air;
@@ -94,7 +94,7 @@ class Scatter {
         return out;
     }
 
-    /// Whole numbers of steps.
+    /// Multiples of `step`.
     static std::vector<double> marks(const Span& span, double step) {
         std::vector<double> out;
         for (int i = 0; i < 100; ++i) {
@@ -105,7 +105,7 @@ class Scatter {
         return out;
     }
 
-    /// As much of a name as has room.
+    /// Truncates a name to the available space.
     static std::string fitted(const std::string& name, double room) {
         const auto most = static_cast<std::size_t>(std::max(3.0, room / letter_width));
         return name.size() <= most ? name : name.substr(0, most - 2) + "..";

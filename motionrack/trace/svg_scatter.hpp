@@ -1,9 +1,9 @@
-// Results over what they depend on: dots, joined where there is an order, and maps of two numbers.
+// Results over their parameters: dots, joined if ordered, and maps over two numbers.
 //
-//   time ^  o                     y  | [2.1][2.4][2.9]   cells where every x has every y,
+//  time ^  o                     y  | [2.1][2.4][2.9]   cells if every x has every y,
 //        |    `o-.               ^   | [1.8][2.0][2.2]   else dots; the colour is the value
 //        |  x     `o---o         |   | [1.7][1.8][2.0]
-//        +--------------> x          +---------------> x    x: it did not end well
+//       +--------------> x          +---------------> x    x: failed
 #pragma once
 
 #include <motionrack/trace/svg.hpp>
@@ -18,19 +18,19 @@ struct SvgDot {
 };
 
 struct SvgDots {
-    std::string name;  ///< empty: not named in the picture
-    std::string look;  ///< as of SvgSeries
+    std::string name;  ///< empty: not labelled
+    std::string look;  ///< as in SvgSeries
     std::vector<SvgDot> dots;
-    bool joined = false;  ///< by lines, in the order of x, up to dots that are bad
+    bool joined = false;  ///< joined by lines in the order of x, up to bad dots
 };
 
 struct SvgScatter {
     std::string title, x_name;
-    std::vector<std::string> x_names;  ///< of x = 0, 1, 2 ..; none: x is a number
+    std::vector<std::string> x_names;  ///< names of x = 0, 1, 2 ..; empty: x is a number
     std::vector<SvgDots> series;
 };
 
-/// Dots with a y that is not finite stand at the bottom. At most `max_dots` of each series are drawn.
+/// Draws dots with a non-finite y at the bottom. Draws at most `max_dots` per series.
 std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look = {});
 inline constexpr std::size_t max_dots = 3000;
 
@@ -44,7 +44,7 @@ struct SvgMap {
     std::vector<SvgSpot> spots;
 };
 
-/// At most `max_dots` spots are drawn, where they are no cells.
+/// Draws at most `max_dots` spots if they are not cells.
 std::string svg_map(const SvgMap& map, const SvgLook& look = {});
 
 }  // namespace motionrack::trace

@@ -1,9 +1,9 @@
-// Charts over one axis of time with a band of names below.
+// Charts over a common time axis, with a band of names below.
 //
 //   position  /~~\__      chart
-//   speed     |~|__|~     chart
+//  velocity  |~|__|~     chart
 //             [a][ b ]    band
-//              a   b      names, read downwards, with lines to their parts of the band
+//             a   b      names, read downwards, with lines to their spans
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Stretch stretch_of(std::span<const SvgChart> charts) {
     return out;
 }
 
-/// Where the names stand: at the middles of their spans, moved apart so that none covers another.
+/// Positions of the names: at the middle of their spans, moved apart until none overlap.
 std::vector<double> spread(std::vector<double> at, double left, double right) {
     for (std::size_t i = 1; i < at.size(); ++i) at[i] = std::max(at[i], at[i - 1] + spacing);
     double most = right;

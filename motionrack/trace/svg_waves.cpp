@@ -1,4 +1,4 @@
-// Waves as a picture.
+// Waveforms as a picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double waves_left = 96, waves_right = 16, waves_heading = 44, each = 26, swing = 14, foot = 26;
 
-/// Where seconds stand in the picture.
+/// Converts seconds to pixels.
 struct Scale {
     double from, to, width;
     double x(double s) const { return waves_left + (std::clamp(s, from, to) - from) / (to - from) * width; }

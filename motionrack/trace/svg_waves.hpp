@@ -1,7 +1,7 @@
-// Waves of digital lines over a short time as a picture, as data sheets draw them.
+// Waveforms of digital lines over a short time, in data sheet style.
 //
 //   clk    ___/~~~~~~~~~~~~~~~~         one bit: a line
-//   state  <S0><S1><S2><S3 ><S4         several: a band a value, with its name where there is room
+//  state  <S0><S1><S2><S3 ><S4         several bits: one band per value, labelled if space permits
 //              :       :                marks: dotted, named above
 #pragma once
 
@@ -17,9 +17,9 @@ struct SvgWave {
     std::string name;
     bool band = false;  ///< several bits: bands with values
     std::vector<std::pair<double, std::uint32_t>>
-        changes;  ///< seconds, in order, and the value from then on; the first at or before the begin
+        changes;  ///< seconds in order, with the value from then on; the first at or before the start
     std::string (*text)(std::uint32_t value) = nullptr;  ///< of a band; nullptr: hexadecimal
-    std::uint32_t rest = 0;                              ///< the value of a band that is drawn pale: nobody drives it
+    std::uint32_t rest = 0;                              ///< value of a band that is drawn pale: undriven
 };
 
 struct SvgMark {
@@ -27,7 +27,7 @@ struct SvgMark {
     std::string name;
 };
 
-/// `from_s` < `to_s`. The height of the picture follows from the number of waves; look.height is not used.
+/// Requires `from_s` < `to_s`. The number of waves determines the height; look.height is not used.
 std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks,
                       double from_s, double to_s, const SvgLook& look = {});
 

@@ -1,4 +1,4 @@
-// Texts and numbers as they go into the files of this room.
+// Text and number formatting for the output files of this folder.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace motionrack::trace {
 
 namespace {
 
-/// Length of the UTF-8 character at `at`, 0 if there is none.
+/// Returns the length of the UTF-8 character at `at`; 0 if invalid.
 std::size_t character_length(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
     const unsigned first = byte(at);

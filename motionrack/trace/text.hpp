@@ -1,4 +1,4 @@
-// Texts and numbers as they go into the files of this room: nothing in them can break out, no NaN is ever written.
+// Text and number formatting for the output files of this folder: escapes all text, never writes NaN.
 #pragma once
 
 #include <string>
@@ -6,23 +6,23 @@
 
 namespace motionrack::trace {
 
-/// `text` for HTML and SVG, in elements and in quoted attributes: & < > " ' escaped, bytes that are no UTF-8 become
-/// U+FFFD, control characters become spaces.
+/// Escapes `text` for elements and quoted attributes of HTML and SVG: & < > " '. Invalid UTF-8 becomes U+FFFD, control
+/// characters become spaces.
 std::string escaped(std::string_view text);
 
-/// `text` as a JSON string with its quotes, in ASCII, that cannot end the script element it stands in.
+/// Returns `text` as a quoted ASCII JSON string that cannot end the enclosing script element.
 std::string json_string(std::string_view text);
 
-/// For people: up to `decimals` (0 .. 9) places without trailing zeros, "-0" as "0", a dash for NaN and infinities.
+/// For display: up to `decimals` (0 .. 9) places without trailing zeros, "-0" as "0", a dash for NaN and infinities.
 std::string number(double value, int decimals);
 
-/// For people: the places that a value of this size is worth (12345.7, 123.46, 1.235, 0.0123).
+/// For display: decimals according to magnitude (12345.7, 123.46, 1.235, 0.0123).
 std::string number(double value);
 
-/// For SVG coordinates: two places; 0 for NaN and infinities.
+/// For SVG coordinates: two decimals; 0 for NaN and infinities.
 std::string coordinate(double value);
 
-/// Whole numbers in groups of three, "12 345 678", with no-break spaces.
+/// Integer in groups of three, "12 345 678", with no-break spaces.
 std::string grouped(long long value);
 
 }  // namespace motionrack::trace

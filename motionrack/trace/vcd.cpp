@@ -1,4 +1,4 @@
-// The VCD writer: a buffer, and times whose upper digits are formatted only when they change.
+// VCD writer with a buffer; formats the upper digits of times only when they change.
 #include <fmt/format.h>
 
 #include <array>
@@ -26,7 +26,7 @@ constexpr std::array<char, 200> make_pairs() {
 }
 constexpr std::array<char, 200> pairs = make_pairs();
 
-/// Eight digits of 0 <= value < 1e8, with leading zeros.
+/// Writes eight digits of 0 <= value < 1e8, with leading zeros.
 void put_eight(char* at, std::uint32_t value) {
     const std::uint32_t upper = value / 10'000;
     const std::uint32_t lower = value % 10'000;
@@ -36,7 +36,7 @@ void put_eight(char* at, std::uint32_t value) {
     std::memcpy(at + 6, &pairs[2 * (lower % 100)], 2);
 }
 
-/// "100 ps", "1 us"; empty if VCD has no such timescale.
+/// Returns "100 ps", "1 us"; empty if VCD has no such timescale.
 std::string timescale_text(std::int64_t ticks) {
     static constexpr std::array<const char*, 5> units = {"ps", "ns", "us", "ms", "s"};
     std::int64_t size = 1;
@@ -53,7 +53,7 @@ std::string legal_name(std::string_view name) {
     std::string out;
     for (const char c : name) {
         const auto byte = static_cast<unsigned char>(c);
-        if ((byte & 0xC0U) == 0x80U) continue;  // the rest of a UTF-8 character, whose first byte has its '_'
+        if ((byte & 0xC0U) == 0x80U) continue;  // continuation byte of a UTF-8 character; its first byte gave the '_'
         const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
         const bool digit = c >= '0' && c <= '9';
         if (digit && out.empty()) out += '_';
@@ -62,7 +62,7 @@ std::string legal_name(std::string_view name) {
     return out.empty() ? "_" : out;
 }
 
-/// Text that cannot end the comment it stands in.
+/// Returns text that cannot end its comment.
 std::string without_dollar(std::string text) {
     for (char& c : text) {
         if (c == '$') c = '_';
@@ -136,7 +136,7 @@ VcdWriter& VcdWriter::operator=(VcdWriter&& other) noexcept {
     return *this;
 }
 
-// Not closed: an error unwinds, and what is written so far does not take the name.
+// Not closed, because an exception is active: the incomplete file does not replace the final name.
 VcdWriter::~VcdWriter() {
     if (file_) flush();
 }
@@ -180,7 +180,7 @@ VcdWriter::Id VcdWriter::declare(std::string_view name, Kind kind, int bits, std
     const auto id = static_cast<Id>(variables_.size());
     Variable variable{value, {}, 0, static_cast<std::uint8_t>(bits), kind};
     std::size_t rest = id;
-    do {  // codes are the printable characters '!' .. '~'
+    do {  // codes use the printable characters '!' .. '~'
         variable.code[variable.code_length++] = static_cast<char>('!' + rest % 94);
         rest /= 94;
     } while (rest-- > 0);
@@ -259,7 +259,7 @@ void VcdWriter::put(std::string_view text) {
     }
 }
 
-/// Writes the value; room for it must be there.
+/// Writes the value; requires buffer space.
 void VcdWriter::put_value(const Variable& variable) {
     char* at = buffer_.data() + used_;
     if (variable.kind == Kind::wire) {
@@ -284,7 +284,7 @@ void VcdWriter::room(std::size_t bytes) {
     if (buffer_.size() - used_ < bytes) flush();
 }
 
-/// What could not be written stays in the buffer.
+/// Unwritten data stays in the buffer.
 void VcdWriter::write_out() {
     if (!gave_up_) file_.try_again();
     const std::uint64_t before = file_.written();
@@ -294,14 +294,14 @@ void VcdWriter::write_out() {
     std::memmove(buffer_.data(), buffer_.data() + done, used_);
 }
 
-/// Makes the buffer empty, come what may.
+/// Empties the buffer in any case.
 void VcdWriter::flush() {
     write_out();
     gave_up_ = gave_up_ || used_ > 0;
     used_ = 0;
 }
 
-/// Writes the time of `at` unless the file is there already; room for it must be there.
+/// Writes the time of `at` unless already written; requires buffer space.
 void VcdWriter::advance(Instant at) {
     if (at < unit_end_) return;
     unit_ = timescale_ == 1 ? at.count() : at.count() / timescale_;
