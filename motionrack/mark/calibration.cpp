@@ -1,4 +1,4 @@
-// Small sums with their uncertainties: independent errors, first order.
+// First-order error propagation with independent errors.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,16 +22,16 @@ bool good(std::initializer_list<double> numbers) {
 }
 constexpr const char* no_numbers = "A number is infinite, above 1e12 or none at all. Give finite numbers.";
 
-/// Centre x, y, radius, counts a turn.
+/// Centre x, y, radius, counts per turn.
 using Circle = std::array<double, 4>;
 
-/// Between -pi and pi.
+/// Angle from -pi to pi.
 double angle_between(sim::Spot centre, sim::Spot from, sim::Spot to) {
     const double ax = from.x - centre.x, ay = from.y - centre.y, bx = to.x - centre.x, by = to.y - centre.y;
     return atan2(ax * by - ay * bx, ax * bx + ay * by);
 }
 
-/// The circle through three places; false: they are on a line.
+/// Returns the circle through three points; false if they are collinear.
 bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) {
     const double bx = m[1].at.x - m[0].at.x, by = m[1].at.y - m[0].at.y, cx = m[2].at.x - m[0].at.x,
                  cy = m[2].at.y - m[0].at.y;
@@ -41,7 +41,7 @@ bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) 
     const sim::Spot centre{m[0].at.x + ux, m[0].at.y + uy};
     const double first = angle_between(centre, m[0].at, m[1].at), second = angle_between(centre, m[1].at, m[2].at);
     if (first == 0 || second == 0 || first + second == 0) return false;
-    // The table turns the part away under the place, so the marks go round the other way.
+    // The table turns the part away under the laser spot, so the marks run in the opposite direction.
     const double turns1 = -first / (2 * pi), turns2 = -second / (2 * pi);
     const double by_both = (m[2].count - m[0].count) / (turns1 + turns2);
     unlike = std::fabs((m[1].count - m[0].count) / turns1 - (m[2].count - m[1].count) / turns2) / std::fabs(by_both);
@@ -91,7 +91,7 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
                  second = angle_between({middle[0], middle[1]}, marks[1].at, marks[2].at);
     if ((first > 0) != (second > 0))
         return refused("The marks do not go round in one sense. Turn the table less than half a turn between them.");
-    // How much each number moves the result is tried out.
+    // Numerical derivatives of the result by each input.
     std::array<double, 4> squares{};
     const auto tried = [&](const std::array<RotaryMark, 3>& changed, double times) {
         Circle c{};

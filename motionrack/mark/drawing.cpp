@@ -1,4 +1,4 @@
-// Curves become lines and arcs.
+// Converts curves to lines and arcs.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -12,7 +12,7 @@ double distance(Spot a, Spot b) {
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-/// Chords of an arc of radius `r` mm so that none is further off than the tolerance.
+/// Number of chords of an arc of radius `r` mm within the tolerance.
 int chords(double sweep, double r, double tolerance) {
     const double n = std::ceil(std::fabs(sweep) * std::sqrt(std::max(r, 0.0) / (8 * tolerance)));
     return static_cast<int>(std::clamp(n, 1.0, 100'000.0)) + 1;
@@ -60,7 +60,7 @@ void Pen::quadratic_to(Spot control, Spot p) {
 
 void Pen::cubic_to(Spot control1, Spot control2, Spot p) {
     const Spot q[4] = {to_mm_(at_), to_mm_(control1), to_mm_(control2), to_mm_(p)};
-    // A chord of 1/n of the curve is off by an eighth of the greatest second derivative over n squared.
+    // A chord of 1/n of the curve deviates by an eighth of the maximum second derivative over n squared.
     double bend = 0;
     for (int i = 0; i < 2; ++i)
         bend = std::max(bend, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));

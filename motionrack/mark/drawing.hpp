@@ -1,4 +1,4 @@
-// What is to be marked: strokes of straight lines and circular arcs in mm, whatever file they came from.
+// Drawing to be marked: strokes of straight lines and circular arcs in mm, independent of the file format.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace motionrack::mark {
 
 using sim::Spot;
 
-/// A piece of a stroke from where the last one ended: straight if `sweep` is 0, else about `centre`.
+/// Element of a stroke from the end of the previous one: straight if `sweep` is 0, else an arc around `centre`.
 struct Element {
     Spot to;
     Spot centre{};
@@ -31,20 +31,20 @@ struct Affine {
     double a = 1, b = 0, c = 0, d = 1, e = 0, f = 0;
 
     Spot operator()(Spot p) const { return {a * p.x + c * p.y + e, b * p.x + d * p.y + f}; }
-    /// First `first`, then this one.
+    /// Returns the composition: first `first`, then this.
     Affine after(const Affine& first) const;
     double determinant() const { return a * d - b * c; }
-    /// Circles stay circles.
+    /// Returns true if circles remain circles.
     bool keeps_circles() const;
-    /// The greatest factor by which a length grows, or a little more.
+    /// Upper bound of the factor by which a length grows.
     double max_scale() const;
 };
 
 inline constexpr double default_tolerance_mm = 0.001;
 inline constexpr std::size_t max_elements = 1'000'000;
 
-/// Draws: takes figures in their own coordinates and adds them to a drawing in mm. Curves that are no circular arcs
-/// become lines within the tolerance.
+/// Draws figures in their own coordinates into a drawing in mm. Converts curves other than circular arcs to lines
+/// within the tolerance.
 class Pen {
   public:
     Pen(Drawing& drawing, double tolerance_mm) : drawing_(drawing), tolerance_(tolerance_mm) {}
@@ -54,13 +54,13 @@ class Pen {
     void line_to(Spot p);
     void quadratic_to(Spot control, Spot p);
     void cubic_to(Spot control1, Spot control2, Spot p);
-    /// The part of the ellipse with radii rx, ry, turned by `turn`, from the angle `begin` on for `sweep` (radians,
-    /// from the ellipse's x to its y). The pen must stand at its begin; `p` is its end.
+    /// Draws a part of the ellipse with radii rx, ry, rotated by `turn`, from angle `begin` over `sweep` (radians, from
+    /// the ellipse's x to its y). Requires the pen at its start; `p` is its end.
     void ellipse_to(Spot centre, double rx, double ry, double turn, double begin, double sweep, Spot p);
-    /// Back to the begin of the stroke.
+    /// Closes the stroke.
     void close();
     Spot at() const { return at_; }
-    /// False: the drawing has more than `max_elements` and the rest was left out.
+    /// Returns false if the drawing exceeds `max_elements` and was truncated.
     bool complete() const { return elements_ <= max_elements; }
 
   private:
@@ -74,18 +74,18 @@ class Pen {
     std::size_t elements_ = 0;
 };
 
-/// Everything moved; arcs stay arcs if the transform keeps circles, else they become lines within the tolerance.
+/// Transforms a drawing; arcs stay arcs if circles remain circles, else become lines within the tolerance.
 Drawing transformed(const Drawing& drawing, const Affine& transform, double tolerance_mm = default_tolerance_mm);
-inline constexpr double fine_tolerance_mm = 0.0002;  ///< of what marks are compared with
-/// The drawing as straight pieces, arcs within the tolerance.
+inline constexpr double fine_tolerance_mm = 0.0002;  ///< for comparison with marks
+/// Returns the drawing as straight segments, with arcs within the tolerance.
 std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
-/// How many those are.
+/// Number of these segments.
 std::size_t segment_count(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 
 struct Box {
     Spot low, high;
 };
-/// Of all strokes; 0, 0 if there are none.
+/// Bounding box of all strokes; 0, 0 without strokes.
 Box box_of(const Drawing& drawing);
 double length_of(const Drawing& drawing);
 std::size_t element_count(const Drawing& drawing);

@@ -1,4 +1,4 @@
-// Files and texts of a job become one drawing in the field.
+// Combines the files and texts of a job into one drawing in the field.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Result<void> check_size(const Drawing& drawing, const std::string& file) {
     return {};
 }
 
-/// One source, placed.
+/// One source, transformed into the field.
 Result<Drawing> source_drawing(const DrawingSource& source, const std::string& file, const Load& load,
                                std::int64_t number) {
     Drawing drawing;
@@ -67,7 +67,7 @@ Result<Drawing> source_drawing(const DrawingSource& source, const std::string& f
                         file);
         scale *= *source.width_mm / wide;
     }
-    if (source.svg && scale > 1) {  // the tolerance is meant on the part
+    if (source.svg && scale > 1) {  // the tolerance applies to the part
         MOTIONRACK_TRY(const std::string text, load(*source.svg));
         MOTIONRACK_TRY(drawing, read_svg(text, *source.svg, source.tolerance_mm / scale));
     }

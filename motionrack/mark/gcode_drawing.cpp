@@ -1,4 +1,4 @@
-// The controller's own reader gives the moves; here they become strokes.
+// Converts the moves of the G-code interpreter to strokes.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 using control::Move;
 using control::MoveKind;
 
-/// The angle of an arc about its centre; `turns` counts full and begun turns and gives the sense.
+/// Angle of an arc around its centre; `turns` counts full and started turns and gives the direction.
 double sweep_of(const Move& move, Spot from, Spot to) {
     const Spot c{move.centre_first, move.centre_second};
     double sweep = atan2(to.y - c.y, to.x - c.x) - atan2(from.y - c.y, from.x - c.x);

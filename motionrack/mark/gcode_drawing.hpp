@@ -1,4 +1,4 @@
-// G-code as a drawing: G1, G2 and G3 in the XY plane are marked, G0 is a jump; Z, F, S and dwells are not looked at.
+// G-code as a drawing: marks G1, G2 and G3 in the XY plane; G0 is a jump; Z, F, S and dwells are ignored.
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>
@@ -7,7 +7,7 @@
 
 namespace motionrack::mark {
 
-/// Errors: invalid_input with line and column, of the program or of an arc in another plane.
+/// Errors: invalid_input with line and column: an invalid program, or an arc in another plane.
 Result<Drawing> read_gcode(std::string_view text, const std::string& file);
 
 }  // namespace motionrack::mark

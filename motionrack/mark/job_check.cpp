@@ -1,4 +1,4 @@
-// What must hold between the keys of a job.
+// Checks constraints between the keys of a job.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using rack::TomlNode;
 
-/// Numbers that the card counts in steps.
+/// Checks that a value is a multiple of the card's step.
 void check_steps(const TomlNode& root, std::string_view section, std::string_view key, double value, double step,
                  rack::Problems& problems) {
     if (value / step == std::floor(value / step)) return;

@@ -1,4 +1,4 @@
-// What must hold between the keys of a job that are good by themselves.
+// Constraints between the keys of a job that are valid individually.
 #pragma once
 
 #include <motionrack/mark/marking_job.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::mark {
 
-/// Each mistake is an error with its place.
+/// Reports each violation as an error with its position in the file.
 void check_job(const rack::TomlNode& root, const MarkingJob& job, rack::Problems& problems);
 
 }  // namespace motionrack::mark

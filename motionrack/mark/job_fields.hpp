@@ -1,4 +1,4 @@
-// The keys of a marking job, section by section: the reader and the reference page are made from these tables.
+// Keys of a marking job by section; source of the reader and the reference page.
 #pragma once
 
 #include <array>
@@ -99,7 +99,7 @@ inline constexpr std::array<Field, 3> sender_fields = {
     field<&parts::SerialPositionSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
     field<&parts::SerialPositionSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its word"),
 };
-/// A key that is no field: an array.
+/// A key whose value is an array.
 struct ArrayKey {
     std::string_view key, unit, range, absent, doc;
 };

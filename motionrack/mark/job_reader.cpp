@@ -19,7 +19,7 @@ double decimal_field(const TomlNode& node) {
     return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
 }
 
-/// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
+/// profile = [[0, 50], [0.5, 120]]: times in s and velocities.
 void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& problems) {
     const TomlNode* profile = table.find("profile");
     if (profile == nullptr) return;
@@ -59,7 +59,7 @@ void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, 
                            fmt::format("With '{}' the parts' places are known; leave '{}' out.", key, other));
 }
 
-/// One section into its member of the job.
+/// Reads one section into its member of the job.
 class SectionReader {
   public:
     SectionReader(MarkingJob& job, std::string unit, rack::Problems& problems)

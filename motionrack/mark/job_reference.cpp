@@ -1,4 +1,4 @@
-// The reference page of the marking job, written from the tables that the reader reads with.
+// Generates the reference page of the marking job from the reader's tables.
 #include <fmt/format.h>
 
 #include <motionrack/mark/job_fields.hpp>
@@ -8,7 +8,7 @@ namespace motionrack::mark {
 
 namespace {
 
-/// A section's defaults.
+/// Defaults of a section.
 const void* defaults_of(const MarkingJob& job, const DrawingSource& drawing, const rack::RackLens& lens,
                         const PartsSettings& parts, std::string_view section) {
     if (section == "drawing") return &drawing;

@@ -1,4 +1,4 @@
-// Loading, starting and serving the card.
+// Loads, starts and serves the card.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace {
 using rtc5::Engine;
 using rtc5::StartFate;
 
-constexpr std::int64_t slice = 50'000;    // ticks between two looks at progress and stop
-constexpr std::int64_t host_ticks = 100;  // between two looks of the host at the card
+constexpr std::int64_t slice = 50'000;    // ticks between checks of progress and stop
+constexpr std::int64_t host_ticks = 100;  // polling interval of the host, ticks
 constexpr auto max_ticks = static_cast<std::int64_t>(max_seconds * 1e5);
 
 bool takes_turns(const MarkingJob& job, const Prepared& prepared) {
@@ -97,8 +97,8 @@ Result<void> MarkingHost::load(int list, std::size_t marked) {
     return put_all(card_, list, commands);
 }
 
-/// Starts reset the encoders only if a correction asked for it before: a list that sets it, and is over before the
-/// belt's time begins.
+/// An external start resets the encoders only if a correction has requested it before. A list does so and ends before
+/// the belt time starts.
 Result<void> MarkingHost::arm() {
     const bool chain = job_.parts->start == PartStart::equidistant;
     card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start |
@@ -128,7 +128,7 @@ Result<void> MarkingHost::arm() {
     return {};
 }
 
-/// The ticks in which the parts' edges are seen.
+/// Finds the ticks at which the sensor detects the parts.
 Result<void> MarkingHost::find_edges() {
     const PartsSettings& parts = *job_.parts;
     const auto gone = [&](std::int64_t tick) {
@@ -202,7 +202,7 @@ void MarkingHost::ended(std::int64_t tick) {
     }
 }
 
-/// What the host does when it looks: the other list is next, and the one that is over gets the next text.
+/// One poll of the host: selects the next list and loads the next text into the finished one.
 Result<void> MarkingHost::serve() {
     if (!alternates_) return {};
     card_.set_extstartpos(begun_ % 2 == 0 ? 0 : card_.settings().list1);

@@ -1,9 +1,8 @@
-// A card on its line, with the host that serves it: lists are loaded, edges of parts become external starts, starts
-// become runs.
+// A card on a marking line and its host: loads lists, turns part edges into external starts, and starts into runs.
 //
 //   sensor   ──┐__┌──┐__      edge ──► track delay, queue of 8 ──► list ──► part
-//   list 1   ====      ====   parts with texts of their own: the lists take turns, and the host loads the one that is
-//   list 2        ====        not running; it looks every millisecond
+//  list 1   ====      ====   parts with individual texts: the lists alternate, and the host loads the idle one;
+//  list 2        ====        it polls every millisecond
 #pragma once
 
 #include <array>
@@ -19,27 +18,27 @@ namespace motionrack::mark {
 
 struct Watch {
     std::function<void(double part)> progress;  ///< 0 .. 1
-    std::function<bool()> stop;                 ///< true: give up
+    std::function<bool()> stop;                 ///< polled; true cancels
 };
 
-inline constexpr double max_seconds = 1000;  ///< of virtual time
+inline constexpr double max_seconds = 1000;  ///< of simulated time
 
-/// Loads list 1 or 2 of a card from its begin. Errors: refused, it has not so many places; nothing was loaded then.
+/// Loads list 1 or 2 of a card from its start. Errors: refused if the list is too short; nothing is loaded then.
 Result<void> put_all(rtc5::Engine& card, int list, const std::vector<rtc5::Command>& commands);
 
-/// What became of a part's start. Ticks are those of the belt: 0 is the job's begin.
+/// Result of a part's start, in ticks of the belt time: 0 is the start of the job.
 struct PartRun {
     std::size_t part = 0;    ///< from 0 on
-    std::size_t marked = 0;  ///< which drawing, if it began: Prepared::of
+    std::size_t marked = 0;  ///< index of the drawing if it started: Prepared::of
     rtc5::StartFate fate = rtc5::StartFate::begun;
-    std::int64_t begin = 0, end = 0;  ///< of the list; if lost: when
+    std::int64_t begin = 0, end = 0;  ///< of the list; of a lost start its instant
 };
 
-/// The part's movement as the card's inputs see it.
+/// Movement of the part at the card's inputs.
 class InputModel final : public rtc5::Inputs {
   public:
     static Result<InputModel> make(const MarkingJob& job, const ConveyorTracking& following);
-    /// After it has come to its place; the belt's time is 0 at this tick of the card.
+    /// Call after the object has its final address. The belt time is 0 at this tick of the card.
     Result<void> begin(std::int64_t tick);
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
     bool words(std::int64_t first, std::span<std::uint32_t> out) override;
@@ -55,21 +54,21 @@ class InputModel final : public rtc5::Inputs {
 
 class MarkingHost final : rtc5::ListListener {
   public:
-    /// Everything is loaded and the belt's time is 0. `job` and `prepared` must live as long. Errors: as list_of;
-    /// refused: a list that is too long, a part that does not come.
+    /// Loads everything; the belt time is 0. `job` and `prepared` must outlive it. Errors: as list_of; refused if a
+    /// list is too long or a part never arrives.
     static Result<std::unique_ptr<MarkingHost>> make(const MarkingJob& job, const Prepared& prepared,
                                                      const ConveyorTracking& following);
 
-    /// Until all parts are through and the card rests. `done` is told the belt's tick now and then.
-    /// Errors: refused: more than max_seconds; stopped.
+    /// Runs until all parts have passed and the card is idle. Calls `done` periodically with the belt tick.
+    /// Errors: refused if it takes longer than max_seconds; stopped.
     Result<void> run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch);
 
     rtc5::Engine& card() { return card_; }
-    /// The card's tick in which the belt's time is 0.
+    /// Tick of the card at which the belt time is 0.
     std::int64_t begin() const { return begin_; }
-    /// In the order of the instants.
+    /// In time order.
     const std::vector<PartRun>& runs() const { return runs_; }
-    /// Whether a start came while a list ran.
+    /// Returns true if a start came while a list was running.
     bool some_lost() const;
 
   private:
@@ -90,9 +89,9 @@ class MarkingHost final : rtc5::ListListener {
     rtc5::Engine card_;
     bool alternates_ = false;
     std::int64_t begin_ = 0;
-    std::vector<std::int64_t> edges_;  ///< belt's ticks
+    std::vector<std::int64_t> edges_;  ///< in belt ticks
     std::size_t next_edge_ = 0;
-    std::deque<std::size_t> waiting_;  ///< parts whose start is in the card
+    std::deque<std::size_t> waiting_;  ///< parts with a queued start
     std::vector<PartRun> runs_;
     std::array<std::size_t, 2> loaded_{};
     std::size_t begun_ = 0, over_ = 0, next_load_ = 2;

@@ -1,4 +1,4 @@
-// What a marking job left on the part, as a table.
+// Result of a marking job as a table.
 #include <fmt/format.h>
 
 #include <algorithm>

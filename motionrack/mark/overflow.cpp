@@ -1,4 +1,4 @@
-// The four edges of the field, tick by tick, in the blocks that leave it.
+// Checks the four edges of the field tick by tick in blocks that leave it.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/mark/overflow.hpp>
@@ -11,7 +11,7 @@ struct Edge {
     std::string_view bit;
     bool y = false, upper = false;
 
-    /// Bits beyond it; 0 or less: inside.
+    /// Bits beyond the edge; 0 or less: inside.
     double beyond(rtc5::Point p) const {
         const double v = y ? p.y : p.x;
         return upper ? v - rtc5::field_greatest : rtc5::field_least - v;

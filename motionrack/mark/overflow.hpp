@@ -1,6 +1,6 @@
-// When and where the corrected position was outside the field: every stretch of ticks, not only the first.
+// Intervals in which the corrected position was outside the field; all intervals, not only the first.
 //
-//   corrected x  ____/^^^^\____/^\___     each stretch above the edge is one Overflow
+//  corrected x  ____/^^^^\____/^\___     each interval above the edge is one Overflow
 //   edge         - - - - - - - - - -
 #pragma once
 
@@ -15,26 +15,26 @@ namespace motionrack::mark {
 
 using sim::Spot;
 
-/// A stretch of time in which a bit of get_marking_info would have been set anew in each tick.
+/// Interval in which a bit of get_marking_info would have been set in each tick.
 struct Overflow {
     std::string name, meaning;  ///< of the bit: "FLY_X_OVERFLOW"
     double from_s = 0, to_s = 0;
-    Spot field;               ///< where the card should have put the spot at from_s, mm; beyond the field
-    Spot part;                ///< the same place in the part's coordinates: where on the drawing
-    std::size_t part_no = 0;  ///< which part, from 0 on
-    double beyond_mm = 0;     ///< how far beyond the edge it was at most
-    bool marking = false;     ///< the laser was on in some of it: the marks there are displaced
+    Spot field;               ///< commanded spot at from_s, mm; outside the field
+    Spot part;                ///< the same spot in part coordinates, to locate it on the drawing
+    std::size_t part_no = 0;  ///< part index, from 0
+    double beyond_mm = 0;     ///< maximum distance beyond the edge
+    bool marking = false;     ///< the laser was on during a part of it: marks are displaced
 };
 
-/// Listens to a card's samples.
+/// Receives the samples of a card.
 class OverflowLog {
   public:
-    static constexpr std::size_t most = 10'000;  ///< more are counted, not kept
+    static constexpr std::size_t most = 10'000;  ///< further ones are counted but not stored
 
-    /// `track` must live as long.
+    /// `track` must outlive it.
     OverflowLog(double bits_per_mm, const parts::Conveyor& track) : k_(bits_per_mm), track_(track) {}
     void block(const rtc5::Samples& samples);
-    /// Nothing comes after `tick`.
+    /// Ends the log; no samples follow after `tick`.
     void finish(std::int64_t tick);
 
     const std::vector<Overflow>& all() const { return all_; }

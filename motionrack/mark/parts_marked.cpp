@@ -1,4 +1,4 @@
-// Marks belong to the part whose list ran when they were made.
+// Assigns marks to the part whose list was running.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -12,7 +12,7 @@ double seconds(std::int64_t tick) {
     return static_cast<double>(tick) * 1e-5;
 }
 
-/// How far the belt goes until the part is where the drawing is meant.
+/// Belt distance until the part reaches its marking position.
 double way_of(const MarkingJob& job, std::size_t part) {
     return job.parts ? job.parts->way(part) * job.sense() : 0;
 }
@@ -28,7 +28,7 @@ PartOutcome fate_of(rtc5::StartFate fate) {
     }
 }
 
-/// Where pictures have the part.
+/// Position of the part in pictures.
 Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
     if (!job.parts || part == 0) return {};
     if (track.settings().rotary) {
@@ -37,7 +37,7 @@ Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts:
         const Spot c = track.settings().centre_mm;
         return Affine{1, 0, 0, 1, c.x, c.y}.after({t.cos, t.sin, -t.sin, t.cos, 0, 0}).after({1, 0, 0, 1, -c.x, -c.y});
     }
-    // A later part is behind, seen in the movement's direction; a quarter of its length away.
+    // Later parts are drawn behind in movement direction, a quarter of a part length apart.
     const Spot forward = track.carried({}, job.sense());
     double low = 0, high = 0;
     const Box box = box_of(prepared.drawing);
@@ -79,7 +79,7 @@ void share_out(const MarkingJob& job, const Prepared& prepared, const std::vecto
         PartMarked& part = out.parts[run.part];
         part.fate = fate_of(run.fate);
         part.begin_s = seconds(run.begin), part.end_s = seconds(run.end);
-        part.drawing = std::min(begun.size(), prepared.further.size());  // a lost part would have been the next
+        part.drawing = std::min(begun.size(), prepared.further.size());  // a lost part would have got the next drawing
         if (run.fate != rtc5::StartFate::begun) continue;
         part.drawing = run.marked;
         part.number = job.parts.value_or(PartsSettings{}).number(run.marked);

@@ -1,4 +1,4 @@
-// The parts of a line, one row each, and what became of those that were not marked.
+// Parts of a run, one row each, with the reason for each unmarked part.
 #include <fmt/format.h>
 
 #include <iterator>

@@ -1,10 +1,10 @@
-// The pictures of a marking job, one by one for a page or together on a sheet:
+// Pictures of a marking job, separate for a page or together on a sheet:
 //
-//     as drawn     with correction   without       wide and pale: the drawing; thin: what was marked
-//     the field    worst place       worst place   a ring: the worst place; in the field: the way of the spot,
+//    as drawn     with correction   without       wide and pale: the drawing; thin: the marks
+//    the field    worst point       worst point   a ring: the point of maximum deviation; in the field: the spot path,
 //                                                  dashed while the laser is off
 //
-// Parts that are much wider than high stand one below the other.
+// Parts much wider than high are drawn below each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace motionrack::mark {
 namespace {
 
 constexpr int column = 380, line_width = 3 * column + 2 * 16;  // px; three columns and the gaps between them
-constexpr double wide_from = 2.6;  // width to height from which parts stand one below the other
+constexpr double wide_from = 2.6;  // width to height ratio from which parts are drawn below each other
 
-/// What a sheet needs beside the style that trace's pictures bring; a page has its own.
+/// Additional style of a sheet; a page has its own.
 constexpr const char* sheet_style =
     "<style>.ground{fill:#fff}.frame{fill:none;stroke:#d9e0e7}.drawn{stroke:#1f2933;stroke-width:1.2}"
     ".without{stroke:#d9480f;stroke-width:1.5;stroke-linejoin:round}.jumps{stroke:#8a97a3;stroke-dasharray:3 4}"
@@ -46,7 +46,7 @@ double size_of(const Box& box) {
     return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-/// The place of the drawing that is nearest.
+/// Returns the nearest point of the drawing.
 Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
     Spot best = p;
     double least = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
     return best;
 }
 
-constexpr std::size_t max_parts = 24;  ///< in one picture
+constexpr std::size_t max_parts = 24;  ///< per picture
 
 /// Parts side by side, or around their table.
 std::vector<Node> side_by_side(const Marked& marked, const auto& nodes_of_part) {
@@ -83,7 +83,7 @@ std::vector<Node> drawings_of(const Prepared& prepared, const Marked& marked) {
         return nodes_of(std::span<const parts::Segment>(prepared.of(part.drawing).segments));
     });
 }
-/// The part that has the worst place of all.
+/// Part with the maximum deviation.
 std::size_t worst_part(const Marked& marked) {
     const auto worst = std::max_element(
         marked.parts.begin(), marked.parts.end(),
@@ -94,12 +94,12 @@ std::string of_part(const Marked& marked) {
     return marked.parts.size() > 1 ? fmt::format(" of part {}", worst_part(marked) + 1) : std::string();
 }
 
-/// What all pictures of a job share.
+/// Shared data of all pictures of a job.
 struct Scene {
     const Prepared& prepared;
     const MarkingOutcome& out;
     std::vector<Node> drawing;
-    Box box{};  ///< of drawing and marks
+    Box box{};  ///< bounds of drawing and marks
 
     Scene(const Prepared& p, const MarkingOutcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
         if (drawing.empty()) return;
@@ -113,7 +113,7 @@ struct Scene {
     bool wide() const { return box.high.x - box.low.x > wide_from * (box.high.y - box.low.y); }
 };
 
-/// The overflows with the laser on, where it was or should have been.
+/// Overflows with the laser on, at the actual or the intended position.
 std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, const auto& place) {
     constexpr std::size_t most = 200;
     std::string out;
@@ -160,7 +160,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
     return part;
 }
 
-/// The way of the spot in the field: as marks and, dashed, as jumps.
+/// Path of the spot in the field: marks solid, jumps dashed.
 Part field_of(const Scene& scene) {
     Part part;
     const MarkingOutcome& out = scene.out;
@@ -186,7 +186,7 @@ Part field_of(const Scene& scene) {
     return part;
 }
 
-/// The surroundings of the worst place; without a body where the whole picture shows it as well.
+/// Surroundings of the point of maximum deviation; empty if the whole picture shows it as well.
 Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* look) {
     Part part;
     const parts::Deviation& d = marked.deviation;

@@ -1,4 +1,4 @@
-// Millimetres become bits, speeds bits/ms, the belt's movement a scale.
+// Converts millimetres to bits, speeds to bits/ms, and the belt movement to a scale.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using rtc5::Command;
 using rtc5::Op;
 
-/// Collects commands; keeps the first error.
+/// Collects commands; stores the first error.
 class List {
   public:
     explicit List(double bits_per_mm) : k_(bits_per_mm) {}
@@ -27,7 +27,7 @@ class List {
         else
             error_ = made.error();
     }
-    /// mm/s to bits/ms. The card would clip it.
+    /// Converts mm/s to bits/ms; rejects values that the card would clip.
     void speed(Op op, const char* name, double mm_s) {
         const double bits_ms = mm_s * k_ / 1000;
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::speed);
@@ -62,14 +62,14 @@ class List {
 struct Direction {
     double x = 0, y = 0;
 };
-/// A belt along an axis has no share of the other one, to the last bit.
+/// For a belt along an axis, the other component is exactly 0.
 Direction direction_of(const parts::ConveyorSettings& track) {
     const SinCos d = sin_cos(track.direction_deg * (pi / 180));
     const auto clean = [](double v) { return std::fabs(v) < 1e-12 ? 0.0 : v; };
     return {clean(d.cos), clean(d.sin)};
 }
 
-/// The correction of what goes along X, Y or both.
+/// Correction of a linear movement along X, Y or both.
 void put_linear(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following) {
     const Direction d = direction_of(following.track);
     const double scale = prepared.bits_per_mm * job.fly.scale_factor / counts_per_unit(job, following);
@@ -77,10 +77,10 @@ void put_linear(List& list, const MarkingJob& job, const Prepared& prepared, con
         if (d.x != 0) list.put(Op::set_fly_x_pos, {scale * (d.y != 0 ? 1 : d.x)});
         if (d.y != 0) list.put(Op::set_fly_y_pos, {scale * (d.x != 0 ? 1 : d.y)});
     } else if (d.x != 0 && d.y != 0 && !job.parts) {
-        // Both at once, so that neither counter begins a tick later; they are at 0 at the list's begin.
+        // Activates both at once, so that neither counter starts a tick later; both are 0 at the start of the list.
         list.put(Op::activate_fly_xy, {scale * d.x, scale * d.y});
     } else {
-        // Several parts: both are made 0 by the start itself.
+        // With several parts, the external start itself resets both.
         if (d.x != 0) list.put(Op::set_fly_x, {scale * d.x});
         if (d.y != 0) list.put(Op::set_fly_y, {scale * d.y});
     }
@@ -91,7 +91,7 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
     if (!following.corrects) {
-        // Off, but the count begins at 0 for the waits.
+        // No correction, but the waits need a count from 0.
         if (job.fly.waits != WaitMode::none && !words) list.put(Op::set_fly_x, {0});
         return;
     }
@@ -105,7 +105,7 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
 }
 
-/// Everything further on by what the belt goes in a time; before fly, so that the flags see it.
+/// Shifts everything by the belt distance within a time; before fly, so that the flags include it.
 void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
@@ -131,7 +131,7 @@ void put_settings(List& list, const MarkingJob& job) {
     list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
 }
 
-/// A stroke from where the last jump ended, or with a jump before it, shifted.
+/// A stroke from the end of the last jump, or with a jump before it, shifted.
 void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
     if (jump) list.put(Op::jump_abs, {list.bits(stroke.from.x + shift.x), list.bits(stroke.from.y + shift.y)});
     for (const Element& e : stroke.elements) {
@@ -143,7 +143,7 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
     }
 }
 
-/// Holds until the belt has gone so far.
+/// Waits until the belt has moved this distance.
 void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& following, double way) {
     const double unit = counts_of(job, following, way), rising = unit < 0 ? -1 : 1;
     if (following.mode == FlyMode::mcbsp)
@@ -152,7 +152,7 @@ void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& followi
         list.put(Op::wait_for_encoder_mode, {unit, 0, rising});
 }
 
-/// Each batch waits, parked where it will begin, so that the waiting spot does not go out of the field with the part.
+/// Each batch waits with the spot parked at its start, so that the waiting spot does not leave the field with the part.
 Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
                          const Drawing& drawing) {
     const double margin = job.fly.margin_mm, sense = job.sense();
@@ -181,7 +181,7 @@ Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prep
     return {};
 }
 
-/// Of a drawing on a part that stands nothing would be marked but a line on the field's edge.
+/// For a stationary part outside the field, only a line on the field edge would be marked.
 Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const ConveyorTracking& following) {
     const auto& profile = following.track.profile;
     const bool carried =
@@ -263,7 +263,7 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
                                 *job.optics.ct5, file.bits_per_mm(), out.bits_per_mm));
             if (job.optics.correction) out.table = rtc5::table_of(file);
         } else {
-            // Without a lens the field behind the table is the one that it is made for.
+            // Without a lens, the table's own design field is used.
             if (file.bits_per_mm() > 0)
                 out.bits_per_mm = file.bits_per_mm();
             else

@@ -1,4 +1,4 @@
-// From a job to the card's list: speeds, delays and correction first, then jumps, marks and arcs in bits.
+// Converts a job to the card's list: speeds, delays and correction first, then jumps, marks and arcs in bits.
 #pragma once
 
 #include <memory>
@@ -11,47 +11,47 @@ namespace motionrack::mark {
 
 struct PartDrawing {
     Drawing drawing;
-    std::vector<parts::Segment> segments;  ///< the drawing as straight pieces
+    std::vector<parts::Segment> segments;  ///< the drawing as straight segments
 };
 
-/// What a job marks and with what; made once, run as often as wanted. It is itself the first part's drawing.
+/// Prepared input of a job for any number of runs. It is itself the drawing of the first part.
 struct Prepared : PartDrawing {
-    std::vector<PartDrawing> further;  ///< of the second marked part on; empty: all are like the first
+    std::vector<PartDrawing> further;  ///< from the second marked part on; empty: all equal the first
     double bits_per_mm = 0;
     std::optional<sim::ScanLens> lens;
-    std::shared_ptr<const rtc5::Table> table;  ///< none: 1:1
-    std::vector<std::string> notes;            ///< what the user should know before
+    std::shared_ptr<const rtc5::Table> table;  ///< empty: 1:1
+    std::vector<std::string> notes;            ///< warnings before the run
 
-    /// Of the part that is marked `marked`th, from 0 on.
+    /// Drawing of the part with mark index `marked`, from 0.
     const PartDrawing& of(std::size_t marked) const {
         return marked == 0 || further.empty() ? *this : further[marked - 1];
     }
-    /// mm that the card's output reaches.
+    /// Range of the card's output, mm.
     Box field() const;
 };
 
-/// Errors: of the files the job names.
+/// Errors: those of the files named by the job.
 Result<Prepared> prepare(const MarkingJob& job, const Load& load);
 
-/// The movement of the part and how the card follows it.
+/// Movement of the part and its tracking by the card.
 struct ConveyorTracking {
     parts::ConveyorSettings track;
     FlyMode mode = FlyMode::off;
-    double simulated_speed = 0;  ///< mm/s or degrees/s that the simulated encoder stands for
-    bool corrects = true;        ///< false: all is done but the correction
+    double simulated_speed = 0;  ///< mm/s or degrees/s represented by the simulated encoder
+    bool corrects = true;        ///< false: only the correction is omitted
 };
-/// A job's, with all speeds times `factor`.
+/// Tracking of a job, with all velocities multiplied by `factor`.
 ConveyorTracking following_of(const MarkingJob& job, double factor = 1);
-/// What one mm or degree of movement is in the numbers that the card gets; 0: nothing.
+/// Card units per mm or degree of movement; 0: none.
 double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following);
-/// Whole counts of a way that the belt goes, with their sign.
+/// Whole counts of a belt distance, signed.
 double counts_of(const MarkingJob& job, const ConveyorTracking& following, double way);
 
-/// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or
-/// scale that the card does not take; a drawing that does not come into the field.
+/// Returns the list for the part with mark index `marked`, including set_end_of_list. Errors: refused if the card does
+/// not accept a speed, position or scale, or the drawing never enters the field.
 Result<std::vector<rtc5::Command>> list_of(const MarkingJob& job, const Prepared& prepared,
                                            const ConveyorTracking& following, std::size_t marked = 0);
-/// Before the first start: asks for the encoders to become 0 at it. Errors: as list_of.
+/// Before the first start: requests an encoder reset at it. Errors: as list_of.
 Result<std::vector<rtc5::Command>> arming_list_of(const MarkingJob& job, const Prepared& prepared,
                                                   const ConveyorTracking& following);
 

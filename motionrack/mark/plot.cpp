@@ -1,4 +1,4 @@
-// Millimetres to pixels.
+// Converts millimetres to pixels.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace {
 
 using trace::coordinate;
 
-constexpr double eye_px = 0.12;            // what is not seen
-constexpr std::size_t max_nodes = 40'000;  // of one row of strokes: about 12 bytes each
+constexpr double eye_px = 0.12;            // below visible size
+constexpr std::size_t max_nodes = 40'000;  // per row of strokes: about 12 bytes each
 constexpr double min_width_mm = 1e-4;
 
-/// The part of a -> b in the box; false: none. Liang and Barsky.
+/// Clips a -> b to the box (Liang-Barsky); false if it is outside.
 bool clip(const Box& box, Spot& a, Spot& b) {
     double begin = 0, end = 1;
     const Spot way{b.x - a.x, b.y - a.y};

@@ -1,5 +1,5 @@
-// A rectangle of a picture that shows a part of the plane in mm, Y up: lines clipped to it and thinned to what the eye
-// can see.
+// Rectangle of a picture that shows a part of the plane in mm, Y up: clips lines to it and simplifies them to visible
+// detail.
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>
@@ -9,21 +9,21 @@
 
 namespace motionrack::mark {
 
-/// A point of a row of strokes.
+/// Point of a row of strokes.
 struct Node {
     Spot at;
-    bool first = false;  ///< a stroke begins here
+    bool first = false;  ///< a stroke starts here
 };
 std::vector<Node> nodes_of(std::span<const parts::Segment> segments);
 std::vector<Node> nodes_of(std::span<const parts::MarkedPoint> points);
 
-/// The box that has both.
+/// Returns the bounding box of both.
 Box joined(const Box& a, const Box& b);
-Box box_of(std::span<const Node> nodes);  ///< there must be some
+Box box_of(std::span<const Node> nodes);  ///< requires at least one
 
 class Plot {
   public:
-    /// Shows `box` and what is around it, in the middle of `width` x `height` px.
+    /// Shows `box` and its surroundings, centred in `width` x `height` px.
     Plot(const Box& box, int width, int height, double margin = 18);
 
     double x(double mm) const { return (mm - low_.x) * scale_; }
@@ -32,7 +32,7 @@ class Plot {
     int height() const { return height_; }
     double width_mm() const { return width_ / scale_; }
 
-    /// Lines in steps of 1, 2 or 5 with their mm.
+    /// Grid lines at steps of 1, 2 or 5, with labels in mm.
     std::string grid() const;
     std::string strokes(std::span<const Node> nodes, const char* look) const;
     std::string outline(const Box& box, const char* look) const;
@@ -46,7 +46,7 @@ class Plot {
 
     Spot low_;  // mm at the lower left corner
     int width_, height_;
-    double scale_ = 1;  // px a mm
+    double scale_ = 1;  // px per mm
 };
 
 /// "12 mm", "40 µm".

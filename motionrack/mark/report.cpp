@@ -1,4 +1,4 @@
-// A marking job as a page.
+// Report page of a marking job.
 #include <fmt/format.h>
 
 #include <motionrack/mark/plot.hpp>

@@ -1,4 +1,4 @@
-// The card's output moves the station's mirrors; its inputs see the belt.
+// Connects the card's output to the station's mirrors and its inputs to the belt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using rtc5::Engine;
 
 class StationSink final : public rtc5::Sink {
   public:
-    /// `begin`: the card's tick in which the belt's time is 0. `step`: ticks from one sample of the course to the next.
+    /// `begin`: tick of the card at which the belt time is 0. `step`: ticks between samples of the spot path.
     StationSink(parts::MarkingStation& station, OverflowLog& overflows, std::int64_t begin, std::int64_t step)
         : station_(station), overflows_(overflows), begin_(begin), step_(step) {}
     void samples(const rtc5::Samples& block) override {
@@ -43,11 +43,11 @@ class StationSink final : public rtc5::Sink {
     std::int64_t begin_, step_, open_ = 0;
 };
 
-/// A run that nobody looks at: quick.
+/// Result of a fast run without observers.
 struct Quick {
     double ticks = 0;
-    double beyond_mm = 0;    ///< how far the corrected position was beyond the field; 0 or less: it fits
-    bool some_lost = false;  ///< starts; those of which eight waited are lost at any speed
+    double beyond_mm = 0;    ///< maximum distance beyond the field; 0 or less: inside
+    bool some_lost = false;  ///< lost starts, except those beyond a queue of eight, which are lost at any speed
     bool fits() const { return beyond_mm <= 0 && !some_lost; }
 };
 
@@ -64,10 +64,10 @@ Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double 
     return out;
 }
 
-/// Part of a job's progress when both parts are marked; the rest is the search.
+/// Share of the progress for marking with and without correction; the rest is the search.
 constexpr double marked_at = 0.9;
 
-/// The greatest factor of the speed at which everything fits.
+/// Maximum velocity factor at which everything fits.
 class FitSearch {
   public:
     FitSearch(const MarkingJob& job, const Prepared& prepared, const Watch& watch)
@@ -112,7 +112,7 @@ class FitSearch {
     Result<bool> fits(double factor, MarkingOutcome& out) {
         MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
         if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;
-        // Some twenty runs, less when it is near at once.
+        // About twenty runs, fewer if the limit is near.
         ++tried_;
         if (watch_.progress) watch_.progress(marked_at + (1 - marked_at) * tried_ / (tried_ + 10));
         return quick.fits();
@@ -145,7 +145,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
         },
         watch));
     const std::int64_t end = card.tick() - line->begin();
-    // The mirrors and the laser come to their rest a little later.
+    // The mirrors and the laser settle a little later.
     card.run_until(card.tick() +
                        static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) +
                                                  job.laser.off_delay_us / 10) +
@@ -176,7 +176,7 @@ bool moves(const parts::ConveyorSettings& track) {
                        [](const parts::SpeedPoint& p) { return p.speed != 0; });
 }
 
-/// Waits promise that everything is marked where it should be.
+/// With waits, everything must be marked at its intended position.
 Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const MarkingOutcome& out) {
     const std::string fast =
         job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";

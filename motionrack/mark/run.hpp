@@ -1,4 +1,4 @@
-// Runs a marking job on the virtual card in a simulated machine, with its correction and without, and says what is on
+// Runs a marking job on the virtual card in a simulated machine, with and without correction, and returns the marks on
 // the part.
 #pragma once
 
@@ -11,20 +11,20 @@
 
 namespace motionrack::mark {
 
-/// Where the card's output had the spot at an instant, and the part of the time since the last one that its gate was
+/// Spot position commanded by the card at an instant, and the fraction of time since the last sample with the gate
 /// open.
 struct FieldSample {
     double at_s = 0;
-    Spot at;  ///< mm in the field, of mirrors without delay
+    Spot at;  ///< mm in the field, with ideal mirrors
     double gate = 0;
 };
 inline constexpr std::int64_t max_field_samples = 10'000;
 
 enum class PartOutcome : std::uint8_t {
     marked,
-    lost_busy,      ///< its start came while the list of another part ran
-    lost_too_many,  ///< eight starts were waiting as its edge came
-    not_started     ///< the card was not asked for its start, because that of an earlier part was lost
+    lost_busy,      ///< its start came while the list of another part was running
+    lost_too_many,  ///< eight starts were queued when its edge came
+    not_started     ///< the card was not armed for its start, because the start of an earlier part was lost
 };
 
 constexpr const char* name_of(PartOutcome fate) {
@@ -40,61 +40,60 @@ constexpr const char* name_of(PartOutcome fate) {
     }
 }
 
-/// What became of one part.
+/// Result of one part.
 struct PartMarked {
     PartOutcome fate = PartOutcome::marked;
-    std::int64_t number = 0;        ///< of {n}, if it was marked
-    std::size_t drawing = 0;        ///< Prepared::of; of a lost part the one it would have got
-    double begin_s = 0, end_s = 0;  ///< of its list; when lost: the instant
-    parts::Deviation deviation;     ///< in its own coordinates
+    std::int64_t number = 0;        ///< of {n}, if marked
+    std::size_t drawing = 0;        ///< Prepared::of; of a lost part the drawing it would have got
+    double begin_s = 0, end_s = 0;  ///< of its list; of a lost part the instant
+    parts::Deviation deviation;     ///< in part coordinates
     double marked_mm = 0;
-    std::size_t first_point = 0, points = 0;  ///< of Marked::points
-    Affine shown;  ///< its coordinates to those of a picture in which no part lies on another: a table as it is, parts
-                   ///< of a belt side by side
+    std::size_t first_point = 0, points = 0;  ///< in Marked::points
+    Affine
+        shown;  ///< part to picture coordinates, without overlapping parts: a table as it is, belt parts side by side
 };
 
-/// One run.
+/// Result of one run.
 struct Marked {
     parts::Deviation deviation;              ///< of all parts
-    std::vector<parts::MarkedPoint> points;  ///< each in its own part's coordinates
-    std::vector<PartMarked> parts;           ///< in the order in which they pass; one if the job has no [parts]
+    std::vector<parts::MarkedPoint> points;  ///< each in the coordinates of its part
+    std::vector<PartMarked> parts;           ///< in the order of arrival; one if the job has no [parts]
     std::uint64_t lost_points = 0;
-    double seconds = 0;  ///< until the card rests
-    double duty = 0;     ///< part of it with the gate open
+    double seconds = 0;  ///< until the card is idle
+    double duty = 0;     ///< fraction of it with the gate open
     double marked_mm = 0, energy_j = 0;
-    Box reach;  ///< mm in the field: how far the list went with its correction, were there no edge
-    std::vector<FieldSample> course;  ///< in even steps, about max_field_samples
-    std::vector<Overflow>
-        overflows;  ///< every stretch in which the corrected position was outside the field, in the order of their ends
-    std::uint64_t lost_overflows = 0;  ///< more than OverflowLog::most
+    Box reach;                         ///< mm in the field: range of the corrected list without clipping
+    std::vector<FieldSample> course;   ///< at equal steps, about max_field_samples
+    std::vector<Overflow> overflows;   ///< all intervals with the corrected position outside the field, ordered by end
+    std::uint64_t lost_overflows = 0;  ///< number beyond OverflowLog::most
 
     std::size_t parts_lost() const {
         return static_cast<std::size_t>(std::count_if(
             parts.begin(), parts.end(), [](const PartMarked& p) { return p.fate != PartOutcome::marked; }));
     }
-    /// The correction stayed in the field and no part was lost.
+    /// Returns true if the correction stayed in the field and no part was lost.
     bool good() const { return overflows.empty() && parts_lost() == 0; }
 };
 
 struct MarkingOutcome {
-    Marked on;                  ///< as the job says
-    std::optional<Marked> off;  ///< the same without correction; none if the job has none
+    Marked on;                  ///< with the settings of the job
+    std::optional<Marked> off;  ///< the same without correction; empty if the job has none
     double drawing_mm = 0;
     std::size_t strokes = 0, elements = 0;
-    bool drawing_in_field = true;  ///< without the part's movement
-    /// How many times its speed the part may have until the corrected position leaves the field; none without
-    /// correction or movement. 0: the drawing does not fit even at rest.
+    bool drawing_in_field = true;  ///< without the movement of the part
+    /// Maximum velocity factor of the part before the corrected position leaves the field; empty without correction or
+    /// movement. 0: the drawing does not fit even at standstill.
     std::optional<double> fits_factor;
-    bool fits_any = false;      ///< it fits at any speed that was tried (1000 times)
-    bool starts_limit = false;  ///< what ends it is a start that is lost, not the field
+    bool fits_any = false;      ///< fits at all tested speeds (up to 1000 times)
+    bool starts_limit = false;  ///< limited by a lost start, not by the field
     Box field;                  ///< mm
-    bool waits = false;         ///< marks keep the job's own margin from the field's edge
+    bool waits = false;         ///< marks keep the job's margin from the field edge
     std::vector<std::string> notes;
-    /// A part that is not followed has to lie in the field as it is.
+    /// Without tracking, the drawing itself must lie in the field.
     bool in_field() const { return off || drawing_in_field; }
 };
 
-/// Errors: as Line; refused: waits on a belt that is too fast for them.
+/// Errors: as MarkingHost; refused if the belt is too fast for waits.
 Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const Watch& watch = {});
 
 }  // namespace motionrack::mark

@@ -1,4 +1,4 @@
-// The font: each letter on a grid 4 wide and 6 high (small ones 4), 6 from letter to letter, 10 from line to line.
+// Stroke font: letters on a grid 4 wide and 6 high (lower case 4), pitch 6, line spacing 10.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace motionrack::mark {
 
 namespace {
 
-/// Strokes as pairs x y with blanks between them; a and b stand for y = -1 and -2.
+/// Strokes as pairs x y separated by blanks; a and b mean y = -1 and -2.
 struct Glyph {
     char letter;
     std::string_view strokes;

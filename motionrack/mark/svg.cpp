@@ -1,4 +1,4 @@
-// The tree of an SVG file: which elements are drawn, with which transform, and where what is wrong stands.
+// Element tree of an SVG file: drawn elements, their transforms, and the positions of errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 13> passed_over = {
     "title",   "desc",   "metadata",       "defs",           "symbol", "clipPath", "mask",
     "pattern", "marker", "linearGradient", "radialGradient", "filter", "script"};
 
-/// What an element has from the groups around it.
+/// Properties inherited from the enclosing groups.
 struct Around {
     Affine to_mm;
     bool visible = true;
@@ -75,7 +75,7 @@ class SvgReader {
         return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
     }
 
-    /// Where the value of an attribute begins in the text; the element's place if it is not found.
+    /// Returns the position of an attribute value in the text; that of the element if not found.
     std::size_t value_of(const pugi::xml_node& node, std::string_view name) const {
         const std::size_t begin = offset(node);
         char quote = '\0';
@@ -103,10 +103,10 @@ class SvgReader {
                      fmt::format("{} of {}: {}", attribute, short_of(node.name()), error.message));
     }
 
-    /// A length with its unit; `mm_unit`: what a bare number means. Nothing if the attribute is not there.
+    /// A length with its unit; `mm_unit`: meaning of a bare number. Empty if the attribute is missing.
     struct Length {
         double value = 0;
-        double mm = 0;  ///< of one; 0: no unit was written
+        double mm = 0;  ///< mm per unit; 0: no unit given
     };
     Result<std::optional<Length>> length(const pugi::xml_node& node, const char* name) const {
         const pugi::xml_attribute attribute = node.attribute(name);
@@ -125,14 +125,14 @@ class SvgReader {
             node, name,
             {scan.at(), fmt::format("the unit '{}' is not known; mm, cm, in, pt, pc and px are", short_of(unit))});
     }
-    /// A length in user units, `otherwise` if the attribute is not there.
+    /// Returns a length in user units, `otherwise` if the attribute is missing.
     Result<double> number(const pugi::xml_node& node, const char* name, double otherwise = 0) const {
         MOTIONRACK_TRY(const std::optional<Length> found, length(node, name));
         if (!found) return otherwise;
         return found->mm == 0 ? found->value : found->value * found->mm / unit_mm_;
     }
 
-    /// From user units to mm, Y up, the lower left corner of the picture at 0, 0.
+    /// Transform from user units to mm, Y up, with the lower left corner of the picture at 0, 0.
     Result<Affine> size_of(const pugi::xml_node& root) {
         MOTIONRACK_TRY(const std::optional<Length> width, length(root, "width"));
         MOTIONRACK_TRY(const std::optional<Length> height, length(root, "height"));
@@ -149,7 +149,7 @@ class SvgReader {
             if (!(wide > 0 && high > 0)) return wrong_in(root, "viewBox", {0, "its width and height must be above 0"});
             const double by_width = width && width->mm > 0 ? width->value * width->mm / wide : 0;
             const double by_height = height && height->mm > 0 ? height->value * height->mm / high : 0;
-            // The picture keeps its shape, so the smaller one counts.
+            // The picture keeps its aspect ratio; the smaller scale applies.
             unit_mm_ = by_width > 0 && by_height > 0 ? std::min(by_width, by_height) : std::max(by_width, by_height);
             if (unit_mm_ == 0) unit_mm_ = 1;
         }
@@ -157,7 +157,7 @@ class SvgReader {
         return Affine{unit_mm_, 0, 0, -unit_mm_, -low_x * unit_mm_, (low_y + high) * unit_mm_};
     }
 
-    /// Nothing of its look would change its lines.
+    /// Checks that no style property would change its lines.
     Result<void> drawable(const pugi::xml_node& node) const {
         const std::optional<Unsupported> found = unsupported(node);
         if (!found) return {};
@@ -166,7 +166,7 @@ class SvgReader {
                      fmt::format("{} of {}: this is not supported; make plain paths of it in the editor", what,
                                  short_of(node.name())));
     }
-    /// Style sheets decide by selectors, which are not read: one that could change the lines is refused.
+    /// Style sheets use selectors, which are not supported: rejects a sheet that could change the lines.
     Result<void> sheets(const pugi::xml_node& node, int depth) const {
         if (depth > deepest) return {};
         for (const pugi::xml_node child : node.children()) {

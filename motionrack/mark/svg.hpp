@@ -1,10 +1,10 @@
-// Drawings as SVG: outlines of path, line, polyline, polygon, rect, circle and ellipse, in groups with transforms.
+// SVG drawings: outlines of path, line, polyline, polygon, rect, circle and ellipse, in groups with transforms.
 //
-// Millimetres: with width or height in mm (cm, in, pt, pc, px = 1/96 in) and a viewBox, the size says how long a user
-// unit is; without a unit, a user unit is a millimetre. Y points up afterwards. Fills, colours and widths are not
-// looked at; definitions, titles and an editor's own elements are passed over, and so is what is not displayed or not
-// visible. All else that would show is refused with its place: text (make it paths), use, image, nested svg, clipping,
-// masks, dashes, markers, filters, percentages, and style sheets that set one of these.
+// Millimetres: width or height in mm (cm, in, pt, pc, px = 1/96 in) together with a viewBox defines the user unit.
+// Without a unit, a user unit is a millimetre. Y is converted to point up. Ignores fills, colours and widths; skips
+// definitions, titles, editor-specific elements, and elements that are not displayed or not visible. Rejects any other
+// visible content with its position: text (convert it to paths), use, image, nested svg, clipping, masks, dashes,
+// markers, filters, percentages, and style sheets that set one of these.
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>
@@ -18,7 +18,7 @@ inline constexpr std::size_t max_svg_bytes = 50'000'000;
 /// Errors: invalid_input, with line and column of the element or of the character in its data.
 Result<Drawing> read_svg(std::string_view text, const std::string& file, double tolerance_mm = default_tolerance_mm);
 
-/// What is wrong in path data or a transform, and at which character of it.
+/// Error in path data or a transform, with its character index.
 struct DataError {
     std::size_t at = 0;
     std::string message;
@@ -28,19 +28,19 @@ tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen);
 /// "translate(1 2) rotate(30)" and so on.
 tl::expected<Affine, DataError> read_transform(std::string_view data);
 
-/// Numbers out of an attribute's text.
+/// Reads numbers from attribute text.
 class Scan {
   public:
     explicit Scan(std::string_view text) : text_(text) {}
-    /// Past blanks, and one comma among them.
+    /// Skips blanks and one comma among them.
     void skip();
     bool done() const { return at_ >= text_.size(); }
     char peek() const { return done() ? '\0' : text_[at_]; }
     char take() { return text_[at_++]; }
     std::size_t at() const { return at_; }
-    /// Whether a number begins here.
+    /// Returns true if a number starts here.
     bool number_next() const;
-    /// A finite number up to 1e9.
+    /// Reads a finite number up to 1e9.
     tl::expected<double, DataError> number();
     tl::expected<bool, DataError> arc_flag();
 

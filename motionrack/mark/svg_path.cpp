@@ -1,4 +1,4 @@
-// Path data and transforms of SVG.
+// SVG path data and transforms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ char shown(char c) {
     return c >= ' ' && c < 127 ? c : '?';
 }
 
-/// How many numbers a command takes; -1: there is no such command.
+/// Returns the number of parameters of a command; -1: unknown command.
 int numbers_of(char upper) {
     switch (upper) {
         case 'M':
@@ -60,7 +60,7 @@ Spot mirrored(Spot at, Spot control) {
     return {2 * at.x - control.x, 2 * at.y - control.y};
 }
 
-/// From end points to the centre, as SVG's appendix on arcs has it.
+/// Converts endpoints to the centre, as in the SVG implementation notes on arcs.
 void arc(Pen& pen, double rx, double ry, double turn_deg, bool large, bool sweep_positive, Spot to) {
     const Spot from = pen.at();
     rx = std::fabs(rx), ry = std::fabs(ry);
@@ -201,7 +201,7 @@ tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen) {
 
 namespace {
 
-/// The transform of that name; nothing if it does not take so many numbers.
+/// Returns the transform of that name; empty if the parameter count is wrong.
 std::optional<Affine> transform_of(std::string_view name, const std::vector<double>& n) {
     const std::size_t k = n.size();
     const auto tangent = [](double degrees) {

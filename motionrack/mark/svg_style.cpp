@@ -55,7 +55,7 @@ std::optional<Unsupported> unsupported(const pugi::xml_node& node) {
         if (!value.empty() && value != "none" && value != "inherit")
             return Unsupported{name, !in_style(node, name).empty()};
     }
-    // As an attribute, a transform is read.
+    // As an attribute, a transform is supported.
     if (const std::string_view value = in_style(node, "transform"); !value.empty() && value != "none")
         return Unsupported{"transform", true};
     return std::nullopt;
@@ -97,11 +97,11 @@ std::string_view svg_name(const pugi::xml_node& node) {
     for (pugi::xml_node at = node; at; at = at.parent()) {
         const std::string_view space = at.attribute(declared.c_str()).value();
         if (space.empty()) continue;
-        // Some editors write the name space as an entity of their own.
+        // Some editors write the namespace as an entity.
         const bool svg = space == svg_namespace || space.front() == '&';
         return svg ? name.substr(colon == std::string_view::npos ? 0 : colon + 1) : std::string_view();
     }
-    // Many drawings do without the declaration; a prefix that nobody declared is no SVG.
+    // Many drawings omit the declaration; an undeclared prefix is not SVG.
     return colon == std::string_view::npos ? name : std::string_view();
 }
 

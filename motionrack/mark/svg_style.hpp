@@ -1,5 +1,4 @@
-// What an element of an SVG file says of its look, as far as it changes what is drawn: whether it shows, and what would
-// change its lines.
+// Style of an SVG element, as far as it affects the drawing: visibility, and properties that would change its lines.
 #pragma once
 
 #include <optional>
@@ -9,28 +8,27 @@
 
 namespace motionrack::mark {
 
-/// The value of a property: the declaration in the element's style, else its attribute of that name; without blanks
-/// around. Empty: neither.
+/// Returns the value of a property from the element's style, else from its attribute, trimmed. Empty: neither is set.
 std::string_view property(const pugi::xml_node& node, std::string_view name);
 
-/// Something that would change the lines of a drawing and is not drawn here.
+/// A property that would change the lines of a drawing but is not supported.
 struct Unsupported {
     std::string_view name;
-    bool in_style = false;  ///< of the element, else its attribute
+    bool in_style = false;  ///< set in the style of the element, else as an attribute
 };
 std::optional<Unsupported> unsupported(const pugi::xml_node& node);
 
-/// The first property in a style sheet's text that decides what shows or where its lines are; empty: none.
+/// Returns the first property of a style sheet that affects visibility or lines; empty: none.
 std::string_view deciding_property(std::string_view sheet);
 
-/// Whether the element shows, its parent's visibility being `inherited`.
+/// Visibility of an element whose parent has the visibility `inherited`.
 struct Showing {
-    bool displayed = true;  ///< it and what is in it
+    bool displayed = true;  ///< the element with its content
     bool visible = true;
 };
 Showing showing(const pugi::xml_node& node, bool inherited);
 
-/// The element's name if it is one of SVG, whatever prefix the file has for SVG; empty: it is of another language.
+/// Returns the element's name if it is in the SVG namespace, with any prefix; empty: another namespace.
 std::string_view svg_name(const pugi::xml_node& node);
 
 }  // namespace motionrack::mark

@@ -1,4 +1,4 @@
-// Strokes cut into cells along the movement, and sorted by when they come into the field.
+// Cuts strokes into cells along the movement and sorts them by the time they enter the field.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Spot between(Spot a, Spot b, double part) {
     return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y)};
 }
 
-/// From where to where along a direction.
+/// Interval along a direction.
 struct Reach {
     double low = infinite, high = -infinite;
     void take(double v) { low = std::min(low, v), high = std::max(high, v); }
@@ -40,7 +40,7 @@ Reach reach_of(const Stroke& stroke, Spot direction) {
     return out;
 }
 
-/// Where along the element from `at` (0 .. 1) the planes direction * p = n * cell are crossed, in order.
+/// Parameters (`at` 0 .. 1) at which the element crosses the planes direction * p = n * cell, in order.
 std::vector<double> crossings(Spot at, const Element& e, Spot direction, double origin, double cell) {
     std::vector<double> out;
     const auto planes = [&](double low, double high, const auto& found) {
@@ -66,9 +66,9 @@ std::vector<double> crossings(Spot at, const Element& e, Spot direction, double 
     return out;
 }
 
-/// The stroke, cut at the planes.
+/// Cuts the stroke at the planes.
 void cut(const Stroke& stroke, Spot direction, double origin, double cell, std::vector<Stroke>& out) {
-    constexpr double least = 1e-6;  // parts of an element
+    constexpr double least = 1e-6;  // fraction of an element
     out.push_back({stroke.from, {}});
     Spot at = stroke.from;
     for (const Element& e : stroke.elements) {
@@ -91,7 +91,7 @@ void cut(const Stroke& stroke, Spot direction, double origin, double cell, std::
     }
 }
 
-/// The ways of the belt at which the stroke is in the field as a whole; low > high: none.
+/// Belt distances at which the whole stroke is in the field; low > high: none.
 Reach ways_of(const Stroke& stroke, const Box& field, Spot movement) {
     Reach out{-infinite, infinite};
     const auto axis = [&](double p, double v, double low, double high) {

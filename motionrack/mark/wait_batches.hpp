@@ -1,9 +1,9 @@
-// A drawing longer than the field, on a belt: pieces, and from which way of the belt on each of them is in the field.
+// A drawing longer than the field on a belt: its pieces, and the belt distance from which each is in the field.
 //
 //        field low                 high
-//   ───────┼───────────────────────┼──────► movement      way = 0:   a drawing comes in from the left
-//   ==pp====pp==|==pp====pp==|                            at(piece): its last point has come in
-//               pieces, cut across the movement           until:     its first point goes out
+//  ───────┼───────────────────────┼──────► movement      way = 0:   a drawing enters from the left
+//  ==pp====pp==|==pp====pp==|                            at(piece): its last point has entered
+//              pieces, cut across the movement           until:     its first point leaves
 #pragma once
 
 #include <motionrack/mark/drawing.hpp>
@@ -11,16 +11,16 @@
 
 namespace motionrack::mark {
 
-/// Strokes that one wait is for.
+/// Strokes that share one wait.
 struct WaitBatch {
-    double at_mm = 0;     ///< way of the belt from which on all of it is in the field
-    double until_mm = 0;  ///< way of the belt until which all of it is
+    double at_mm = 0;     ///< belt distance from which all of it is in the field
+    double until_mm = 0;  ///< belt distance until which all of it is in the field
     std::vector<Stroke> strokes;
 };
 
-/// The drawing in the order in which it comes into `field` (already without its margin), moved by way * `movement` (a
-/// unit vector). Strokes longer than a quarter of the field are cut across the movement.
-/// Errors: refused: what is never in the field, or is past it before the belt moves; with how much.
+/// Returns the drawing in the order in which it enters `field` (already reduced by its margin), moved by way *
+/// `movement` (a unit vector). Cuts strokes longer than a quarter of the field across the movement.
+/// Errors: refused, with the amount, for content that is never in the field or leaves it before the belt moves.
 Result<std::vector<WaitBatch>> batches_of(const Drawing& drawing, const Box& field, Spot movement);
 
 }  // namespace motionrack::mark

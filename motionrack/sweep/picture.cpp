@@ -1,4 +1,4 @@
-// Choosing what is drawn over what.
+// Selects the axes of the charts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,17 +20,17 @@ constexpr int width = 760, chart_height = 210, map_height = 300, heading_height 
 constexpr std::size_t max_lines = 6, max_maps = 12;
 constexpr std::array<const char*, max_lines> looks = {"z", "x", "y", "a", "b", "c"};
 
-/// Something that is varied, with more than one value.
+/// A varied parameter with more than one value.
 struct Varied {
-    std::size_t at = 0;  ///< in the parameters
+    std::size_t at = 0;  ///< index in the parameters
     std::string name;
     bool number = false;
-    std::vector<std::string> names;  ///< of one that is no number, in the order of the file
+    std::vector<std::string> names;  ///< of a non-numeric one, in file order
 };
 
 struct Measure {
     std::string title;
-    std::vector<double> values;  ///< one a point
+    std::vector<double> values;  ///< one per point
 };
 
 class Picture {
@@ -99,7 +99,7 @@ class Picture {
 
     static std::string shown(const std::string& text) { return text.empty() ? "none" : text; }
 
-    /// Points with the same combination of these values are a group.
+    /// Groups points by the combination of these values.
     void group(const std::vector<const Varied*>& by) {
         for (std::size_t i = 0; i < values_.size(); ++i) {
             std::string name;
@@ -125,7 +125,7 @@ class Picture {
         return out;
     }
 
-    /// The points over x, a series for each group; all of them one where there are too many groups.
+    /// Points over x, one series per group; a single series if there are too many groups.
     trace::SvgScatter scatter(const Measure& measure, const Varied& x, bool joined) const {
         trace::SvgScatter out{measure.title, x.name, {}, {}};
         for (const std::string& name : x.names) out.x_names.push_back(shown(name));
@@ -169,7 +169,7 @@ class Picture {
             std::vector<std::string> row;
             for (const Measure& measure : measures_) {
                 trace::SvgScatter one = scatter(measure, x, false);
-                // There is room for the names once in a row.
+                // A row has space for the names once.
                 for (trace::SvgDots& series : one.series)
                     if (!row.empty()) series.name.clear();
                 row.push_back(
@@ -179,7 +179,7 @@ class Picture {
         }
     }
 
-    /// Pictures of the same size beside each other, below a name.
+    /// Places pictures of the same size side by side, below a name.
     void add_row(const std::string& name, const std::vector<std::string>& pictures, int height) {
         const int heading = name.empty() ? 0 : heading_height, each = width / static_cast<int>(pictures.size());
         std::vector<trace::SvgPart> row;

@@ -1,4 +1,4 @@
-// What came of a sweep, as one picture.
+// Results of a sweep as one picture.
 #pragma once
 
 #include <motionrack/sweep/results.hpp>
@@ -6,8 +6,8 @@
 
 namespace motionrack::sweep {
 
-/// SVG. One number is varied: time and deviation over it, a line for each combination of the rest; two: maps of both, a
-/// pair for each combination; else time and deviation over each thing that is varied. All rows must be there.
+/// Returns an SVG. One varied number: time and deviation over it, one line per combination of the others. Two: maps of
+/// both, a pair per combination. Otherwise: time and deviation over each varied parameter. Requires all rows.
 std::string picture_of(const Sweep& sweep, const Results& results);
 
 }  // namespace motionrack::sweep

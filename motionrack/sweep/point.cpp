@@ -1,5 +1,4 @@
-// The text of a point. Each part is its name, its length in bytes and its bytes, so that programs may have any bytes in
-// them:
+// Text of a point. Each part is its name, its length in bytes and its bytes, so that programs may contain any bytes:
 //
 //   motionrack point 1
 //   version 5
@@ -27,7 +26,7 @@ struct Part {
     std::string_view name, bytes;
 };
 
-/// Takes the first part off `text`; nothing: it is damaged.
+/// Removes the first part from `text`; empty if it is damaged.
 std::optional<Part> take_part(std::string_view& text) {
     const std::size_t blank = text.find(' '), end = text.find('\n');
     if (blank == std::string_view::npos || end == std::string_view::npos || blank > end) return std::nullopt;

@@ -1,4 +1,4 @@
-// Checking a sweep before anything runs.
+// Checks a sweep before any run.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ class Preparation {
         return tools.has_value();
     }
 
-    /// Names that cannot be put into the rack or the program at all.
+    /// Names that do not fit the rack or the program.
     void check_paths() {
         TomlNode value;
         value.type = rack::TomlType::flag;
@@ -95,7 +95,7 @@ class Preparation {
             check_program(values);
         }
         if (problems_.any_errors() || !others_.empty()) return;
-        // What a program calls is known once all of them were read.
+        // Called subprograms are known only after all texts were read.
         for (std::int64_t i = 0; i < points; ++i) sweep_.keys_.push_back(key_of(text_of(sweep_.point(i))));
     }
 
@@ -126,7 +126,7 @@ class Preparation {
         }
     }
 
-    /// An error of a point's rack, where the sweep file says what is wrong.
+    /// Reports an error of a point's rack at the responsible position of the sweep file.
     void tell(const Error& error, const std::vector<rack::TomlLine>& lines, const std::vector<TomlNode>& values) {
         const auto at = static_cast<std::size_t>(error.place.line - 1);
         const std::string name = at < lines.size() ? lines[at].name : std::string();
@@ -174,7 +174,7 @@ class Preparation {
     const SweepFiles& files_;
     control::gcode::Settings reading_;
     std::vector<Error> others_, warnings_;             // of other files
-    std::set<std::string> racks_, programs_, faults_;  // that were looked at
+    std::set<std::string> racks_, programs_, faults_;  // already checked
     std::set<std::tuple<int, int, std::string>> told_;
 };
 

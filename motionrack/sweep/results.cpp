@@ -1,4 +1,4 @@
-// Keeping rows, and putting them in order.
+// Stores rows and sorts them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Result<void> put_in_place(const std::string& made, const std::string& path) {
                                            std::generic_category().message(errno), made));
 }
 
-/// Columns in the order of every table; those of results only where `shown` says so.
+/// Column names in table order; result columns only if `shown`.
 std::vector<std::string> heads(const Sweep& sweep, const std::vector<bool>& shown) {
     std::vector<std::string> out = {"key", "point"};
     for (const Parameter& parameter : sweep.parameters()) out.push_back(parameter.name);
@@ -38,7 +38,7 @@ std::vector<bool> all_shown() {
     return std::vector<bool>(result_columns().size(), true);
 }
 
-/// Which results some point has.
+/// Result columns that at least one point has.
 std::vector<bool> shown_of(const Sweep& sweep, const Results& results) {
     const auto columns = result_columns();
     std::vector<bool> out(columns.size(), false);
@@ -52,7 +52,7 @@ std::vector<bool> shown_of(const Sweep& sweep, const Results& results) {
 
 Result<std::unique_ptr<Results>> Results::open(const Sweep& sweep, const std::string& path, bool fresh) {
     std::unique_ptr<Results> out(new Results(sweep, path));
-    // Read even if nothing is taken: a file that is no table is not written over.
+    // Reads the file even if it is not used, so that a file that is not a table is not overwritten.
     MOTIONRACK_TRY(Rows whole, is_hdf5(path) ? read_rows_hdf5(path) : read_rows_csv(path));
     MOTIONRACK_TRY(Rows begun, read_rows_csv(out->part()));
     if (!fresh) {
@@ -65,7 +65,7 @@ Result<std::unique_ptr<Results>> Results::open(const Sweep& sweep, const std::st
     return out;
 }
 
-/// Begins with the rows that were taken; the file is in its place at once, and goes on there.
+/// Starts the file with the reused rows; it has its final name at once and grows there.
 Result<void> Results::begin_part() {
     const std::string made = part() + ".new";
     MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create_log(made, heads(sweep_, all_shown())));
@@ -148,7 +148,7 @@ Result<Rows> read_rows_csv(const std::string& path) {
     while (true) {
         const Result<bool> next = csv.next(fields);
         if (!next && next.error().kind == ErrorKind::io) return tl::unexpected<Error>(next.error());
-        // A row that was cut off is made again.
+        // A truncated row is computed again.
         if (!next || !*next || csv.cut()) return out;
         Row row;
         for (const ResultColumn& column : result_columns())

@@ -1,10 +1,9 @@
-// The table of a sweep, and what is kept of it while it runs.
+// Result table of a sweep and its partial file during the run.
 //
-//   results.csv.part   a row as soon as its point is done, in that order; what is in it survives a kill
-//   results.csv        all rows, by point; written whole when the last one is there, then the other is gone
+//  results.csv.part   each row as soon as its point is done, in that order; survives a kill
+//  results.csv        all rows, by point; written as a whole at the end, then the partial file is removed
 //
-// Rows are found again by their key, the hash of everything that they were made of: rows of another program, rack or
-// value are not taken.
+// Rows are found by their key, the hash of all their inputs; rows of another program, rack or value are not reused.
 #pragma once
 
 #include <cstdint>
@@ -17,30 +16,29 @@
 
 namespace motionrack::sweep {
 
-/// Rows by their keys.
+/// Rows by key.
 using Rows = std::unordered_map<std::string, Row>;
 
 class Results {
   public:
-    /// Takes what an earlier run left, unless `fresh`. A path that ends in .h5 or .hdf5 is HDF5, any other CSV. Errors:
-    /// io; refused, there is a file that is no table of a sweep.
+    /// Reuses the rows of an earlier run unless `fresh`. Paths ending in .h5 or .hdf5 are HDF5, others CSV. Errors: io;
+    /// refused if an existing file is not a sweep table.
     static Result<std::unique_ptr<Results>> open(const Sweep& sweep, const std::string& path, bool fresh);
 
     bool has(std::int64_t point) const { return rows_.count(sweep_.key(point)) != 0; }
     const Row& row(std::int64_t point) const { return rows_.at(sweep_.key(point)); }
     std::int64_t points() const { return sweep_.points(); }
-    /// How many points have their row.
+    /// Number of points with a row.
     std::int64_t done() const { return done_; }
-    /// The points that have none; of those with the same key the first.
+    /// Points without a row; one per key, the first.
     std::vector<std::int64_t> missing() const;
 
-    /// The row of this point; it is in the file when this returns. Another one with the same key is left out. Errors:
-    /// io.
+    /// Adds the row of this point; it is in the file on return. Ignores a second row with the same key. Errors: io.
     Result<void> add(std::int64_t point, Row row);
-    /// Writes the table, if all rows are there; then the other file is gone. Errors: io.
+    /// Writes the table if all rows exist, then removes the partial file. Errors: io.
     Result<void> finish();
 
-    /// Where rows are kept until then.
+    /// Path of the partial file.
     std::string part() const { return path_ + ".part"; }
 
   private:
@@ -51,7 +49,7 @@ class Results {
     const Sweep& sweep_;
     std::string path_;
     Rows rows_;
-    std::unordered_map<std::string, std::int64_t> wanted_;  // how many points have this key
+    std::unordered_map<std::string, std::int64_t> wanted_;  // number of points with this key
     std::int64_t done_ = 0;
     std::unique_ptr<trace::CsvWriter> csv_;
 };
@@ -60,16 +58,16 @@ class Results {
 struct TableColumn {
     std::string name, unit;
     bool text = false;
-    std::vector<std::string> cells;  ///< one a point; empty where there is none
+    std::vector<std::string> cells;  ///< one per point; empty if missing
 };
-/// key, point, what is varied, and the results that some point has. All rows must be there.
+/// Columns: key, point, varied parameters, and the results that at least one point has. Requires all rows.
 std::vector<TableColumn> table_of(const Sweep& sweep, const Results& results);
 
-/// Writes a table, over what was there. Errors: io.
+/// Writes a table and replaces an existing file. Errors: io.
 Result<void> write_table_hdf5(const std::vector<TableColumn>& table, const std::string& path);
 
-/// The rows of a table that was written, or of one that was cut off; none if there is no such file. Errors: io;
-/// refused, the file is no table of a sweep.
+/// Returns the rows of a complete or partial table; none if the file does not exist. Errors: io; refused if the file is
+/// not a sweep table.
 Result<Rows> read_rows_csv(const std::string& path);
 Result<Rows> read_rows_hdf5(const std::string& path);
 

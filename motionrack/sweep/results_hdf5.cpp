@@ -1,4 +1,4 @@
-// The table as HDF5: one column each, texts of equal length, numbers as 64-bit floats with NaN where there is none.
+// Result table as HDF5: one dataset per column; texts of equal length, numbers as 64-bit floats with NaN if missing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using trace::hdf5::File;
 using trace::hdf5::Type;
 
 constexpr const char* format = "motionrack sweep";
-/// Where the texts of the columns' names stand: names have dots and quotes, paths of HDF5 must not have slashes.
+/// Path of a column name's text: names contain dots and quotes, and HDF5 paths must not contain slashes.
 std::string path_of(std::string name) {
     std::replace(name.begin(), name.end(), '/', '_');
     return name;

@@ -1,4 +1,4 @@
-// Running a point, and the columns of its row.
+// Runs a point; defines the columns of its row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::string number_text(double value) {
     return std::isfinite(value) ? fmt::format("{}", value == 0 ? 0.0 : value) : std::string();
 }
 
-/// What a row has of each axis.
+/// Columns of a row for each axis.
 struct AxisColumn {
     std::string_view name, unit;  ///< "{u}" is mm or deg
     double (*value)(const rack::AxisOutcome& axis);
@@ -68,7 +68,7 @@ Row row_of(const rack::JobOutcome& outcome) {
     return out;
 }
 
-/// The row of what was refused before it could begin.
+/// Row of a point that was rejected before its start.
 Row refused(const Error& error) {
     rack::JobOutcome out;
     out.ended = tl::unexpected<Error>(error);

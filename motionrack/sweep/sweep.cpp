@@ -1,4 +1,4 @@
-// The points of a sweep: values, rack, program.
+// Points of a sweep: values, rack, program.
 #include <algorithm>
 #include <motionrack/sweep/sweep.hpp>
 
@@ -8,7 +8,7 @@ namespace {
 
 using rack::TomlNode;
 
-/// A well-mixed number of three others (SplitMix64's steps), so that each value of each point can be drawn by itself.
+/// Mixes three numbers (the steps of SplitMix64), so that each value of each point is drawn independently.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t parameter) {
     std::uint64_t out = seed;
     for (const std::uint64_t one : {point, parameter}) {

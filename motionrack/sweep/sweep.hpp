@@ -1,4 +1,4 @@
-// A sweep with all its files read and every point checked, so that nothing is found wrong after hours.
+// A sweep with all files read and every point checked, so that errors show before the first run.
 //
 //   sweep file, rack file, program ──prepare──► Sweep ──point(i)──► PointText ──► text, key
 #pragma once
@@ -20,8 +20,7 @@ class Sweep {
   public:
     std::int64_t points() const { return static_cast<std::int64_t>(keys_.size()); }
     const std::vector<Parameter>& parameters() const { return file_.parameters; }
-    /// Of point `i`, 0 .. points() - 1: a value for each parameter. Of a grid the last parameter changes from point to
-    /// point.
+    /// Returns a value per parameter for point `i`, 0 .. points() - 1. In a grid, the last parameter changes fastest.
     std::vector<rack::TomlNode> values(std::int64_t i) const;
     PointText point(std::int64_t i) const;
     const std::string& key(std::int64_t i) const { return keys_[static_cast<std::size_t>(i)]; }
@@ -44,20 +43,20 @@ class Sweep {
 
 struct SweepReading {
     std::optional<Sweep> sweep;  ///< if there are no errors
-    std::vector<Error> errors;   ///< with the places in the sweep file, the rack file or the program
+    std::vector<Error> errors;   ///< with positions in the sweep file, the rack file or the program
     std::vector<Error> warnings;
 };
 
-/// The files that a sweep file names, with the paths that the settings have. The caller knows where they are.
+/// Files named by a sweep file, with the paths from the settings. The caller resolves them.
 struct SweepFiles {
     std::string rack_name, rack;
     std::string program_name, program;
     std::string tools_name, tools;                                      ///< empty: none
-    std::function<Result<std::string>(const std::string&)> subprogram;  ///< by its name; may be empty
+    std::function<Result<std::string>(const std::string&)> subprogram;  ///< by name; may be empty
 };
 
-/// Reads the texts and checks them together: the rack of every point, each text of the program on the rack as its file
-/// has it, each fault on the first rack that gets it.
+/// Reads the texts and checks them together: the rack of every point, each program text on the rack of its file, each
+/// fault on the first rack that uses it.
 SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files);
 
 }  // namespace motionrack::sweep

@@ -1,4 +1,4 @@
-// The keys of a sweep file, each declared once.
+// Keys of a sweep file, each declared once.
 #pragma once
 
 #include <array>

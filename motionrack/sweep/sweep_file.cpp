@@ -1,4 +1,4 @@
-// Reading a sweep file.
+// Reads a sweep file.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ class Reader {
     void read_vary(const TomlNode& vary) {
         for (const TomlNode& node : vary.children) {
             const std::vector<std::string> path = rack::toml_path(node.key);
-            // "axis.X.max_limit_mm" in quotes and axis.X.max_limit_mm without are the same.
+            // "axis.X.max_limit_mm" with and without quotes are equivalent.
             if (!path.empty() && rack::toml_name(path) == node.key)
                 descend(node, path);
             else
@@ -260,7 +260,7 @@ double tidied(double value, const NumberRange& range) {
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream in(text);
-    in.exceptions(std::ios::badbit);  // else missing memory would look like the end of the text
+    in.exceptions(std::ios::badbit);  // otherwise a failed allocation would look like the end of the text
     std::vector<std::string> out;
     for (std::string word; in >> word;) out.push_back(word);
     return out;

@@ -1,4 +1,4 @@
-// A sweep file (TOML): which program on which rack, and what is varied.
+// Sweep file (TOML): the program, the rack, and the varied parameters.
 //
 //   [sweep]                                         [vary]
 //   program = "part.ngc"                            "axis.X.max_accel_mm_s2" = { from = 500, to = 4000, steps = 8 }
@@ -35,34 +35,34 @@ struct SweepSettings {
 enum class ParameterKind : std::uint8_t {
     rack,   ///< a key of the rack file
     fault,  ///< faults of the run
-    text    ///< a word in braces of the program
+    text    ///< a word in braces in the program
 };
 
-/// Numbers between two others.
+/// Range of numbers.
 struct NumberRange {
     double from = 0, to = 0;
     bool whole = false;
 };
 
-/// Something that is varied.
+/// A varied parameter.
 struct Parameter {
     ParameterKind kind = ParameterKind::rack;
-    std::string name;                    ///< as tables call it: axis.X.max_limit_mm, fault, text.TOLERANCE
-    std::vector<std::string> path;       ///< of the rack file
-    std::vector<rack::TomlNode> values;  ///< with their places in the sweep file; empty: `range` is
-    std::optional<NumberRange> range;    ///< any number of it; of random sweeps only
-    Place place;                         ///< of its key
+    std::string name;                    ///< name in tables: axis.X.max_limit_mm, fault, text.TOLERANCE
+    std::vector<std::string> path;       ///< in the rack file
+    std::vector<rack::TomlNode> values;  ///< with positions in the sweep file; empty: uses `range`
+    std::optional<NumberRange> range;    ///< any number in it; random sweeps only
+    Place place;                         ///< position of its key
 
-    /// All its values are numbers.
+    /// Returns true if all values are numbers.
     bool numeric() const;
 };
 
-/// The file by itself; the files that it names are not read yet.
+/// The sweep file alone; the files it names are not yet read.
 struct SweepFile {
     SweepSettings settings;
-    std::vector<Parameter> parameters;  ///< in the order of the file
+    std::vector<Parameter> parameters;  ///< in file order
     rack::TomlNode root;
-    /// How many points it makes.
+    /// Number of points.
     std::int64_t points() const;
 };
 
@@ -71,19 +71,19 @@ struct SweepFileReading {
     std::vector<Error> errors;
 };
 
-/// Never throws; any text gives a file or errors, sorted by place. `name` stands in them.
+/// Never throws; any text gives a file or errors, sorted by position. `name` is used in the messages.
 SweepFileReading read_sweep_file(std::string_view text, const std::string& name);
 
-/// The reference of the keys (Markdown).
+/// Reference of the keys (Markdown).
 std::string sweep_file_reference();
 
-/// A value as tables and programs have it: 0.05, X.limit_plus=0@1.5s, true.
+/// Text of a value in tables and programs: 0.05, X.limit_plus=0@1.5s, true.
 std::string value_text(const rack::TomlNode& value);
 
-/// The faults of a value, which stand with blanks between.
+/// Splits the faults of a value at blanks.
 std::vector<std::string> words_of(const std::string& text);
 
-/// The number of `range` nearest to `value` that has few digits: it is off by at most 1/20,000 of the range.
+/// Rounds `value` to few digits within `range`; the error is at most 1/20,000 of the range.
 double tidied(double value, const NumberRange& range);
 
 }  // namespace motionrack::sweep

@@ -1,4 +1,4 @@
-// The reference page of the sweep file, written from the tables that the reader reads with.
+// Generates the reference page of the sweep file from the reader's tables.
 #include <fmt/format.h>
 
 #include <motionrack/rack/fields_table.hpp>

@@ -1,4 +1,4 @@
-// Threads that take point after point.
+// Threads that run the points.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -71,7 +71,7 @@ class Crew {
     std::atomic<std::size_t> next_{0};
     std::atomic<bool> halt_{false};
     std::mutex mutex_;
-    Result<void> ended_;  // the first trouble
+    Result<void> ended_;  // first error
 };
 
 }  // namespace
