@@ -16,7 +16,7 @@ using motionrack::rack::ProgramReport;
 
 constexpr const char* no_program = "The part program is a null pointer. Nothing was moved.";
 
-/// Of what may have moved.
+/// Returns the error code of an operation that may have moved axes.
 int code_of_end(const Result<void>& ended) {
     if (ended) return MR_OK;
     switch (ended.error().kind) {
@@ -46,12 +46,12 @@ ProgramOrder order_of(const char* path_or_text, const mr_run_options* options) {
     return out;
 }
 
-/// Whether a call-back has called: what an earlier call left in the rack stays then.
+/// Rejects a call from inside a callback and keeps the results of the outer call.
 bool is_refused_in_call_back(const mr_rack& rack) {
     return !rack.session->check_free().has_value();
 }
 
-/// The code and sentence of what has moved, or not.
+/// Returns the code and stores the sentence of a finished operation.
 int finished(mr_rack& rack, const Result<void>& ended, const std::string& sentence) {
     const int code = code_of_end(ended);
     return code == MR_OK ? code : failed(code, sentence.empty() ? rack.report : sentence);

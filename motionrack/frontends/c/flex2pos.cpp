@@ -23,7 +23,7 @@ static_assert(flex2pos_payload == io::min_payload);
 struct flex2pos {
     flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)
         : session(of), config(of.rack().config()), library(port, port) {}
-    const motionrack::rack::Session& session;    ///< lives longer
+    const motionrack::rack::Session& session;    ///< outlives this
     const motionrack::rack::RackConfig& config;  ///< of its rack
     io::Flex2Pos library;
 };
@@ -32,7 +32,8 @@ namespace {
 constexpr const char* no_object =
     "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
 
-/// What `call` gives, or 0: for no object, in a call-back of its rack, and if there is no memory for a sentence.
+/// Returns the value of `call`, or 0 for a null object, inside a callback of its rack, or without memory for a
+/// sentence.
 template <class Call>
 auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
     using Value = decltype(call(flex->library));

@@ -1,4 +1,4 @@
-// The frames of motionrack/c.h over the function library of the grating bus' cards.
+// The frames of motionrack/c.h over the function library of the grating bus cards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ static_assert(MR_MAX_SCALES == gb::max_scales && sizeof(mr_frame::counts) == siz
 
 constexpr const char* no_frame = "There is no place for the frame: it is a null pointer. Nothing was done.";
 
-/// A card's registers and interrupt as a program with the rack has them; the first error is kept.
+/// Registers and interrupt of a card as seen by a program with the rack; stores the first error.
 class SessionPort final : public RegisterPort, public Interrupt {
   public:
     SessionPort(rack::Session& session, std::string_view card) : session_(session), card_(card) {}
@@ -36,7 +36,7 @@ class SessionPort final : public RegisterPort, public Interrupt {
         keep(session_.advance(static_cast<std::uint64_t>(duration.count() + 9) / 10));
     }
     Instant now() const override { return session_.rack().kernel().now(); }
-    /// After an error nothing is waited for.
+    /// Stops waiting after an error.
     bool stop_requested() const override { return error_.has_value(); }
     const std::optional<Error>& error() const { return error_; }
 
@@ -61,7 +61,7 @@ void copy(const gb::Frame& from, mr_frame& to) {
     std::copy_n(from.addresses.begin(), from.words, to.addresses);
 }
 
-/// What `take` gives of the card's library.
+/// Returns the value that `take` reads from the card's library.
 template <class Take>
 Result<void> read_frame(rack::Session& session, std::string_view name, mr_frame& frame, Take take) {
     MOTIONRACK_TRY(const rack::Card* card, rack::card_named(session.rack(), name));

@@ -1,4 +1,4 @@
-// motionrack/c.h: what a rack has.
+// motionrack/c.h: lists of the contents of a rack.
 #include <motionrack/frontends/c/calls.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>

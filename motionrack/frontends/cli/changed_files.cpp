@@ -1,4 +1,4 @@
-// Comparing files with the texts that were read from them.
+// Compares files with the texts read from them.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// bench: how fast this machine runs a rack, in numbers a user can compare; the full benchmarks are in bench/.
+// bench: measures how fast this computer runs a rack; the full benchmarks are in bench/.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// calibrate: what a marking machine's corrections are to be set to, from marks and readings.
+// calibrate: computes the corrections of a marking machine from marks and readings.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// check, canon and new: what can be said of files without moving anything.
+// check, canon and new: commands on files that do not move anything.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -94,7 +94,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     return exit_done;
 }
 
-/// Six axes that go anywhere.
+/// Six axes without travel limits.
 control::MachineLimits boundless() {
     control::MachineLimits limits = {};
     for (control::AxisLimits& axis : limits) {
@@ -165,7 +165,7 @@ void add_canon(CLI::App& app, Action& chosen) {
             auto settings = program_settings(*config, options->file, options->reading, code);
             if (!settings) return code;
             if (options->rack.empty()) settings->limits = boundless();
-            settings->probe = true;  // what a probing move means does not depend on the rack
+            settings->probe = true;  // the meaning of a probing move does not depend on the rack
             const auto done = gcode::print_canon(
                 *text, *settings, how, [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); },
                 options->file);

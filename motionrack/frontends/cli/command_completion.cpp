@@ -1,4 +1,4 @@
-// completion: a bash completion script made from the command line's own tables.
+// completion: a bash completion script from the command line definition.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,4 +1,4 @@
-// decode: counts, speeds and faults of the encoders in a logic analyser's capture.
+// decode: counts, velocities and faults of the encoders in a logic analyser capture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ int print_analysis(const decode::Analysis& analysis, const DecodeOptions& option
         fmt::print("{}\n", decode::analysis_json(analysis, options.file));
     else
         fmt::print("{}", decode::analysis_text(analysis, options.file, options.list));
-    std::fflush(stdout);  // the tables before what is to be said of them
+    std::fflush(stdout);  // prints the tables before the messages
     for (const std::string& warning : decode::analysis_warnings(analysis)) print_warning(warning);
     if (analysis.cut) return report(*analysis.cut);
     if (!analysis.stopped) return exit_done;

@@ -1,5 +1,5 @@
-// describe: a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what
-// a served machine can be asked.
+// describe: registers, commands, states and pins of a card; keys of a rack file, marking job or sweep file; or
+// operations of a served machine.
 #include <fmt/format.h>
 
 #include <memory>
@@ -23,7 +23,7 @@ struct DescribeOptions {
     bool markdown = false, json = false;
 };
 
-/// "mcx314, databoard4002": all of them.
+/// Returns all card types: "mcx314, databoard4002".
 std::string card_types() {
     std::string out;
     for (const rack::CardKind& kind : rack::card_kinds()) out.append(out.empty() ? "" : ", ").append(kind.type);

@@ -1,4 +1,4 @@
-// frames: the group of commands about frames of a grating bus.
+// frames: command group for frames of a grating bus.
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
 

@@ -1,4 +1,4 @@
-// frames feed: a rack here whose remote cards hold the frames of a bus on another computer, in real time.
+// frames feed: a local rack whose remote cards receive the frames of a bus on another computer, in real time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void show(const FeedOptions& options, const rack::FrameMonitor& watch, Instant n
     std::fflush(stdout);
 }
 
-/// The rack's time is the time since the start. Gives the number of frames that were handed over.
+/// The simulated time is the time since the start. Returns the number of frames delivered.
 std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack::FrameMonitor& watch,
                        dds::RemoteFeed& feed) {
     const std::vector<grating_bus::Card*> cards = remote_cards(rack);

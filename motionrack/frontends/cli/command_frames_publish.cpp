@@ -30,7 +30,7 @@ struct PublishOptions {
     bool json = false, quiet = false;
 };
 
-/// The frames of a rack's card.
+/// Frames of a card in a rack.
 class RackFrames final : public dds::FrameSource {
   public:
     RackFrames(rack::FrameStepper& tap, rack::FaultSchedule& faults, Instant end)
@@ -46,7 +46,7 @@ class RackFrames final : public dds::FrameSource {
     Instant end_;
 };
 
-/// What the publisher did, and how well it kept its times.
+/// Reports the results of the publisher and the accuracy of its times.
 void report_published(const dds::Publisher& publisher, const dds::Published& done, const PublishOptions& options) {
     if (options.json) {
         const nlohmann::ordered_json out = {{"bus", options.bus.name},
@@ -72,7 +72,7 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
         print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
 }
 
-/// Everything that runs while a rack publishes.
+/// Everything that runs while a rack is published.
 struct Run {
     const PublishOptions& options;
     rack::Rack& rack;
@@ -82,7 +82,7 @@ struct Run {
     dds::PublishingSettings settings;
 };
 
-/// Nothing moves but what moves by itself.
+/// Runs the rack without commanded motion.
 Result<dds::Published> publish_standing(Run& run) {
     run.rack.start();
     run.faults.begin();
@@ -90,7 +90,7 @@ Result<dds::Published> publish_standing(Run& run) {
     return publish_frames(run.publisher, source, run.settings);
 }
 
-/// The frames while a part program moves the rack's axes.
+/// Publishes the frames while a part program moves the axes.
 Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
     dds::FramePublisher publishing(run.publisher, run.settings);
     const Instant end = run.options.seconds > 0 ? from_seconds(run.options.seconds) : never;
@@ -111,7 +111,7 @@ Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
     run.rack.start();
     run.faults.begin();
     const rack::JobOutcome outcome = job.run();
-    // Enough frames end the program on its way, as asked.
+    // The requested number of frames ends the program early.
     const bool ended_here = enough && !publishing.outcome().stopped;
     if (!outcome.ended && !(ended_here && outcome.ended.error().kind == ErrorKind::stopped))
         return tl::unexpected(outcome.ended.error());

@@ -1,5 +1,5 @@
-// frames RACK: runs a rack with a grating bus and shows live what every card holds, who disturbs whom, and one frame as
-// a picture.
+// frames RACK: runs a rack with a grating bus and shows live the frame of every card, the conflicts, and one frame as a
+// picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Screen {
           live_(is_terminal(1) && !options.json && !options.quiet),
           begun_(dds::monotonic_now()) {}
 
-    /// The rack's time is `now`: shows it if it is time to.
+    /// Shows the state at simulated time `now` if an update is due.
     void look(Instant now) {
         if (now < next_) return;
         next_ = now + from_seconds(options_.every);
@@ -61,7 +61,7 @@ class Screen {
     std::ptrdiff_t lines_ = 0;
 };
 
-/// A running rack with all that looks at it.
+/// A running rack with all its observers.
 struct Show {
     rack::Rack& rack;
     rack::FaultSchedule& faults;
@@ -84,7 +84,7 @@ void run_for(Show& show, Duration time) {
     }
 }
 
-/// A program that was read and is right, and the files that it was read from.
+/// A valid program and the files that it was read from.
 struct ReadProgram {
     ProgramText text;
     control::gcode::Settings reading;

@@ -1,5 +1,5 @@
-// frames subscribe: shows what comes over the network from a grating bus, live, as lines, as JSON, and every frame as
-// CSV.
+// frames subscribe: shows the frames received from a grating bus over the network, live, as lines, as JSON, and every
+// frame as CSV.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct SubscribeOptions {
     bool json = false, quiet = false;
 };
 
-/// Every used frame as a row.
+/// Writes every used frame as a row.
 class CsvFile {
   public:
     Result<void> open(const std::string& path) {
@@ -69,7 +69,7 @@ class CsvFile {
     bool begun_ = false;
 };
 
-/// What is on the screen, or goes into a pipe.
+/// Output on the screen or to a pipe.
 class Display {
   public:
     Display(const SubscribeOptions& options, Instant start)
@@ -106,7 +106,7 @@ class Display {
     bool live() const { return live_; }
 
   private:
-    /// Takes the table away that is shown.
+    /// Clears the displayed table.
     void wipe() {
         if (lines_ > 0) fmt::print("\033[{}A\033[J", lines_);
         std::fflush(stdout);
@@ -118,7 +118,7 @@ class Display {
     std::ptrdiff_t lines_ = 0;
 };
 
-/// How the reading ended, in words and as a code.
+/// Prints the result of the subscription and returns its exit code.
 int ending(const SubscribeOptions& options, const dds::FrameValidator& judge, bool enough) {
     if (stop_asked.load()) return exit_stopped;
     if (judge.counts().used == 0) {
@@ -142,7 +142,7 @@ int ending(const SubscribeOptions& options, const dds::FrameValidator& judge, bo
     return exit_done;
 }
 
-/// How long it may take until something has to be looked at, be it that nothing comes.
+/// Returns the time until the next check, even if no frame arrives.
 Duration until_stale(const dds::FrameValidator& judge, Instant now) {
     static constexpr Duration at_most = milliseconds(50);
     if (!judge.joined() || judge.stale()) return at_most;

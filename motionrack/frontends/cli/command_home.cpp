@@ -1,4 +1,4 @@
-// home: finds the home switches of a rack's axes and tells what was found.
+// home: homes the axes of a rack and reports the switches found.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -24,7 +24,7 @@ struct HomeOptions {
     bool json = false, quiet = false;
 };
 
-/// "part.svg" of one axis; of several "part_X.svg".
+/// Returns "part.svg" for one axis, "part_X.svg" for several.
 std::string picture_name(const std::string& path, char axis, std::size_t axes) {
     if (axes == 1) return path;
     const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
@@ -32,7 +32,7 @@ std::string picture_name(const std::string& path, char axis, std::size_t axes) {
     return path.substr(0, at) + "_" + axis + path.substr(at);
 }
 
-/// All names that a picture may have.
+/// Returns all possible names of pictures.
 std::vector<std::string> pictures_of(const HomeOptions& options, const rack::RackConfig& config) {
     if (options.picture.empty()) return {};
     std::vector<std::string> out = {options.picture};
@@ -75,7 +75,7 @@ int home(const HomeOptions& options) {
     settings.stop = &stop_asked;
     ProgressLine progress(options.quiet || options.json);
     settings.progress = [&progress](const rack::HomingProgress& p) {
-        // What it takes is not known before: the bar shows how many axes have arrived.
+        // The duration is unknown in advance: the bar shows the number of homed axes.
         progress.show(p.axes > 0 ? static_cast<double>(p.homed) / p.axes + 0.003 * std::fmod(p.seconds, 30) / 30 : 0,
                       fmt::format("{} of {} homed, {}, {:.2f} s", p.homed, p.axes, p.states, p.seconds));
     };

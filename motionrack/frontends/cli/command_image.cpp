@@ -59,7 +59,7 @@ Result<std::uint16_t> with_word(std::uint16_t mode, std::string_view word) {
                             word));
 }
 
-/// "1=reversed,x2" into the axis' word MODE.
+/// Parses "1=reversed,x2" into the word MODE of the axis.
 Result<void> set_axis(std::array<std::uint16_t, io::axis_count>& modes, std::string_view text) {
     if (text.size() < 3 || text[0] < '0' || text[0] > '3' || text[1] != '=')
         return fail(ErrorKind::invalid_input, fmt::format("'{}' is no axis with its words; write for instance --axis "
@@ -92,7 +92,7 @@ Result<Bytes> made(const ImageOptions& options) {
     return io::compressed(raw);
 }
 
-/// The file's name as one of C and Pascal.
+/// Returns the file name as an identifier of C and Pascal.
 std::string identifier(const std::filesystem::path& file) {
     std::string out = file.stem().string();
     for (char& c : out)
@@ -100,7 +100,7 @@ std::string identifier(const std::filesystem::path& file) {
     return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0 ? "image_" + out : out;
 }
 
-/// The bytes as constants, twelve a line.
+/// Returns the bytes as constants, twelve per line.
 std::string constants(const Bytes& image, std::string_view before_each) {
     std::string out;
     for (std::size_t i = 0; i < image.size(); ++i)
@@ -109,7 +109,7 @@ std::string constants(const Bytes& image, std::string_view before_each) {
     return out;
 }
 
-/// What the file has, by how its name ends.
+/// Returns the content of the file according to its extension.
 std::string file_text(const Bytes& image, const std::string& output) {
     const std::filesystem::path path(output);
     const std::string ending = path.extension().string();

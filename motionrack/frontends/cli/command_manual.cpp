@@ -1,4 +1,4 @@
-// manual: the manual page motionrack(1), made from the command line's own tables.
+// manual: the manual page motionrack(1) from the command line definition.
 #include <fmt/format.h>
 
 #include <motionrack/frontends/cli/commands.hpp>
@@ -11,7 +11,7 @@ namespace motionrack::cli {
 
 namespace {
 
-/// Text as troff takes it: nothing in it is a request or an escape.
+/// Escapes text for troff, so that it contains neither requests nor escapes.
 std::string plain(const std::string& text) {
     std::string out;
     bool line_start = true;
@@ -30,7 +30,7 @@ std::string plain(const std::string& text) {
     return out;
 }
 
-/// Every command, and each one of a group after it.
+/// Returns every command, each followed by the commands of its group.
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     std::vector<const CLI::App*> out;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
@@ -41,12 +41,12 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
     return out;
 }
 
-/// "frames publish" of a group's command.
+/// Returns the full name of a command in a group: "frames publish".
 std::string name_of(const CLI::App& command, const CLI::App& app) {
     return (command.get_parent() == &app ? "" : name_of(*command.get_parent(), app) + " ") + command.get_name();
 }
 
-/// "--rack FILE": the names of an option, bold, and what follows it.
+/// Returns "--rack FILE": the option names in bold and its argument.
 std::string head_of(const CLI::Option& option) {
     std::string names;
     for (const std::string& name : option.get_snames())
@@ -62,7 +62,7 @@ std::string head_of(const CLI::Option& option) {
 std::string options_of(const CLI::App& command) {
     std::string out;
     for (const CLI::Option* option : command.get_options()) {
-        if (option == command.get_help_ptr() && command.get_parent()) continue;  // every command has it: said once
+        if (option == command.get_help_ptr() && command.get_parent()) continue;  // common to all commands: listed once
         out += ".TP\n" + head_of(*option) + "\n" + plain(option->get_description());
         if (!option->get_default_str().empty()) out += plain(" (default: " + option->get_default_str() + ")");
         if (option->get_required()) out += " (required)";

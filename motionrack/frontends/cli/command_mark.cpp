@@ -1,4 +1,4 @@
-// mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; what is on the part as a table and a
+// mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; shows the result as a table and a
 // picture.
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ std::string json_text(const mark::MarkingOutcome& out) {
     return all.dump(2);
 }
 
-/// Empty: the name tells a kind of picture.
+/// Returns the problem with the picture's file name; empty if its extension is valid.
 std::string picture_trouble(const std::string& path) {
     const auto ends_in = [&](std::string_view end) {
         return path.size() > end.size() && std::string_view(path).substr(path.size() - end.size()) == end;
@@ -86,7 +86,7 @@ bool is_png(const std::string& path) {
     return path.size() > 4 && path.compare(path.size() - 4, 4, ".png") == 0;
 }
 
-/// Everything that was asked for, or the first error.
+/// Writes all requested files; returns the first error.
 Result<void> write_files(const MarkOptions& options, const mark::MarkingJob& job, const mark::Prepared& prepared,
                          const mark::MarkingOutcome& outcome, std::string_view text) {
     const std::string svg = options.pictures.empty() ? std::string() : mark::picture_svg(prepared, outcome);

@@ -1,4 +1,4 @@
-// plan: how long a part program takes and what it asks of the axes, by three ways of planning it; nothing moves.
+// plan: duration and axis loads of a part program with three planners; nothing moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,14 +32,14 @@ struct PlanOptions {
     bool json = false;
 };
 
-/// Of one axis, the greatest that a plan asks.
+/// Peak values of one axis in a plan.
 struct AxisPeaks {
     double speed = 0, accel = 0, jerk = 0;
 };
 struct Planned {
     double seconds = 0;
     std::int64_t stops = 0;
-    double bound = 0;  ///< s that no jerk-limited plan of the same curve falls below
+    double bound = 0;  ///< lower bound of the duration of any jerk-limited plan of this path, s
     std::array<AxisPeaks, control::axis_count> axes = {};
 };
 
@@ -61,7 +61,7 @@ Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimi
     return {sum.seconds, sum.stops, 0, {}};
 }
 
-/// Every millisecond and at the ends of stretches.
+/// Sampling interval; also samples the ends of sections.
 constexpr double look_every_s = 0.001;
 
 Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,

@@ -1,4 +1,4 @@
-// registers: what the registers of a card say, of a virtual one or of a real one.
+// registers: decoded registers of a virtual or a real card.
 #include <fmt/format.h>
 
 #include <memory>

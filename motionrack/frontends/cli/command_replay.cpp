@@ -1,4 +1,4 @@
-// replay: a recorded run once more, and whether it is the same bit for bit.
+// replay: repeats a recorded run and checks that it is identical bit for bit.
 #include <fmt/format.h>
 #include <stdlib.h>  // mkdtemp
 
@@ -23,7 +23,7 @@ struct ReplayOptions {
     bool json = false, quiet = false;
 };
 
-/// A folder of one's own that goes when it is no longer needed.
+/// Private temporary folder, removed on destruction.
 struct Scratch {
     std::string folder;
     Scratch() {

@@ -1,4 +1,4 @@
-// report: the page of a run out of its recording.
+// report: the report page of a run from its recording.
 #include <fmt/format.h>
 
 #include <memory>

@@ -24,14 +24,14 @@ struct RunOptions {
     ReadingOptions reading;
     ResultFiles files;
     std::vector<std::string> signals, faults, orders;
-    double unit_ns = 0;  ///< 0: as fine as the signals ask for
+    double unit_ns = 0;  ///< 0: as fine as the signals require
     bool json = false, quiet = false, stream = false;
 };
 
-/// Problems until a program that is not checked first is given up.
+/// Number of problems after which an unchecked program is aborted.
 constexpr std::size_t max_unchecked = 10'000;
 
-/// What is to be run; the exit code where it cannot.
+/// Reads the run request; returns an exit code on errors.
 int read_request(const RunOptions& options, rack::JobRequest& request) {
     int code = exit_done;
     Result<ProgramText> rack_text = load_rack_text(options.rack);
@@ -57,7 +57,7 @@ int read_request(const RunOptions& options, rack::JobRequest& request) {
     return exit_done;
 }
 
-/// What the program calls is kept with it, for the run itself and for recordings.
+/// Stores called subprograms with the program, for the run and for recordings.
 void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, std::string>& kept) {
     if (!settings.subprogram) return;
     settings.subprogram = [load = settings.subprogram, &kept](const std::string& name) -> Result<std::string> {
@@ -67,7 +67,7 @@ void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, 
     };
 }
 
-/// `whole`: what was written while it ran is.
+/// `whole`: all files written during the run are complete.
 int write_results(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
     std::vector<std::string> written;
     const int code = write_results(job.report(), options.files, written);
@@ -109,7 +109,7 @@ int run(const RunOptions& options) {
     request.tools = settings->tools;
     if (const Result<void> good = control::gcode::check_settings(*settings); !good) return report(good.error());
     const std::string& name = request.program_name;
-    // Without a check first it is read all the same: for the subprograms that it calls.
+    // Reads the program even without a check, to find the subprograms it calls.
     const control::gcode::ProgramCheck check = control::gcode::check_program(
         request.program, *settings, options.stream ? max_unchecked : max_problems_of_run, name);
     if (!options.stream || control::gcode::is_empty_program(request.program))

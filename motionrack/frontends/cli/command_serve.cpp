@@ -1,4 +1,4 @@
-// serve: a rack that people operate in a browser while it runs.
+// serve: a running rack that is operated in a browser.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ struct ServeOptions {
     bool free = false, paused = false, no_pairing = false;
 };
 
-/// The page that was installed or built with this program.
+/// Page that was installed or built with this program.
 fs::path page_beside_the_program() {
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -53,7 +53,7 @@ Result<server::Page> load_page(const std::string& folder) {
     return server::Page::read(beside);
 }
 
-/// A rack, its clock, its journal and everybody who may work on it, in the order in which they need each other.
+/// A rack, its clock, its journal and its clients; the members are in the order of their dependencies.
 class Serving {
   public:
     explicit Serving(const ServeOptions& options) : options_(options) {}
@@ -84,7 +84,7 @@ class Serving {
         settings.version = MOTIONRACK_VERSION;
         settings.boot = auth::random_token().substr(0, 8);
         settings.door = door_settings();
-        // A journal behind a link is written where it is: it is never made anew.
+        // A journal behind a link is written in place, because it is never replaced.
         std::error_code none;
         const std::string journal =
             options_.journal.empty() ? std::string() : fs::weakly_canonical(options_.journal, none).string();
@@ -155,21 +155,21 @@ class Serving {
 
     void say(std::string line) { output_.say(std::move(line)); }
 
-    /// On the motion thread, again and again.
+    /// Called repeatedly on the motion thread.
     void stop_if_asked() {
         warn_of_lost_records();
         if (!stop_asked || stopping_) return;
         stopping_ = true;
         say("Stopping: the axes come to rest.");
         tell_service_manager("STOPPING=1");
-        // A clock that stands would let nothing come to rest.
+        // A stopped clock would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
         if (pacer.mode() != operate::ClockMode::free)
             (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
     }
 
-    /// The page has it as an alarm; this is for the log of the service.
+    /// The page shows an alarm; this warning goes to the service log.
     void warn_of_lost_records() {
         if (!journal_ || warned_ || journal_->failure().empty()) return;
         warned_ = true;

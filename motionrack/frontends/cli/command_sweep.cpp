@@ -1,4 +1,4 @@
-// sweep: a part program over and over, with other parameters, on all cores; what was done survives a kill.
+// sweep: runs a part program repeatedly with varied parameters, on all cores; finished rows survive a kill.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,15 +28,14 @@ struct SweepOptions {
     bool fresh = false, quiet = false;
 };
 
-/// The sweep of the file and the files that it names, which lie beside it; nothing if something is wrong, which was
-/// told.
+/// The sweep with the files it names, which lie beside it; empty after a reported error.
 struct Loaded {
     std::optional<sweep::Sweep> sweep;
     std::vector<std::string> inputs;
     int code = exit_done;
 };
 
-/// A file that the sweep names, by its path from the sweep's folder.
+/// Loads a file named by the sweep, by its path relative to the sweep's folder.
 Result<std::string> load_beside(const std::string& file, const std::string& name, std::string& path, Loaded& loaded) {
     path = (std::filesystem::path(file).parent_path() / name).string();
     loaded.inputs.push_back(path);
@@ -83,7 +82,7 @@ Loaded load(const std::string& file) {
     return out;
 }
 
-/// "30 ok, 2 machine": how the points ended, the most frequent first.
+/// Returns "30 ok, 2 machine": counts of the results, most frequent first.
 std::string endings(const sweep::Sweep& sweep, const sweep::Results& results) {
     std::map<std::string, std::int64_t> counts;
     for (std::int64_t i = 0; i < sweep.points(); ++i) ++counts[std::string(sweep::cell_of(results.row(i), "ended"))];
@@ -106,7 +105,7 @@ int write_tables(const sweep::Sweep& sweep, sweep::Results& results, const Sweep
     return exit_done;
 }
 
-/// Runs what is missing, here or by workers.
+/// Runs the missing points, locally or on workers.
 Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
     ProgressLine progress(options.quiet);
     const auto show = [&](const sweep::WorkProgress& now) {

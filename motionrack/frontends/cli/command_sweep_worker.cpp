@@ -1,4 +1,4 @@
-// sweep-worker: runs points of sweeps that are gathered elsewhere.
+// sweep-worker: runs points of sweeps for a coordinator on another machine.
 #include <fmt/format.h>
 
 #include <algorithm>

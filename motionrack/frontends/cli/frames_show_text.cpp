@@ -21,14 +21,14 @@ std::string state_of(const rack::FrameRow& row) {
     return row.agrees ? "agrees" : "DIFFERS";
 }
 
-/// "c1, c2" of the drivers' bits.
+/// Returns "c1, c2" for the bits of the drivers.
 std::string drivers_of(const gb::Bus& bus, std::uint64_t bits) {
     std::string out;
     for (; bits != 0; bits &= bits - 1) out += (out.empty() ? "" : ", ") + bus.driver_name(std::countr_zero(bits));
     return out;
 }
 
-/// Of a column: the scale, if all cards have the same one there.
+/// Returns the header of a column: the scale, if all cards use the same one.
 std::string column_text(const std::vector<rack::FrameRow>& rows, std::size_t k) {
     int address = -1;
     for (const rack::FrameRow& row : rows) {

@@ -46,7 +46,7 @@ double milliseconds_of(Duration d) {
     return static_cast<double>(d.count()) * 1e-7;
 }
 
-/// An event's sources may have been sent by anyone: what is no UTF-8 is replaced.
+/// The sources of an event are untrusted: invalid UTF-8 is replaced.
 std::string text_of(const ordered_json& json) {
     return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

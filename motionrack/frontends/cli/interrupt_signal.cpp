@@ -1,4 +1,4 @@
-// The signals' handler.
+// Signal handler.
 #include <csignal>
 #include <motionrack/frontends/cli/interrupt_signal.hpp>
 
@@ -11,7 +11,7 @@ void stop_on_signals() {
     const auto ask = [](int) { stop_asked.store(true); };
     std::signal(SIGINT, ask);
     std::signal(SIGTERM, ask);
-    // nohup: a program that was started with SIGHUP ignored outlives its terminal.
+    // nohup: a program started with SIGHUP ignored outlives its terminal.
     if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
 }

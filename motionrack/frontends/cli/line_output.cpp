@@ -37,7 +37,7 @@ void LineOutput::say(std::string line) {
     queue_->changed.notify_all();
 }
 
-/// Past the buffer of stdio, whose lock a reader that stands would keep.
+/// Bypasses stdio, whose lock a blocked reader would hold.
 void LineOutput::print(Queue& queue) {
     std::unique_lock<std::mutex> guard(queue.lock);
     for (;;) {

@@ -1,4 +1,4 @@
-// The motionrack program: the command line and nothing else.
+// The motionrack program: command line only.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -31,7 +31,7 @@ Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refus
 130 stopped by Ctrl-C.
 motionrack COMMAND --help tells more of each command.)";
 
-/// What was printed is out, or it is told that it is not.
+/// Flushes standard output; reports a write error.
 int flushed(int code) {
     using namespace motionrack::cli;
     errno = 0;
@@ -43,7 +43,7 @@ int flushed(int code) {
     return code == exit_done ? static_cast<int>(exit_io) : code;
 }
 
-/// Needs no memory itself.
+/// Does not allocate memory.
 int say_out_of_memory() {
     static constexpr char sentence[] =
         "error: There is not enough memory. Nothing more was done: files written before this are whole, all others as "
@@ -54,7 +54,7 @@ int say_out_of_memory() {
 
 const std::terminate_handler terminate_before = std::get_terminate();
 
-/// Memory that is missing in a thread, or where nothing may be thrown, ends the program with the same sentence.
+/// On failed allocation in a thread or a noexcept function, ends the program with the same sentence.
 [[noreturn]] void end_now() {
     try {
         if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
@@ -99,7 +99,7 @@ int run_command(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        // Help and version are no errors; everything else is a wrong command line.
+        // Help and version are not errors; all others are usage errors.
         return app.exit(e) == 0 ? exit_done : exit_usage;
     }
     return chosen ? flushed(chosen()) : exit_usage;

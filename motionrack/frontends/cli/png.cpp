@@ -1,4 +1,4 @@
-// Pictures as PNG are drawn by a module, which is loaded for the first of them.
+// PNG output uses a module that is loaded for the first picture.
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <motionrack/frontends/png/png.h>
@@ -15,7 +15,7 @@ tl::unexpected<Error> not_drawn(std::string_view why) {
     return fail(ErrorKind::io, fmt::format("The picture could not be drawn as PNG: {}. Write it as SVG.", why));
 }
 
-/// The module beside this program, as it was installed or built; it stays loaded.
+/// Loads the module beside this program, installed or built; it stays loaded.
 Result<decltype(&motionrack_png_of)> load_module() {
     namespace fs = std::filesystem;
     std::error_code error;

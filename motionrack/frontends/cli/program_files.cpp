@@ -1,4 +1,4 @@
-// Loading what a command works on.
+// Loads the program and the rack of a command.
 #include <fmt/format.h>
 
 #include <algorithm>

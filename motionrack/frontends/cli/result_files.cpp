@@ -1,4 +1,4 @@
-// Writing them one by one: one that fails does not keep the others.
+// Writes the files one by one; continues after an error.
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/result_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>

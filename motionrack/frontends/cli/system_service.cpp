@@ -1,4 +1,4 @@
-// sd_notify(3) is one datagram; the library is not needed for it.
+// sd_notify(3) sends one datagram, which does not need the library.
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -22,7 +22,7 @@ void tell_service_manager(std::string_view state) {
     const std::size_t length = std::strlen(path);
     if (length >= sizeof address.sun_path) return;
     std::memcpy(address.sun_path, path, length);
-    if (path[0] == '@') address.sun_path[0] = 0;  // an abstract name
+    if (path[0] == '@') address.sun_path[0] = 0;  // abstract socket name
     const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (socket < 0) return;
     ::sendto(socket, state.data(), state.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(&address),

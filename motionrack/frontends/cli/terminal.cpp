@@ -1,4 +1,4 @@
-// Reading and writing files, errors, progress.
+// Files, errors and progress.
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -72,7 +72,7 @@ Result<void> write_text(const std::string& path, std::string_view text) {
         const Result<void> done = disk::write_whole(path, text);
         return done ? done : not_writable(path, std::string_view(done.error().message));
     }
-    // What is short stays in the buffer: a full disk is noticed when it is flushed.
+    // Short output stays in the buffer, so a full disk is detected on flush.
     const bool good = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     return good ? Result<void>{} : not_writable(path, errno);
 }

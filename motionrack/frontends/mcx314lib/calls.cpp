@@ -1,4 +1,4 @@
-// Errors, and checks of what the function library itself cannot be given.
+// Errors, and checks of arguments that the function library itself cannot receive.
 #include <fmt/format.h>
 #include <mcx314lib.h>
 

@@ -1,4 +1,4 @@
-// Opening, selecting and closing chips; time for all chips of a rack.
+// Opens, selects and closes chips; advances time for all chips of a rack.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
 constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(World::max_ns));
 
-/// "uio:..", "memory:..", "port:..": where a real card is, and neither the text nor the path of a rack file.
+/// Returns true for the address of a real card ("uio:..", "memory:..", "port:.."), as opposed to the text or path of a
+/// rack file.
 bool names_real_card(std::string_view text) {
     for (const std::string_view kind : {"uio:", "memory:", "port:"})
         if (text.substr(0, kind.size()) == kind) return true;

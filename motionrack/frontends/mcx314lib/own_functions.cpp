@@ -1,5 +1,4 @@
-// The functions of our own: chips, time, status, manual operation, interrupts, contours, bit patterns, the virtual
-// card.
+// Additional functions: chips, time, status, manual operation, interrupts, contours, bit patterns, the virtual card.
 #include <fmt/format.h>
 #include <mcx314lib.h>
 
@@ -33,7 +32,7 @@ Result<bool> bit_of(int value, const char* what) {
     return fail(ErrorKind::refused, fmt::format("the {} is {}, but it is 0 or 1. Nothing was written.", what, value));
 }
 
-/// The axes of the mask for which `fits`, as a mask.
+/// Returns the mask of those axes for which `fits` is true.
 template <class Fits>
 int those_of(const char* who, int axis, Fits fits) {
     return with_chip(who, -1, [&](Chip& chip) -> Result<int> {
@@ -45,7 +44,7 @@ int those_of(const char* who, int axis, Fits fits) {
     });
 }
 
-/// Manual operations stop by themselves, other drives by the library.
+/// Stops manual operations by themselves and other drives by the library.
 int stop(const char* who, int axis, StopKind kind) {
     return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
         for (const int i : channels_of(axes)) {
@@ -57,7 +56,7 @@ int stop(const char* who, int axis, StopKind kind) {
     });
 }
 
-/// Runs `call` with the manual operation of an axis, which takes these settings where it stands.
+/// Runs `call` with the manual operation of an axis, which applies these settings at standstill.
 template <class Call>
 int manually(const char* who, int axis, int sv, int a, Call call) {
     return done(who, [&](Chip& chip) -> Result<void> {

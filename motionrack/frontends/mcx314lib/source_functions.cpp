@@ -1,4 +1,4 @@
-// The functions with the source's names, each over the one of the C++ library.
+// Functions with the names of the source, each over its counterpart in the C++ library.
 #include <mcx314lib.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ void set(const char* who, int axis, std::int64_t value, Number function) {
     on_axes(who, axis, [&](Chip& chip, unsigned axes) { return (chip.driver.*function)(axes, value); });
 }
 
-/// A function of all axes.
+/// Calls a function for all axes.
 void set_all(const char* who, std::int64_t value, Number function) {
     set(who, static_cast<int>(motionrack::mcx314::xyzu), value, function);
 }
@@ -68,7 +68,7 @@ unsigned read(const char* who, int axis, std::int32_t (Driver::*function)(int)) 
     });
 }
 
-/// 32 bits as the counters have them.
+/// Converts 32 bits to the signed value of a counter.
 std::int64_t with_sign(unsigned data) {
     return static_cast<std::int32_t>(data);
 }

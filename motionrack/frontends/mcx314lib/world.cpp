@@ -1,4 +1,4 @@
-// A rack as the library's world.
+// World of the library as a rack.
 #include <motionrack/frontends/mcx314lib/world.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>

@@ -1,5 +1,5 @@
-// librsvg draws on a cairo surface. A module of its own: these libraries and those below them are half of all that the
-// program would load at its start.
+// Draws with librsvg on a cairo surface. A separate module, because these libraries and their dependencies are half of
+// all that the program would load at start.
 #include <cairo.h>
 #include <librsvg/rsvg.h>
 #include <motionrack/frontends/png/png.h>
@@ -42,7 +42,7 @@ Result<std::string> png_of(std::string_view svg, double scale) {
     GError* error = nullptr;
     const std::unique_ptr<GInputStream, By<g_object_unref>> stream(
         g_memory_input_stream_new_from_data(svg.data(), static_cast<gssize>(svg.size()), nullptr));
-    // Unlimited: long paths are long attributes.
+    // Unlimited, because long paths have long attributes.
     const std::unique_ptr<RsvgHandle, By<g_object_unref>> handle(
         rsvg_handle_new_from_stream_sync(stream.get(), nullptr, RSVG_HANDLE_FLAG_UNLIMITED, nullptr, &error));
     if (!handle) return not_drawn(taken(error));

@@ -1,4 +1,4 @@
-// The commands of rtc5sim.h that answer, read files or have something to look through.
+// Commands of rtc5sim.h that return values, read files or check parameters.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +14,12 @@ namespace rtc5 = motionrack::rtc5;
 
 namespace {
 
-/// What the functions that read files answer.
+/// Return values of the functions that read files.
 enum FileAnswer : UINT { loaded = 0, damaged = 1, not_read = 3, wrong_parameter = 10, no_such_card = 11 };
 
 constexpr std::size_t max_table_bytes = 64u << 20;
 
-/// At most `limit` bytes of it, and one more if it has more.
+/// Reads at most `limit` bytes, and one more if the file is longer.
 Result<std::string> bytes_of(const char* name, std::size_t limit) {
     std::ifstream file(name, std::ios::binary);
     std::string out;
@@ -70,14 +70,14 @@ Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& ans
     return {};
 }
 
-/// Word `para` of the head of table `number`; those of a 1:1 table are 0.
+/// Returns word `para` of the head of table `number`; 0 for a 1:1 table.
 Result<double> header_word(const Card& card, std::int64_t number, UINT para) {
     MOTIONRACK_CHECK(check_range("ParaNo", para, 0, 15));
     const rtc5::Table* const table = card.engine.table(number);
     return table == nullptr ? 0.0 : table->header[para];
 }
 
-/// Answers a question into two places.
+/// Answers a query with two values.
 template <class Number, class Call>
 void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call) noexcept {
     question(who, number, false, [&](Card& card) -> Result<bool> {
@@ -269,7 +269,7 @@ void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
     ask_two(__func__, CardNo, Busy, Pos, [&](Card& card) {
         const rtc5::Recording& r = card.engine.recording();
         *Busy = r.period != 0;
-        *Pos = static_cast<UINT>(r.count) - 1;  // 2^32 - 1: nothing was recorded
+        *Pos = static_cast<UINT>(r.count) - 1;  // 2^32 - 1: nothing recorded
     });
 }
 

@@ -1,4 +1,4 @@
-// The cards of the process, their time, and errors.
+// Cards of the process, their time, and errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ thread_local std::string last_sentence;
 constexpr UINT max_cards = 16;
 constexpr std::uint64_t ns_per_tick = 10'000;
 constexpr std::int64_t end_of_time =
-    std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; laser instants fit, too
+    std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; leaves room for laser instants
 
-/// This thread is in a samples handler as long as this lives.
+/// Marks this thread as inside a samples handler.
 class Inside {
   public:
     explicit Inside(bool handed) { inside_handler = handed; }
@@ -32,7 +32,7 @@ class Inside {
     Inside& operator=(const Inside&) = delete;
 };
 
-/// Hands the samples of one card on.
+/// Passes the samples of one card to the handler.
 class Handed final : public rtc5::Sink {
   public:
     Handed(rtc5sim_samples_handler handler, void* user, UINT number)
@@ -102,7 +102,8 @@ Result<Card*> Bench::card(UINT number) {
     MOTIONRACK_CHECK(open());
     if (number >= 1 && number <= cards_.size()) {
         Card& card = *cards_[number - 1];
-        if (card.wired != nullptr) card.wired->engine();  // it is at the present instant, and looks what it was told
+        if (card.wired != nullptr)
+            card.wired->engine();  // advances the card to the present and applies its pending input
         return &card;
     }
     if (rack_)
@@ -184,7 +185,7 @@ Result<bool> Bench::run_to_rest(std::int64_t ticks) {
         const Inside inside(samples != nullptr);
         return cards_.front()->engine.run_to_rest(ticks, samples == nullptr ? nullptr : &sink);
     }
-    // Several cards go on together, a tick at a time, so that they rest at the same instant.
+    // Several cards advance together tick by tick, so that all stop at the same instant.
     const auto rests = [](const auto& card) { return card->engine.at_rest(); };
     while (!std::all_of(cards_.begin(), cards_.end(), rests)) {
         if (ticks-- <= 0) return false;
@@ -205,7 +206,7 @@ static_assert(RTC5_NO_CARD == rtc5::error_bit("NO_CARD") && RTC5_ACCESS_DENIED =
               RTC5_REJECTED == rtc5::error_bit("REJECTED"));
 
 UINT selected() noexcept {
-    if (inside_handler) return 1;  // refused there anyway
+    if (inside_handler) return 1;  // rejected there anyway
     return process().alone([](Bench& bench) { return bench.selected; });
 }
 
@@ -214,7 +215,7 @@ Result<void> checked(rtc5::Op op, double parameter) {
     if (made) return {};
     const rtc5::ListCommandInfo& command = rtc5::info(op);
     std::string sentence = made.error().message;
-    // The list's name and what was not done to it.
+    // Removes the list's name and its consequence.
     sentence.erase(0, std::min(sentence.size(), command.name.size() + 2));
     return fail(ErrorKind::refused, sentence.substr(0, sentence.rfind(';')) + "; nothing was changed");
 }

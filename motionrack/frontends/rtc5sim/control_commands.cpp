@@ -1,4 +1,4 @@
-// The control commands of rtc5sim.h that are one call of the card; the others are in answers.cpp.
+// Control commands of rtc5sim.h that are one call of the card; others are in answers.cpp.
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
@@ -11,7 +11,7 @@ namespace {
 bool busy(const Card& card) {
     return (card.engine.status() & (rtc5::status_bit("BUSY") | rtc5::status_bit("INTERNAL_BUSY"))) != 0;
 }
-/// What it is if the card does not start.
+/// Error kind if the card does not start.
 ErrorKind busy_or_wrong(const Card& card) {
     return busy(card) ? ErrorKind::machine : ErrorKind::refused;
 }
@@ -53,7 +53,7 @@ void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
 
 void n_config_list(UINT CardNo, UINT Mem1, UINT Mem2) {
     command(__func__, CardNo, [&](Card& card) {
-        // -1 stands for the rest.
+        // -1 means all remaining memory.
         return as(busy_or_wrong(card), card.engine.config_list(Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2}));
     });
 }

@@ -1,4 +1,4 @@
-// The control commands of rtc5sim.h for encoders, starts, McBSP and the laser's signals that are one call of the card.
+// Control commands of rtc5sim.h for encoders, starts, McBSP and laser signals that are one call of the card.
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;
@@ -8,7 +8,7 @@ namespace rtc5 = motionrack::rtc5;
 
 namespace {
 
-/// What is taken and changes nothing.
+/// Accepts a call that has no effect.
 void taken(const char* who, UINT number) {
     command(who, number, [](Card&) -> Result<void> { return {}; });
 }

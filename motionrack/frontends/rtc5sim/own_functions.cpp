@@ -1,4 +1,4 @@
-// The functions of our own: time, what comes to a card, what it does.
+// Additional functions: time, inputs and outputs of a card.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ Result<void> check_encoder(UINT encoder) {
     return fail(ErrorKind::refused, fmt::format("there is no encoder {}; 0 or 1. Nothing was changed.", encoder));
 }
 
-/// `call` gives a Result<void>. 0, or -1 where it failed.
+/// Runs `call`, a Result<void>. Returns 0, or -1 on an error.
 template <class Call>
 int done(const char* who, UINT number, Call call) {
     return with_card(who, number, -1, [&](Card& card) -> Result<int> {
@@ -89,7 +89,7 @@ int64_t rtc5sim_now_us(void) {
     });
 }
 
-// ---- what comes to a card
+// ---- inputs of a card
 
 int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
@@ -134,7 +134,7 @@ int rtc5sim_stop(UINT CardNo) {
     });
 }
 
-// ---- what it does
+// ---- outputs of a card
 
 int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {

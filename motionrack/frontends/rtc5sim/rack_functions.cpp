@@ -1,4 +1,4 @@
-// The functions of our own for cards of a rack: opening it, and its parts.
+// Additional functions for cards of a rack: opening it, and its parts.
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;

@@ -1,4 +1,4 @@
-// A client's words.
+// Messages of a client.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::chrono::nanoseconds period_of(double rate_hz) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate_hz));
 }
 
-/// What is left of a message are the fields of an order or query.
+/// The other members of a message are the fields of a command or query.
 json without(json object, std::initializer_list<const char*> names) {
     for (const char* name : names) object.erase(name);
     return object;
@@ -64,14 +64,14 @@ void Client::opened() {
     send({panel::text_of(hello), nullptr});
 }
 
-// ---- what comes in
+// ---- incoming
 
 void Client::message(std::string_view text, bool is_text) {
     if (leaving_) return;
     if (!is_text)
         return refuse(nullptr, 400, "invalid_input", "Messages are texts, this one was binary. Nothing was done.");
     const bool counted = messages_.take("", service_.now().steady);
-    // A short message that may be STOP is read in any case.
+    // A short message that may be STOP is read beyond the limit, too.
     if (!counted && (text.size() > 200 || text.find("\"stop\"") == std::string_view::npos))
         return refuse(nullptr, 429, "limit",
                       fmt::format("More than {:g} messages a second came in. This one was not read; send fewer.",
@@ -192,7 +192,7 @@ void Client::ask(const Request& request, const std::string& name, bool query) {
                  });
 }
 
-// ---- what goes out
+// ---- outgoing
 
 void Client::answer(const json& id, panel::Answer answer) {
     answer.body["id"] = id;
@@ -237,7 +237,7 @@ void Client::close_with_reason(int code, std::string_view reason) {
 bool Client::due(Time now) {
     if (leaving_ || now < next_ || (token_id_.empty() && service_.role_without_token(peer_) == Role::none))
         return false;
-    const auto passed = (now - next_) / period_ + 1;  // more than one when the thread was late
+    const auto passed = (now - next_) / period_ + 1;  // more than one if the thread was late
     next_ += passed * period_;
     periods_ += passed;
     const bool room = pictures_ < service_.settings().limits.pictures_waiting;

@@ -1,4 +1,4 @@
-// Pictures and events for many.
+// Snapshots and events for many clients.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::
 void Clients::tick() {
     const auto now = service_.now().steady;
     const std::shared_ptr<const panel::StatusSnapshot> picture = service_.panel().picture();
-    const std::vector<std::shared_ptr<Client>> clients = clients_;  // one that is let go leaves the list
+    const std::vector<std::shared_ptr<Client>> clients = clients_;  // a closed client leaves the list
     for (const std::shared_ptr<Client>& client : clients) {
         client->check_session(now);
         if (!client->due(now)) continue;

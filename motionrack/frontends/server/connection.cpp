@@ -1,11 +1,11 @@
-// A connection: HTTP, one request after the other, until one of them asks for a WebSocket.
+// A connection: HTTP requests in sequence until one requests a WebSocket.
 //
-//   handshake ─► head ─► admitted? ─no─► answer ──────────────────► close, with the rest of the body read away
+//  handshake ─► head ─► admitted? ─no─► answer ──────────────────► close, after discarding the rest of the body
 //                 ▲         │ yes
 //                 │       body ─► Service::handle ─► answer ─┐
 //                 └──────────────────────────────────────────┘
 //
-// What does not come in time ends the connection without a word.
+// A timeout closes the connection without an answer.
 #include <fmt/format.h>
 
 #include <array>
@@ -43,7 +43,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         hall_->open_connections.leave(this);
         if (std::exchange(ended_, true)) return;
         auto& socket = stream_.tcp();
-        if (!stream_.secure() && !busy_) {  // it waits for a request: there is room for a last word
+        if (!stream_.secure() && !busy_) {  // it waits for a request, so a last answer can be sent
             const std::string& text = last_word(why);
             error_code error;
             socket.socket().non_blocking(true, error);
@@ -65,7 +65,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void read_head(std::chrono::milliseconds time) {
         parser_.emplace();
-        parser_->body_limit(boost::none);  // the head decides
+        parser_->body_limit(boost::none);  // determined by the head
         expire(time);
         http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
             if (!self->ended_) self->took_head(error);
@@ -148,7 +148,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void answer(HttpAnswer one, bool keep_alive) {
         busy_ = true;
-        // Of this request, also where nothing more of its head can be read.
+        // For this request, also if its head cannot be read further.
         const bool head_only = parser_->get().method() == http::verb::head;
         response_ = response_of(one, head_only, keep_alive && !peer_.stop_only);
         body_ = std::move(one.body);
@@ -161,7 +161,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         });
     }
 
-    /// Says that nothing more comes and reads away what still does, so that the answer is not lost with it.
+    /// Shuts down sending and discards further input, so that the answer is not lost on close.
     void close_with_reason() {
         expire(limits().spare_time);
         stream_.shut_down(Done([self = shared_from_this()](error_code) { self->shut(); }));
@@ -190,9 +190,9 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     std::shared_ptr<const std::string> body_;
     std::array<char, 4096> rest_;
     std::size_t drained_ = 0;
-    bool busy_ = false;  ///< answers
+    bool busy_ = false;  ///< sending an answer
     bool ended_ = false;
-    std::shared_ptr<Connection> keep_;  ///< itself, while only the panel has something to do for it
+    std::shared_ptr<Connection> keep_;  ///< itself, while only the panel works for it
 };
 
 }  // namespace

@@ -29,18 +29,18 @@ using boost::system::error_code;
 using TcpLine = SenderLine<tcp::socket>;
 using TerminalLine = SenderLine<asio::posix::stream_descriptor>;
 
-/// Who has connected by TCP.
+/// A client connected by TCP.
 struct Visitor {
     std::shared_ptr<TcpLine> line;
     std::string address;
     std::chrono::steady_clock::time_point since;
     grbl::Introduction introduction;
-    bool is_sender = false;  ///< it has spoken as one
+    bool is_sender = false;  ///< identified as a sender
 };
 
 }  // namespace
 
-/// Everything but construction happens on the network thread.
+/// Runs on the network thread except for construction.
 class GrblPorts::Inside {
   public:
     Inside(const GrblPortSettings& settings, operate::Machine& machine, auth::ControlLease& lease)
@@ -65,7 +65,7 @@ class GrblPorts::Inside {
     }
 
   private:
-    /// Output comes from the motion thread, which may outlive the network.
+    /// The motion thread produces the output and may outlive the network.
     std::shared_ptr<SenderPort> make_port(std::function<void(const PortMessage&)> send) {
         auto port = std::make_shared<SenderPort>(machine_, lease_, settings_);
         port->send = [io = io_, send = std::move(send)](PortMessage said) {
@@ -75,7 +75,7 @@ class GrblPorts::Inside {
                         [port](const operate::StopReport& report) { port->stopped(report); });
         return port;
     }
-    /// Reads on when the motion thread has heard what came.
+    /// Resumes reading after the motion thread has processed the input.
     template <class MessageSink>
     std::function<void()> reading_on(const std::shared_ptr<MessageSink>& wire) {
         return [io = io_, wire = std::weak_ptr<MessageSink>(wire)] {
@@ -111,7 +111,7 @@ class GrblPorts::Inside {
                 accept(std::move(socket));
                 return accept_on();
             }
-            // Most likely no file descriptors are left: some will come back.
+            // Probably out of file descriptors: retry later.
             pause_.expires_after(std::chrono::milliseconds(50));
             pause_.async_wait([this](error_code stopped) {
                 if (!stopped) accept_on();
@@ -136,7 +136,7 @@ class GrblPorts::Inside {
             let_look_on(*visitor);
         visitor->line->read_on();
     }
-    /// Who has not spoken as a sender goes, the oldest first, when there are too many.
+    /// Closes the oldest visitors that have not identified as senders when there are too many.
     bool make_room() {
         if (visitors_.size() <= settings_.observers) return true;
         const auto oldest =
@@ -146,7 +146,7 @@ class GrblPorts::Inside {
         line->end();
         return true;
     }
-    /// Nothing acts before it is known that a sender speaks.
+    /// No input takes effect before the client is known to be a sender.
     void heard(Visitor& visitor, std::string bytes) {
         using Verdict = grbl::Introduction::Verdict;
         if (!visitor.is_sender) {
@@ -206,8 +206,7 @@ class GrblPorts::Inside {
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
         terminal_port_ = make_port([this](const PortMessage& said) {
-            if (terminal_->clients() > 0)
-                terminal_line_->write(said);  // a line that nobody reads loses what does not fit
+            if (terminal_->clients() > 0) terminal_line_->write(said);  // an unread line drops output that does not fit
         });
         terminal_line_ = std::make_shared<TerminalLine>(
             asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
@@ -264,11 +263,11 @@ class GrblPorts::Inside {
     asio::steady_timer pause_{*io_};
     asio::posix::stream_descriptor watch_{*io_};
     std::shared_ptr<SenderPort> tcp_port_, terminal_port_;
-    std::vector<std::shared_ptr<Visitor>> visitors_;  ///< in the order in which they came
+    std::vector<std::shared_ptr<Visitor>> visitors_;  ///< in order of connection
     Visitor* writer_ = nullptr;
     auth::RateLimit strangers_{1, 1};
-    /// What a client wrote may come a little after it has gone. Nobody is heard or greeted so soon after another,
-    /// who may still write into the void.
+    /// A client's input may arrive shortly after it has disconnected. For this time after a disconnect, the next client
+    /// is neither read nor greeted.
     static constexpr std::chrono::milliseconds settling{50};
     std::optional<PseudoTerminal> terminal_;
     asio::steady_timer timer_{*io_};

@@ -1,4 +1,4 @@
-// Reading what came in, writing what goes out.
+// Parses requests and writes answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr int deepest = 16;
 
-/// Where byte `at` of the text is.
+/// Returns the position of byte `at` of the text.
 Place place_of(std::string_view text, std::size_t at) {
     Place place{1, 1};
     for (const char c : text.substr(0, at)) {
@@ -20,8 +20,8 @@ Place place_of(std::string_view text, std::size_t at) {
     return place;
 }
 
-/// Of the first bracket that is nested too deeply; npos: none is. Deep values would cost stack wherever they are
-/// copied.
+/// Returns the index of the first bracket that is nested too deeply; npos: none. Deep values would use stack wherever
+/// they are copied.
 std::size_t too_deep(std::string_view text) {
     int depth = 0;
     bool quoted = false;

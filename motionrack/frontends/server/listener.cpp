@@ -1,4 +1,4 @@
-// Taking connections.
+// Accepts connections.
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -15,17 +15,16 @@ using asio::ip::tcp;
 namespace {
 
 constexpr std::chrono::milliseconds tick_every{5};
-constexpr int max_taken_at_once = 32;  ///< then those that were taken are heard
+constexpr int max_taken_at_once = 32;  ///< then serves the accepted ones
 
-/// An IPv4 address that came in over IPv6 is told as one.
+/// Converts an IPv4-mapped IPv6 address to IPv4.
 asio::ip::address plain(const asio::ip::address& address) {
     if (address.is_v6() && address.to_v6().is_v4_mapped())
         return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
     return address;
 }
 
-/// What waits for a slow reader waits in our queue, which leaves pictures out, and not in the kernel's, which keeps
-/// them all.
+/// Makes data for a slow reader wait in our queue, which drops snapshots, instead of in the kernel's, which keeps all.
 void keep_little_in_the_kernel(tcp::socket& socket) {
     const int unsent = 16 * 1024;
     ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
@@ -90,7 +89,7 @@ void Listener::take_some() {
         if (error == asio::error::would_block) break;
         const bool is_full = error == asio::error::no_descriptors || error == asio::error::no_buffer_space ||
                              error == asio::error::no_memory || error.value() == ENFILE;
-        if (!is_full || make_room()) continue;  // one that is gone again, or there is a place now
+        if (!is_full || make_room()) continue;  // that one has closed already, or a place is free now
         pause_.expires_after(tick_every);
         pause_.async_wait([this](error_code stopped) {
             if (!stopped && !ended_) accept();
@@ -108,7 +107,7 @@ void Listener::take(tcp::socket socket) {
     error_code error;
     const tcp::endpoint remote = socket.remote_endpoint(error),
                         local = error ? tcp::endpoint() : socket.local_endpoint(error);
-    if (error) return;  // gone already
+    if (error) return;  // already closed
     socket.set_option(tcp::no_delay(true), error);
     keep_little_in_the_kernel(socket);
     Peer peer;

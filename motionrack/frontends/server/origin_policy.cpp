@@ -1,4 +1,4 @@
-// Names are compared without regard to case.
+// Compares names without regard to case.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 

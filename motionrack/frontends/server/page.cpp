@@ -1,4 +1,4 @@
-// Reads the page's folder.
+// Reads the folder of the page.
 #include <fmt/format.h>
 
 #include <array>
@@ -75,7 +75,7 @@ Result<Page> Page::read(const fs::path& folder) {
                             max_size >> 20, max_files),
                 {}, folder.string());
         const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
-        // Files in assets/ carry a hash of what is in them in their names.
+        // Names in assets/ contain a hash of the content.
         const bool for_ever = name.rfind("/assets/", 0) == 0;
         page.files_[name == "/index.html" ? "/" : name] = {
             type_of(it->path().extension().string()), for_ever ? "public, max-age=31536000, immutable" : "no-cache",

@@ -43,7 +43,7 @@ tl::unexpected<Error> failed(const std::string& what) {
     return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
 }
 
-/// One program at a time leads a link: a name that ends with the program, however that ends.
+/// Reserves a link for one program at a time, by a name that is released when the program ends for any reason.
 Result<OpenFile> reserve(const std::string& link) {
     std::error_code trouble;
     const fs::path path =
@@ -65,7 +65,7 @@ Result<OpenFile> reserve(const std::string& link) {
                             link));
 }
 
-/// What is in the place of the link: nothing, or a link that a run of ours has left.
+/// Checks the path of the link: free, or a link left by an earlier run.
 Result<void> check_place(const std::string& link) {
     struct stat about {};
     if (::lstat(link.c_str(), &about) != 0) return {};
@@ -83,7 +83,7 @@ Result<void> check_place(const std::string& link) {
     return {};
 }
 
-/// The link is there or not at every instant, never half.
+/// Replaces the link atomically.
 Result<void> lead(const std::string& link, const std::string& target) {
     MOTIONRACK_CHECK(check_place(link));
     std::error_code trouble;

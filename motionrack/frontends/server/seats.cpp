@@ -1,4 +1,4 @@
-// Who may stay.
+// Assignment of seats.
 #include <algorithm>
 #include <iterator>
 #include <motionrack/frontends/server/seats.hpp>
@@ -63,7 +63,7 @@ bool Seats::end_a_caller() {
 }
 
 void Seats::end_all(std::string_view why) {
-    std::vector<OpenConnection*> all;  // each leaves when it ends
+    std::vector<OpenConnection*> all;  // each removes itself when it ends
     for (const auto& [open, network] : seats_) all.push_back(open);
     for (const Caller& caller : callers_) all.push_back(caller.open);
     for (OpenConnection* open : all) open->end(why);

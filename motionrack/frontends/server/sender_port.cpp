@@ -86,7 +86,7 @@ Result<void> SenderPort::may_stop() const {
                             holder->user.empty() ? "another session" : holder->user));
 }
 
-/// Whoever loses control in the midst of its work must not go on with the rest of it when the machine stands again.
+/// A sender that loses control during its work must not continue the rest after the machine has stopped.
 void SenderPort::see_control() {
     if (!had_control_) return;
     const auto holder = lease_.holder();

@@ -9,7 +9,7 @@ namespace motionrack::server {
 
 namespace {
 
-/// At most so many bytes, whole letters of UTF-8.
+/// Truncates to at most `max_bytes` bytes of whole UTF-8 characters.
 std::string cut(std::string text, std::size_t max_bytes) {
     if (text.size() <= max_bytes) return text;
     std::size_t end = max_bytes - 2;

@@ -1,4 +1,4 @@
-// Opening the port, the network thread, the end.
+// Opens the port, runs the network thread and shuts down.
 #include <fmt/format.h>
 
 #include <boost/asio/io_context.hpp>
@@ -25,7 +25,8 @@ Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
     error_code error;
     ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);
-    // Strangers fill no memory: sessions are with the clients (tickets), buffers go while a connection is silent.
+    // Clients cannot fill the memory: sessions are stored by the clients (tickets), idle connections release their
+    // buffers.
     ::SSL_CTX_set_session_cache_mode(tls->native_handle(), SSL_SESS_CACHE_OFF);
     ::SSL_CTX_set_mode(tls->native_handle(), SSL_MODE_RELEASE_BUFFERS);
     tls->use_certificate_chain_file(files.certificate, error);
@@ -127,7 +128,7 @@ class Server::Inside {
     std::int64_t clients() const { return hall_->clients.count(); }
 
   private:
-    /// Looks every few ms whether all are gone.
+    /// Checks every few ms whether all connections are closed.
     void wait_for_the_last() {
         if (listener_->empty() || std::chrono::steady_clock::now() - stopped_ > close_timeout) return io_.stop();
         goodbye_.expires_after(std::chrono::milliseconds(5));

@@ -1,4 +1,4 @@
-// From a request to the panel and back.
+// Passes requests to the panel and returns its answers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,18 +17,18 @@ HttpAnswer with(HttpAnswer answer, std::string field, std::string value) {
     return answer;
 }
 
-/// Empty: the head shows none.
+/// Empty: the head has no token.
 std::string token_of(const RequestHead& head) {
     return head.authorization.substr(0, 7) == "Bearer " ? head.authorization.substr(7) : "";
 }
 
-/// 16 bytes in base64.
+/// Returns true for 16 bytes in base64.
 bool is_websocket_key(std::string_view key) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     return key.size() == 24 && key.find_first_not_of(digits) == 22 && key.substr(22) == "==";
 }
 
-/// What RFC 6455 (4.2) has a server look at.
+/// Checks that RFC 6455 (4.2) requires of a server.
 std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     if (head.websocket_version != "13") {
         HttpAnswer answer =
@@ -75,7 +75,7 @@ Service::Service(ServerSettings settings, panel::Panel& panel, auth::Authenticat
 
 // ---- before the body
 
-/// What holds for every request but STOP.
+/// Checks for every request except STOP.
 std::optional<HttpAnswer> Service::refuse(const RequestHead& head) {
     if (head.peer.stop_only)
         return http_error(
@@ -192,7 +192,7 @@ std::optional<HttpAnswer> Service::refuse_stream(const RequestHead& head) {
     return refuse_handshake(head);
 }
 
-// ---- with it
+// ---- with the body
 
 void Service::handle(const RequestHead& head, const Admission& admission, const std::string& body,
                      std::function<void(HttpAnswer)> reply) {
@@ -236,7 +236,7 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
     return http_answer(answer);
 }
 
-/// A browser gives its token back.
+/// Revokes the token of a browser at its request.
 HttpAnswer Service::forget(const RequestHead& head) {
     const auto who = this->authenticate(token_of(head), head.peer);
     if (!who) return http_error(401, "denied", who.error().sentence);
@@ -252,11 +252,11 @@ auth::AuthResult<auth::Identity> Service::authenticate(const std::string& token,
     return who;
 }
 
-// ---- orders and queries
+// ---- commands and queries
 
 void Service::ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row, const json& fields,
                   std::function<void(panel::Answer)> reply) {
-    // The motion thread answers queries: many connections together must not keep it from its work.
+    // The motion thread answers queries: many connections together must not overload it.
     if (is_query(row) && !requests_.take("queries of " + network_of(address), now().steady))
         return reply(panel::refused_answer(
             429, "limit",
@@ -286,7 +286,7 @@ void Service::left(const std::string& session) {
     lease_.left(session);
 }
 
-/// The same of one user a second time within a second is not told again.
+/// Skips an equal entry of the same user within a second.
 void Service::audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                     bool is_known) {
     if (!settings_.audit) return;

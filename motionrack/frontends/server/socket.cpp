@@ -1,4 +1,4 @@
-// Heads and answers as Boost has them.
+// Conversions of heads and answers to and from Boost.
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -16,7 +16,7 @@ std::string field(const Request& request, http::field name) {
     return {text.data(), text.size()};
 }
 
-/// Empty where there are two of them: which one holds is not known, so none does.
+/// Empty if the field occurs twice, because it is ambiguous.
 std::string only_field(const Request& request, http::field name) {
     return request.count(name) == 1 ? field(request, name) : "";
 }

@@ -1,4 +1,4 @@
-// Lines and counts.
+// Individual lines and summaries.
 #include <fmt/format.h>
 
 #include <motionrack/frontends/server/stranger_log.hpp>

@@ -1,4 +1,4 @@
-// A WebSocket below a client.
+// WebSocket connection of a client.
 #include <fmt/format.h>
 
 #include <array>
@@ -17,7 +17,7 @@ class StreamConnection final : public OpenConnection,
                                public MessageSink,
                                public std::enable_shared_from_this<StreamConnection> {
   public:
-    /// Takes the seat of `before`.
+    /// Takes over the seat of `before`.
     StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
                      OpenConnection* before)
         : socket_(std::move(stream)),
@@ -63,7 +63,7 @@ class StreamConnection final : public OpenConnection,
         if (!opened_) return socket_.next_layer().tcp().close();  // its handshake is still being written
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
-        // Who does not read gets no reason either.
+        // A client that does not read receives no reason either.
         if (code == websocket::close_code::try_again_later) socket_.next_layer().tcp().close();
     }
 
@@ -71,7 +71,7 @@ class StreamConnection final : public OpenConnection,
     void end(std::string_view why) override { client_->close_with_reason(websocket::close_code::going_away, why); }
 
   private:
-    static constexpr std::size_t kept = 256 * 1024;  ///< bytes of a buffer that stay with a connection
+    static constexpr std::size_t kept = 256 * 1024;  ///< maximum bytes of a buffer kept by a connection
 
     void say_goodbye() {
         socket_.async_close(*reason_, [self = shared_from_this()](error_code) { self->leave(); });

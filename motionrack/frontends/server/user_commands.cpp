@@ -1,4 +1,4 @@
-// What a maintainer asks of the door.
+// User management commands of a maintainer.
 #include <fmt/format.h>
 
 #include <motionrack/frontends/server/user_commands.hpp>

@@ -1,4 +1,5 @@
-// Windows' own environment: a program and a library may have different C libraries, each with a copy from its start.
+// Environment of the Windows process: program and library may use different C libraries, each with a copy from its
+// start.
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 

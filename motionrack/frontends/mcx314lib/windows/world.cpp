@@ -1,7 +1,8 @@
-// Chips alone as the library's world: of a rack file it takes the cards, "card.NAME = "mcx314"", a line each. Inputs
-// are at rest until set_wire drives them; pulses of the only card count in its EP, those of several turn nothing.
+// World of the library with chips only. From a rack file it reads the cards, "card.NAME = "mcx314"", one per line.
+// Inputs are inactive until set_wire forces them. With a single card, its pulses are counted in its EP; with several,
+// pulses have no effect.
 //
-//   text ──► names ──► Chip and VirtualPort each, with the times of a rack's card ──► one Kernel
+//  text ──► names ──► Chip and VirtualPort each, with the timing of a rack's card ──► one Kernel
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ bool is_name(std::string_view name) {
     });
 }
 
-/// The name in "card.NAME = "mcx314""; empty: the line is another.
+/// Returns the name in "card.NAME = "mcx314""; empty for any other line.
 std::string_view card_in(std::string_view line) {
     constexpr std::string_view start = "card.", type = "\"mcx314\"";
     const std::size_t equals = line.find('=');
@@ -90,7 +91,8 @@ class LoneCard final : public VirtualCard {
     RegisterPort& registers() override { return port_; }
     Interrupt& interrupt() override { return port_; }
     Result<std::int64_t> inspect(std::string_view name) const override;
-    /// Drives an input with 0 or 1, or releases it (NaN). An encoder is cut off while one of its two inputs is driven.
+    /// Forces an input to 0 or 1, or releases it (NaN). An encoder is disconnected while one of its two inputs is
+    /// forced.
     void drive(std::string_view pin, double level);
 
   private:
