@@ -1,8 +1,8 @@
-// One drive of one axis of the MCX314: the virtual chip, which makes it in closed form, and beside it the clocked
-// simulation that verilator makes of tests/verilog/mcx314_axis.v, where it is installed. Before anything is measured
-// both are shown to make the same pulses in the same ticks.
+// One drive of one axis of the MCX314: the virtual chip, which computes it in closed form, against the clocked
+// simulation that verilator makes of tests/verilog/mcx314_axis.v, if installed. Before the measurement, both are
+// checked to give the same pulses in the same ticks.
 //
-//   chip       command ─► ramp ─► cruise ─► ramp          a few hundred events; where the pulses are listened to,
+//  chip       command ─► ramp ─► cruise ─► ramp          a few hundred events; with an edge listener,
 //                                                         one batch for each 2,048 of them
 //   verilator  clock 0 1 0 1 0 1 0 1 0 1 0 1 0 1 ...      10 million clocks of 125 ns for the same 4.5 million pulses
 #include <benchmark/benchmark.h>
@@ -20,8 +20,7 @@ using benchmark::Counter;
 
 constexpr unsigned axis_x = 1;
 
-/// What two generators of one drive have in common: how many pulses, and their instants from the first one on, added
-/// up.
+/// Pulses of one drive from either generator: their number, and the sum of their instants from the first one on.
 class Pulses final : public sim::EdgeListener {
   public:
     void edges(const sim::EdgeBatch& batch) override {
@@ -49,7 +48,8 @@ void count_pulses(benchmark::State& state, const Move& move, std::int64_t made) 
 
 // ---- the virtual chip
 
-/// One drive after the other; the host looks each 10 ms. `heard`: the instant of every pulse is made and handed over.
+/// One drive after the other; the host polls every 10 ms. `heard`: the instant of every pulse is computed and
+/// delivered.
 void drive(benchmark::State& state, const Move& move, bool heard) {
     Stage stage(false);
     Pulses pulses;
@@ -91,9 +91,9 @@ class Clocked {
         axis_->dp = 0;
         axis_->manld = axis_->dsnde = axis_->continuous = axis_->start = axis_->stop = axis_->clock = 0;
         axis_->sacc = move.s_curve;
-        axis_->eval();  // so that the first edge of the clock is one
+        axis_->eval();  // initial state, so that the first clock edge is seen
     }
-    /// One drive from its command to its end.
+    /// Runs one drive from its command to its end.
     void drive(Pulses& pulses) {
         axis_->start = 1;
         do {

@@ -1,4 +1,4 @@
-// How much virtual time a second of one core runs on the virtual MCX314, beside its tick-by-tick twin doing the same.
+// Virtual time per second of one core on the virtual MCX314, compared with its tick-by-tick twin.
 #include <benchmark/benchmark.h>
 
 #include "chip_work.hpp"
@@ -13,9 +13,9 @@ void count_time(benchmark::State& state, double seconds, double pulses) {
     state.counters["pulses/s"] = Counter(pulses, Counter::kIsRate);
 }
 
-// ---- cruising: four axes at 4 Mpps, nobody listens to pulses
+// ---- cruising: four axes at 4 Mpps, without edge listeners
 
-/// The host looks every `slice`.
+/// The host polls every `slice`.
 void cruise(benchmark::State& state, Duration slice, bool machines) {
     Stage stage(machines);
     set_speeds(stage.host, {});
@@ -89,7 +89,7 @@ BENCHMARK_CAPTURE(moves_twin, stepper, stepper);
 BENCHMARK_CAPTURE(moves, stepper_s, stepper_s, false);
 BENCHMARK_CAPTURE(moves_twin, stepper_s, stepper_s);
 
-/// One axis that does nothing but ramp.
+/// One axis that only ramps.
 std::uint64_t ramps(Stage& stage, bool plus) {
     const std::uint64_t before = stage.host.kernel.events();
     drive_fixed(stage.host, 50'000, plus, 1);
@@ -97,7 +97,7 @@ std::uint64_t ramps(Stage& stage, bool plus) {
     return stage.host.kernel.events() - before;
 }
 
-/// What a step of its speed costs: an event of its own with a machine, which hears it; a step of a walk without.
+/// Cost of a velocity step: a separate event with a machine, which is notified; a step of a loop without.
 void speed_steps(benchmark::State& state, bool s_curve, bool machines) {
     Stage stage(machines), heard(true);
     for (Stage* each : {&stage, &heard}) {
@@ -119,7 +119,7 @@ BENCHMARK_CAPTURE(speed_steps, t_curve_machines, false, true);
 BENCHMARK_CAPTURE(speed_steps, s_curve, true, false);
 BENCHMARK_CAPTURE(speed_steps, s_curve_machines, true, true);
 
-// ---- every edge listened to and decoded
+// ---- every edge delivered and decoded
 
 template <class Decoder>
 void count_edges(benchmark::State& state, Stage& stage, std::int64_t before, const std::array<Decoder, 4>& decoders) {
@@ -132,7 +132,7 @@ void count_edges(benchmark::State& state, Stage& stage, std::int64_t before, con
             state.SkipWithError("an edge was lost");
 }
 
-/// Four axes cruise; the host looks each 10 ms.
+/// Four axes cruise; the host polls every 10 ms.
 template <class Decoder>
 void edges(benchmark::State& state, const Speeds& speeds) {
     Stage stage(true);
@@ -163,7 +163,7 @@ BENCHMARK_CAPTURE(edges_one_by_one, 20_kpps, at_20_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 100_kpps, at_100_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 4_Mpps, at_4_mpps);
 
-/// The decoders alone, on edges that are there already.
+/// The decoders alone, on prepared edges.
 template <class Decoder>
 void decode_only(benchmark::State& state) {
     Decoder decoder;
@@ -183,7 +183,7 @@ void decode_only(benchmark::State& state) {
 BENCHMARK_TEMPLATE(decode_only, sim::BatchDecoder);
 BENCHMARK_TEMPLATE(decode_only, OneByOne);
 
-/// Interpolations one after the other, at 4 Mpps, of which every edge is decoded.
+/// Interpolations in sequence, at 4 Mpps, with every edge decoded.
 template <class Start>
 void path_edges(benchmark::State& state, const Start& start) {
     Stage stage(true);

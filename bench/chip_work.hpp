@@ -1,5 +1,5 @@
-// The work of the chip's benchmarks: a chip with four axis machines, and drives written to it or to its tick-by-tick
-// twin alike.
+// Workload of the chip benchmarks: a chip with four axis machines, and drives written to it or to its tick-by-tick
+// twin.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ namespace motionrack::bench {
 
 inline constexpr unsigned all_axes = 15;
 
-/// Parameters of a drive; the registers' own units.
+/// Parameters of a drive in register units.
 struct Speeds {
     std::int64_t range = 16'000, start = 8'000, speed = 8'000, accel = 400, jerk = 100;
 };
 
-/// Writes them to the axes of `mask`; the axes' A, D and K differ a little, so that their speeds step at different
+/// Writes them to the axes of `mask`; A, D and K differ slightly per axis, so that the velocities step at different
 /// ticks.
 template <class Host>
 void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
@@ -38,20 +38,20 @@ void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
     }
 }
 
-/// Fixed drives of `pulses` by the axes of `mask`; `plus`: in which direction.
+/// Fixed drives of `pulses` by the axes of `mask`; `plus`: direction.
 template <class Host>
 void drive_fixed(Host& host, std::int64_t pulses, bool plus, unsigned mask = all_axes) {
     host.data(mask, 0x06, pulses);
     host.command(mask, plus ? 0x20 : 0x21);
 }
 
-/// A fixed drive from rest to rest.
+/// A fixed drive from standstill to standstill.
 struct Move {
     Speeds speeds;
     std::int64_t pulses = 0;
     bool s_curve = false;
 };
-// A servo: up to 4 Mpps in 0.16 s (0.32 s), one second there. A stepper: up to 40 kpps in 0.30 s, one second there.
+// A servo: up to 4 Mpps in 0.16 s (0.32 s), 1 s at that rate. A stepper: up to 40 kpps in 0.30 s, 1 s at that rate.
 inline constexpr Move servo{{16'000, 200, 8'000, 400, 100}, 4'500'000, false};
 inline constexpr Move servo_s{{16'000, 200, 8'000, 400, 400}, 5'200'000, true};
 inline constexpr Move stepper{{800'000, 200, 4'000, 100, 100}, 52'000, false};
@@ -63,7 +63,7 @@ void prepare(Host& host, const Move& move, unsigned mask = all_axes) {
     host.mode(mask, 3, move.s_curve ? 0x0004u : 0u);
 }
 
-/// Motors that follow any pulses, with an encoder count for each.
+/// Motors that follow any pulses, with one encoder count per pulse.
 inline parts::AxisMechanicsSettings machine_settings() {
     parts::AxisMechanicsSettings settings;
     settings.motor.start_stop_hz = settings.motor.pull_out_hz = 1e8;
@@ -71,7 +71,7 @@ inline parts::AxisMechanicsSettings machine_settings() {
     return settings;
 }
 
-/// An axis machine on each axis of a chip; before the kernel starts.
+/// An axis machine on each axis of a chip; create before the kernel starts.
 class Machines {
   public:
     Machines(sim::Kernel& kernel, const std::string& prefix, mcx314::Chip& chip) {
@@ -86,7 +86,7 @@ class Machines {
     std::array<std::unique_ptr<parts::AxisMechanics>, 4> all_;
 };
 
-/// A chip with an axis machine on each axis, if `machines`.
+/// A chip, with an axis machine on each axis if `machines`.
 class Stage {
   public:
     explicit Stage(bool machines) {
@@ -95,7 +95,7 @@ class Stage {
     }
     void listen(int axis, sim::EdgeListener& listener) { machines_->encoder(axis).set_edge_listener(&listener); }
 
-    /// Runs until nothing drives, looking every 10 ms.
+    /// Runs until no axis drives; polls every 10 ms.
     void finish() {
         while ((host.read(0) & all_axes) != 0) host.advance(milliseconds(10));
     }
@@ -112,7 +112,7 @@ class Stage {
     std::optional<Machines> machines_;
 };
 
-/// The plain way to decode edges: each by itself, through the table of 16 transitions.
+/// Baseline decoder: each edge separately, through the table of 16 transitions.
 class OneByOne final : public sim::EdgeListener {
   public:
     void edges(const sim::EdgeBatch& batch) override {

@@ -1,5 +1,4 @@
-// Frames over Cyclone DDS between two processes of this computer: how many a second, and how old they are when they
-// arrive. Beside it the judge alone.
+// Frames over Cyclone DDS between two processes on one computer: rate, and age at arrival. Also the validator alone.
 #include <benchmark/benchmark.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -23,13 +22,13 @@ namespace {
 using namespace motionrack;
 using dds::Frame;
 
-/// The network that does not leave this computer.
+/// Network restricted to this computer.
 constexpr const char* loopback =
     "<Domain Id=\"any\"><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
     "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain>";
 
-/// Frame `number`, which tells in its first two counts when it left.
+/// Frame `number`, which carries its send time in its first two counts.
 void stamp(Frame& frame, std::uint32_t number, Duration period, std::uint32_t scales) {
     frame.sequence = number;
     frame.time = std::int64_t{number} * period.count();
@@ -44,7 +43,7 @@ Instant stamp_of(const Frame& frame) {
     return Instant{static_cast<std::int64_t>(std::uint64_t{frame.counts[1]} << 32 | frame.counts[0])};
 }
 
-/// The other process: publishes each `pace`, or as fast as it can (0), until it is killed.
+/// The other process: publishes every `pace`, or at maximum rate (0), until it is killed.
 [[noreturn]] void publish_forever(const std::string& bus, Duration pace, std::uint32_t scales) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -86,7 +85,7 @@ double percentile(const std::vector<double>& sorted, double part) {
                                             static_cast<std::size_t>(part * static_cast<double>(sorted.size())))];
 }
 
-/// Listens until `frames` frames came; their ages in us when they were received, lost ones counted. False if none come.
+/// Receives `frames` frames; records their ages in us and counts lost ones. Returns false if none arrive.
 bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& ages) {
     while (ages.size() < frames) {
         if (!subscriber.wait(whole_seconds(10))) return false;
@@ -98,7 +97,7 @@ bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& 
     return true;
 }
 
-/// Arguments: period in us (0: as fast as it goes), scales.
+/// Arguments: period in us (0: maximum rate), scales.
 void network(benchmark::State& state) {
     ::setenv("CYCLONEDDS_URI", loopback, 0);
     const std::string bus = "bench-" + std::to_string(::getpid());
@@ -140,7 +139,7 @@ BENCHMARK(network)
     ->MinTime(3)
     ->Unit(benchmark::kMillisecond);
 
-/// The CRC included.
+/// Including the CRC.
 void judging(benchmark::State& state) {
     dds::FrameValidator judge;
     dds::Sample sample;

@@ -1,4 +1,4 @@
-// The wide decoder of sampled encoder lines, beside a loop over a table of 16 transitions and a table of 65,536.
+// Wide decoder of sampled encoder lines, compared with loops over tables of 16 transitions and of 65,536 entries.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using namespace motionrack::decode;
 using Clock = std::chrono::steady_clock;
 
-/// Four encoders that turn to and fro, a count every few samples.
+/// Four encoders that turn back and forth, one count every few samples.
 std::vector<std::uint8_t> make_stream(std::size_t size) {
     std::mt19937 random(4);
     std::vector<std::uint8_t> out(size);
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> make_stream(std::size_t size) {
     return out;
 }
 
-/// Made once for each size: a benchmark is called again and again until its time is known.
+/// Created once per size, because a benchmark is called repeatedly until its time is known.
 const std::vector<std::uint8_t>& stream_of(std::size_t size) {
     static std::map<std::size_t, std::vector<std::uint8_t>> streams;
     const auto [at, added] = streams.try_emplace(size);
@@ -41,7 +41,7 @@ const std::vector<std::uint8_t>& stream_of(std::size_t size) {
     return at->second;
 }
 
-/// One axis, a sample a byte.
+/// One axis, one sample per byte.
 std::int64_t by_table_of_16(const std::vector<std::uint8_t>& stream) {
     static constexpr std::array<std::int8_t, 16> table = {0, 1, -1, 0, -1, 0, 0, 1, 1, 0, 0, -1, 0, -1, 1, 0};
     std::int64_t count = 0;
@@ -54,7 +54,7 @@ std::int64_t by_table_of_16(const std::vector<std::uint8_t>& stream) {
     return count;
 }
 
-/// Four axes: the byte before and the byte choose four counts, each one more than it is, in the bytes of a number.
+/// Four axes: the previous and the current byte select four counts, each plus 1, in the bytes of a number.
 class TableOf64K {
   public:
     TableOf64K() : table_(1 << 16) {
@@ -83,7 +83,7 @@ class TableOf64K {
     std::vector<std::uint32_t> table_;
 };
 
-/// Seconds that `work` takes: the best of many tries, so that other work on the machine does not slow the baseline.
+/// Seconds that `work` takes: the minimum of many tries, so that other load does not slow the baseline.
 template <class Work>
 double seconds_of(const Work& work) {
     double best = 1e9;
@@ -97,7 +97,7 @@ double seconds_of(const Work& work) {
     return best;
 }
 
-/// Runs `work` and tells its rate, and how many times the baseline's it is.
+/// Runs `work` and reports its rate, and the ratio to the baseline.
 template <class Work, class Baseline>
 void compare(benchmark::State& state, std::size_t samples, const Work& work, const Baseline& baseline, bool alike) {
     if (!alike) state.SkipWithError("the decoder and its baseline do not agree");
@@ -160,7 +160,7 @@ void bit_planes(benchmark::State& state, const Kernels& kernels) {
     compare(state, stream.size(), work, baseline, work() == baseline());
 }
 
-/// What reading the bytes alone takes: the most that a decoder can do with data of this size.
+/// Time of reading the bytes alone: an upper bound for any decoder at this size.
 void reading_alone(benchmark::State& state, const Kernels& kernels) {
     const std::vector<std::uint8_t> stream(static_cast<std::size_t>(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(kernels.steady(stream.data(), stream.size() / 64, 3, 0));
@@ -176,7 +176,7 @@ int main(int argc, char** argv) {
                 (std::string(name) + "/" + kernels.name).c_str(),
                 [function, &kernels](benchmark::State& state) { function(state, kernels); });
         };
-        // Bytes in the first cache, the second, and memory; of planes, bytes of one line.
+        // Bytes in L1 cache, L2 cache and memory; for planes, bytes per line.
         add("one_axis_bytes", one_axis_bytes)->Arg(16 << 10)->Arg(256 << 10)->Arg(64 << 20);
         add("reading_alone", reading_alone)->Arg(64 << 20);
         add("one_axis_with_index", one_axis_with_index)->Arg(256 << 10);

@@ -1,5 +1,4 @@
-// How many lines of G-code a second one core reads: with full meaning and checks, and the naive tokenising it is
-// compared with.
+// Lines of G-code per second and core: full interpretation with checks, compared with naive tokenising.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -23,7 +22,7 @@ gcode::Settings machine() {
     return settings;
 }
 
-/// 200,000 lines; the numbers from a fixed linear congruence.
+/// 200,000 lines; the numbers come from a fixed linear congruential generator.
 struct Program {
     std::string text;
     std::int64_t lines = 0;
@@ -80,7 +79,7 @@ void read_with_meaning(benchmark::State& state, Kind kind) {
     state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * program.text.size()));
 }
 
-/// What a first try looks like: getline from a stream, then strtod word by word; no meaning, no checks.
+/// Naive baseline: getline from a stream, then strtod word by word; no interpretation, no checks.
 void tokenise_naively(benchmark::State& state, Kind kind) {
     const Program program = make(kind);
     for (auto _ : state) {

@@ -1,9 +1,9 @@
-// Frames of the grating bus a second of one core: the virtual cards, and beside them the clocked simulation that
-// verilator makes of hdl/grating_bus, where it is installed.
+// Frames of the grating bus per second and core: the virtual cards, against the clocked simulation that verilator makes
+// of hdl/grating_bus, if installed.
 //
-// Eight moving scales, a host and ten slaves, 200 us a period, which is 20,000 clocks of 100 MHz. `frames/s` counts
+// Eight moving scales, a host and ten slaves, 200 us per period, which is 20,000 clocks of 100 MHz. `frames/s` counts
 // periods, in each of which every card publishes its frame with its CRC; `baseline/s` is the clocked simulation,
-// `ratio` how many times that.
+// `ratio` their quotient.
 #include <benchmark/benchmark.h>
 
 #include <motionrack/cards/grating_bus/test/rig.hpp>
@@ -44,8 +44,8 @@ class Clocked {
         }
     }
     std::int64_t frames() const { return frames_; }
-    /// Claims the last frame; whether it is the same on all cards, of that time in clocks, and scale 0 where it must
-    /// be.
+    /// Claims the last frame; checks that all cards hold the same one, of that time in clocks, with scale 0 at its
+    /// expected count.
     bool holds_frame_of(std::int64_t clock) {
         system_->claim = 1;
         run(1);
@@ -85,7 +85,7 @@ void frames_clocked(benchmark::State& state) {
 }
 BENCHMARK(frames_clocked);
 
-/// Frames a second: the best of many tries, so that other work on the machine does not slow the baseline.
+/// Frames per second: the maximum of many tries, so that other load does not slow the baseline.
 double clocked_rate() {
     static const double rate = [] {
         Clocked clocked;
@@ -113,7 +113,7 @@ void count_ratio(benchmark::State&, double) {}
 
 // ---- the virtual cards
 
-/// Cards with nobody's ears on; `claims`: each processor claims each frame and looks whether it is sound.
+/// Cards without wire listeners unless `wires_watched`; `claims`: each processor claims and validates each frame.
 void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
     sim::Kernel kernel;
     Bus bus(kernel);

@@ -1,6 +1,6 @@
-// How the work of a rack grows: with the axes of a card, with its cards, with the cards and the scales of a grating
-// bus. The times are of one pulse and of one frame, so that what grows no faster than the work stays the same down a
-// column. Memory is the process' own, so each size is best run alone: --benchmark_filter=^cards/8$
+// Growth of the work of a rack with the axes of a card, its cards, and the cards and scales of a grating bus. Times are
+// per pulse and per frame: constant down a column means linear growth. Memory is that of the process, so each size is
+// best run alone: --benchmark_filter=^cards/8$
 #include <benchmark/benchmark.h>
 
 #include <motionrack/cards/grating_bus/test/rig.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 using benchmark::Counter;
 
-/// One of several chips in a kernel, with a machine on each of its axes.
+/// One of several chips in a kernel, with a machine on each axis.
 class Card : public mcx314::Commands<Card> {
   public:
     Card(sim::Kernel& kernel, const std::string& name) : chip_(kernel, name), machines_(kernel, name, chip_) {}
@@ -33,7 +33,7 @@ void count(benchmark::State& state, const char* what, double all, double seconds
     state.counters["sim_s/s"] = Counter(seconds, Counter::kIsRate);
 }
 
-/// So many axes of one card, with machines, make the stepper's move together.
+/// The given number of axes of one card, with machines, make the stepper's move together.
 void axes(benchmark::State& state) {
     const unsigned mask = (1u << state.range(0)) - 1;
     Stage stage(true);
@@ -53,7 +53,7 @@ void axes(benchmark::State& state) {
 }
 BENCHMARK(axes)->DenseRange(1, 4);
 
-/// All four axes of so many cards in one kernel make the same move.
+/// All four axes of the given number of cards in one kernel make the same move.
 void cards(benchmark::State& state) {
     sim::Kernel kernel;
     std::vector<std::unique_ptr<Card>> all;
@@ -77,7 +77,7 @@ void cards(benchmark::State& state) {
 }
 BENCHMARK(cards)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
 
-/// Frames of a grating bus with so many slaves and so many scales, nobody looking; one of `each` is a frame of one
+/// Frames of a grating bus with the given numbers of slaves and scales, without observers; `each` is one frame of one
 /// card.
 void frames(benchmark::State& state) {
     const auto slaves = static_cast<int>(state.range(0)), scales = static_cast<int>(state.range(1));

@@ -1,4 +1,4 @@
-// Whole jobs: G-code read, planned and run on the rack of the examples, watched as `motionrack run` watches it.
+// Complete jobs: G-code interpreted, planned and run on the rack of the examples, observed as by `motionrack run`.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::string text_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// 20,000 lines of 0.3 mm in continuous path mode, along a spiral that swings in and out.
+/// 20,000 lines of 0.3 mm in continuous path mode, along a spiral of varying radius.
 std::string short_lines() {
     std::string text = "G21 G90 G64 P0.02\nG0 X150 Y100\nG1 F3000\n";
     char line[64];
@@ -35,7 +35,7 @@ std::string short_lines() {
     return text + "M2\n";
 }
 
-/// Reads, plans and runs the program; building the rack is not measured.
+/// Interprets, plans and runs the program; excludes building the rack.
 void run(benchmark::State& state, const std::string& program) {
     const rack::RackReading reading = rack::read_rack_text(text_of("examples/racks/router.toml"), "router.toml");
     if (!reading.config || program.empty()) return state.SkipWithError("the example cannot be read");
@@ -77,7 +77,7 @@ void run_20000_short_lines(benchmark::State& state) {
 BENCHMARK(run_example_part)->Unit(benchmark::kMillisecond);
 BENCHMARK(run_20000_short_lines)->Unit(benchmark::kMillisecond);
 
-/// The whole rack to a snapshot, or back.
+/// Saves the whole rack to a snapshot, or restores it.
 void rewind(benchmark::State& state, bool back) {
     const rack::RackReading reading = rack::read_rack_text(text_of("examples/racks/router.toml"), "router.toml");
     if (!reading.config) return state.SkipWithError("the rack cannot be read");

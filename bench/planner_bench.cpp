@@ -1,4 +1,4 @@
-// Speed of profiles and look-ahead, each beside the plain way of doing the same thing.
+// Speed of profiles and look-ahead, each compared with a naive implementation.
 
 #include <benchmark/benchmark.h>
 
@@ -19,10 +19,10 @@ struct Task {
     double distance, speed, accel, jerk, entry, exit;
 };
 
-/// So many that the branch predictor cannot learn them.
+/// Enough that the branch predictor cannot learn them.
 constexpr std::size_t task_count = 1 << 14;
 
-/// Moves of all cases: some reach speed and acceleration, some neither.
+/// Moves of all cases: with and without reaching the velocity and acceleration limits.
 std::vector<Task> tasks() {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);
@@ -60,7 +60,7 @@ void trapezoid_plan_between_speeds(benchmark::State& state) {
 }
 BENCHMARK(trapezoid_plan_between_speeds);
 
-/// The plain way: step through the motion at 1 kHz, braking when the way left asks for it.
+/// Naive: steps through the motion at 1 kHz and decelerates when the remaining distance requires it.
 void trapezoid_plan_by_steps_of_1_ms(benchmark::State& state) {
     const auto work = tasks();
     std::size_t i = 0;
@@ -91,7 +91,7 @@ void s_curve_plan(benchmark::State& state) {
 }
 BENCHMARK(s_curve_plan);
 
-/// The plain way: bisection for the peak speed.
+/// Naive: bisection for the peak velocity.
 void s_curve_plan_by_bisection(benchmark::State& state) {
     const auto work = tasks();
     std::size_t i = 0;
@@ -137,7 +137,7 @@ void sample_trapezoid(benchmark::State& state) {
 }
 BENCHMARK(sample_trapezoid);
 
-/// The plain way: run through the phases from the start at every sample.
+/// Naive: iterates over the phases from the start for every sample.
 void sample_s_curve_through_all_phases(benchmark::State& state) {
     const SCurveProfile p(20, 100, 1000, 2e4);
     const auto ends = p.phase_ends();
@@ -165,7 +165,7 @@ MachineLimits machine() {
     return limits;
 }
 
-/// A smooth curve of short lines, as a CAM system writes it.
+/// A smooth curve of short lines, as written by a CAM system.
 std::vector<Move> curve(int count, double step) {
     std::vector<Move> moves;
     Point at{};
@@ -209,13 +209,13 @@ void look_ahead_0_1_mm(benchmark::State& state) {
     look_ahead(state, 0.1);
 }
 BENCHMARK(look_ahead_0_1_mm);
-/// Stopping takes more moves than the window holds, so that every pass runs over the whole window.
+/// Stopping needs more moves than the window holds, so that every pass covers the whole window.
 void look_ahead_2_um(benchmark::State& state) {
     look_ahead(state, 0.002);
 }
 BENCHMARK(look_ahead_2_um);
 
-/// The plain way: both passes over the whole window at every push.
+/// Naive: both passes over the whole window at every push.
 void look_ahead_with_full_passes(benchmark::State& state) {
     const auto moves = curve(20'000, 0.1);
     const PathLimits limits(machine());

@@ -1,4 +1,4 @@
-// Speed of the quickest motion of one axis between two states; beside it the S-curve, which knows rest to rest alone.
+// Speed of the time-optimal profile of one axis between two states, compared with the S-curve from rest to rest.
 
 #include <benchmark/benchmark.h>
 
@@ -17,7 +17,7 @@ struct Task {
     KinematicLimits limits;
 };
 
-/// Everything at random: limits within an order of magnitude, speeds up to `moving` of what is allowed.
+/// Random tasks: limits within an order of magnitude, velocities up to `moving` of the limit.
 std::vector<Task> tasks(double moving) {
     std::mt19937_64 random(20261122);
     const auto between = [&](double least, double most) {
@@ -30,7 +30,7 @@ std::vector<Task> tasks(double moving) {
         t.limits.jerk = between(4e3, 4e4);
         for (KinematicState* state : {&t.from, &t.to}) {
             state->position = between(-100, 100);
-            // as much acceleration as leaves half of the speed
+            // limits acceleration so that half of the velocity remains
             const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.speed * t.limits.jerk));
             state->accel = moving * between(-most, most);
             const double room = t.limits.speed - 0.5 * state->accel * state->accel / t.limits.jerk;
@@ -70,7 +70,7 @@ void travel_between_any_states(benchmark::State& state) {
 }
 BENCHMARK(travel_between_any_states);
 
-/// Near targets: no cruise, so that an equation is solved for nearly each.
+/// Near targets: no cruise phase, so that nearly each requires solving an equation.
 void travel_between_any_states_near(benchmark::State& state) {
     auto work = tasks(1);
     for (Task& t : work) t.to.position = t.from.position + 0.02 * (t.to.position - t.from.position);
@@ -78,7 +78,7 @@ void travel_between_any_states_near(benchmark::State& state) {
 }
 BENCHMARK(travel_between_any_states_near);
 
-/// The start up to twice as fast, and accelerated up to twice as much, as it may be.
+/// Initial velocity and acceleration up to twice their limits.
 void travel_from_outside(benchmark::State& state) {
     auto work = tasks(1);
     for (Task& t : work) t.from = {t.from.position, 2 * t.from.speed, 2 * t.from.accel};

@@ -1,5 +1,5 @@
-// How many ticks of 10 us the virtual RTC5 does in a second: dense micro-vectors and short marks with fly and table
-// correction, long marks that nobody looks at, and the tick-by-tick twin for comparison.
+// Ticks of 10 us per second on the virtual RTC5: dense micro-vectors and short marks with fly and table correction,
+// long marks without a sink, and the tick-by-tick twin for comparison.
 #include <benchmark/benchmark.h>
 
 #include <motionrack/cards/rtc5/model/engine.hpp>
@@ -13,7 +13,7 @@ using namespace motionrack::rtc5;
 
 constexpr std::int64_t list_size = 4000;
 
-/// Keeps the compiler from leaving the samples out.
+/// Keeps the compiler from removing the samples.
 class Last final : public Sink {
   public:
     void samples(const Samples& b) override {
@@ -32,7 +32,7 @@ const CorrectionFile& lens_file() {
 enum class Work { micro_vectors, short_marks, long_marks };
 enum class Correction { none, encoder, rotary };
 
-/// Lists 1 and 2 alike; in a loop they run for ever.
+/// Equal lists 1 and 2; in a loop they run indefinitely.
 std::vector<Command> list_of(Work work, Correction correction) {
     std::vector<Command> out;
     const auto put = [&](Op op, std::initializer_list<double> p) { out.push_back(*list_command(op, p)); };
@@ -93,7 +93,7 @@ void run_twin(benchmark::State& state, Work work, Correction correction) {
         benchmark::Counter(10'000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-/// Card, mirrors, lens, laser and work piece together.
+/// Card, mirrors, lens, laser and workpiece together.
 class Station final : public Sink {
   public:
     explicit Station(const parts::StationSettings& settings) : station_(*parts::MarkingStation::make(settings)) {}

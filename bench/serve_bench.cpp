@@ -1,4 +1,4 @@
-// A server under load: many WebSocket clients look at a job of four axes that runs in step with real time.
+// Server under load: many WebSocket clients observe a job of four axes in real time.
 //
 //   this process: motion thread (main), network thread ◄──200 sockets──► child process: reads and counts
 //
@@ -62,7 +62,7 @@ std::int64_t number_behind(const std::string& text, const char* key) {
     return at == std::string::npos ? 0 : std::atoll(text.c_str() + at + std::char_traits<char>::length(key));
 }
 
-/// The child: connects, subscribes, reads for so long.
+/// The child process: connects, subscribes and reads for the given time.
 Counted read_pictures(std::uint16_t port, const Load& load) {
     std::vector<server::WebClient> clients;
     for (int i = 0; i < load.clients; ++i) {
@@ -101,7 +101,7 @@ Counted read_pictures(std::uint16_t port, const Load& load) {
     return out;
 }
 
-/// The parent, which serves until the child has counted.
+/// The parent process: serves until the child has finished counting.
 std::unique_ptr<server::ServedRack> serve() {
     server::ServedSettings settings;
     settings.server.port = 0;
@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
     if (argc > 3) load.seconds = std::atof(argv[3]);
     int to_child[2], from_child[2];
     if (::pipe(to_child) != 0 || ::pipe(from_child) != 0) return 1;
-    // Before any thread is there.
+    // Before any thread exists.
     const pid_t child = ::fork();
     if (child == 0) {
         std::uint16_t port = 0;
