@@ -1,4 +1,4 @@
-// Cards: their maps, registers with and without effects, interrupts.
+// Cards: their maps, registers with and without side effects, interrupts.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -91,7 +91,7 @@ const rack::RackCard& config_of_card(RackHandle& world, const std::string& name)
     refuse("There is no such card.");
 }
 
-/// What one card is: {type, map, channels, widths, base, values, quantities, faults}.
+/// Returns the description of a card: {type, map, channels, widths, base, values, quantities, faults}.
 py::dict describe(RackHandle& world, const std::string& name) {
     const rack::Card& card = *value_of(rack::card_named(world.rack(), name));
     const rack::RackCard& config = config_of_card(world, name);
@@ -132,7 +132,7 @@ void write_register(RackHandle& world, const std::string& card, int bits, std::u
     });
 }
 
-/// What the registers show through the port, in words.
+/// Returns the decoded registers as read through the port.
 std::string view(RackHandle& world, const std::string& card, bool clearing) {
     return run_exclusive(world, [&]() -> Result<std::string> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));

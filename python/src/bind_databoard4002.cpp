@@ -1,4 +1,4 @@
-// The DataBoard 4002's function library: commands, events, moves, slope tables.
+// DataBoard 4002 function library: commands, events, moves, slope tables.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 

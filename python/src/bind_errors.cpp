@@ -1,4 +1,4 @@
-// Errors become the exceptions of motionrack.errors.
+// Converts errors to the exceptions of motionrack.errors.
 #include <python/src/bindings.hpp>
 #include <python/src/python_error.hpp>
 
@@ -30,7 +30,7 @@ py::object exception_of(const py::module_& errors, const char* name, const Error
 }  // namespace
 
 void bind_errors(py::module_&) {
-    // NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 takes no other function
+    // NOLINTNEXTLINE(performance-unnecessary-value-param): signature required by pybind11
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
             if (thrown) std::rethrow_exception(thrown);

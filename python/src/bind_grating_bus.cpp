@@ -1,4 +1,4 @@
-// A motion card of a grating bus: its function library, and what the bus of the rack is seen to do.
+// Motion card of a grating bus: its function library, and observations of the rack's bus.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -15,7 +15,7 @@ namespace {
 namespace gb = grating_bus;
 using Grating = BoundDriver<gb::GratingCard>;
 
-/// (sequence, ticks of the rack, counts)
+/// (sequence, ticks of simulated time, counts)
 std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> told(const gb::Reading& reading) {
     const auto counts = reading.counts();
     return {reading.frame.sequence, reading.frame.time,

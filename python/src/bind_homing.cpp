@@ -1,4 +1,4 @@
-// Homing the axes of a rack, and what was found.
+// Homing of the axes of a rack, and its results.
 #include <pybind11/stl.h>
 
 #include <motionrack/rack/homing.hpp>

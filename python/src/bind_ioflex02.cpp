@@ -1,4 +1,4 @@
-// The IOFLEX02's function library: the source's object tIOFlexPos, and one layer up.
+// IOFLEX02 function library: the source's object tIOFlexPos, and one layer above.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 

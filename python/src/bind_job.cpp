@@ -1,4 +1,4 @@
-// A part program on a rack, and what came of it.
+// A part program on a rack, and its outcome.
 #include <fmt/format.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -15,7 +15,7 @@ namespace motionrack::python {
 
 namespace {
 
-/// A program that was run, with its rack, which has the samples until it runs the next one.
+/// An executed program with its rack, which holds the samples until its next run.
 struct Ran {
     std::shared_ptr<RackHandle> world;
     rack::JobOutcome outcome;
@@ -39,7 +39,7 @@ std::string letter_of(int index) {
     return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]);
 }
 
-/// (ticks, {signal: values}) of what the monitor saw.
+/// (ticks, {signal: values}) recorded by the monitor.
 py::tuple samples_of(const Ran& ran) {
     const rack::Monitor& monitor = ran.world->job()->monitor();
     const std::vector<rack::Sample>& samples = monitor.samples();
@@ -120,7 +120,7 @@ void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
     out["program_events_left_out"] = outcome.run.events_left_out;
 }
 
-/// Everything that JobOutcome has.
+/// Returns all fields of JobOutcome.
 py::dict dict_of(const Ran& ran) {
     const rack::JobOutcome& outcome = ran.outcome;
     py::dict out;
@@ -167,7 +167,7 @@ void attend_progress(RackHandle& world, const py::object& progress) {
     });
 }
 
-/// Without Python's lock: the loops of a program may take a second or two.
+/// Releases the GIL, because program loops may take one or two seconds.
 control::gcode::Settings check_program(const RackHandle& world, const ProgramInput& program) {
     const py::gil_scoped_release free;
     return world.check(program);
@@ -189,7 +189,7 @@ std::shared_ptr<Ran> run(const std::shared_ptr<RackHandle>& world, const Program
         RackHandle& world;
         ~Unheard() { world.on_progress({}); }
     } unheard{*world};
-    // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
+    // A Python exception stops the run and propagates; a machine stop is part of the outcome.
     auto out = std::make_shared<Ran>(Ran{world, {}});
     const auto superseded = [last = std::weak_ptr<Ran>(out)] {
         if (const std::shared_ptr<Ran> ran = last.lock()) ran->kept = ran->report();

@@ -1,5 +1,5 @@
-// The MCX314's function library, each function from its row of the declaration: arguments by place or by name, checked
-// against the row, with the row's text as docstring. No function is written out here.
+// MCX314 function library, generated from the rows of its declaration: positional or keyword arguments, checked against
+// the row, with the row's text as docstring. No function is written by hand.
 //
 //   FunctionInfo ──► signature and docstring      *args, **kwargs ──► check_call ──► Library::call ──► int or sentence
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using Arguments = std::map<std::string, std::int64_t, std::less<>>;
 
 // ---- arguments
 
-/// Of anything that Python takes for a whole number; TypeError else.
+/// Converts any object that Python accepts as an integer; otherwise raises TypeError.
 std::int64_t whole(const FunctionInfo& function, const ArgumentInfo* argument, py::handle value) {
     const auto number = py::reinterpret_steal<py::int_>(PyNumber_Index(value.ptr()));
     if (!number) throw py::error_already_set();
@@ -48,7 +48,7 @@ Arguments arguments_of(const FunctionInfo& function, const py::args& places, con
     Arguments out;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const ArgumentInfo* const argument = i < function.arguments.size() ? &function.arguments[i] : nullptr;
-        // One too many keeps its place as its name, which check_call refuses with the names that there are.
+        // A surplus argument gets its position as name; check_call rejects it and lists the valid names.
         const std::string name = argument == nullptr ? std::to_string(i + 1) : std::string(argument->name);
         out[name] = whole(function, argument, places[i]);
     }
@@ -63,7 +63,7 @@ Arguments arguments_of(const FunctionInfo& function, const py::args& places, con
     return out;
 }
 
-/// How long the function waits at most by its own argument; never: it has none.
+/// Returns the timeout argument of the function; never: it has none.
 Duration timeout_of(const FunctionInfo& function, const CheckedCall& call) {
     for (std::size_t i = 0; function.waits && i < function.arguments.size(); ++i)
         if (function.arguments[i].unit == "ms") return milliseconds(call.values[i]);

@@ -1,4 +1,4 @@
-// Real cards: opening, stopping, registers by hand. motionrack/live.py has them by their names.
+// Real cards: opening, stopping, manual register access. motionrack/live.py is the public interface.
 #include <python/src/bindings.hpp>
 #include <python/src/live_card.hpp>
 #include <python/src/map_dict.hpp>

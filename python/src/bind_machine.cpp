@@ -1,4 +1,4 @@
-// A machine operated step by step: programs with hold and resume, jogs, homing, alarms.
+// A machine operated step by step: programs with feed hold and resume, jogging, homing, alarms.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -17,7 +17,7 @@ using operate::Machine;
 using Class = py::class_<SteppedMachine>;
 using Done = Result<void>;
 
-/// An order without Python's lock.
+/// Executes a command without the GIL.
 template <class Work>
 auto ordered(SteppedMachine& self, Work work) {
     auto result = [&] {
@@ -154,7 +154,7 @@ void bind_orders(Class& c) {
 void bind_rest(Class& c) {
     c.def("advance", &advance, py::arg("ticks"));
     c.def("status", [](SteppedMachine& self) {
-        ordered(self, [](Machine&) { return Done(); });  // the loop takes a picture after it has heard
+        ordered(self, [](Machine&) { return Done(); });  // the loop publishes a status after it has processed its inbox
         return dict_of(ordered(self, [](Machine& machine) { return Result<operate::Status>(machine.status()); }));
     });
     c.def("trace_hash", [](SteppedMachine& self) {

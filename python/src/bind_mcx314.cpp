@@ -1,4 +1,4 @@
-// The MCX314's function library: parameters, drives, waiting, status. Paths and signals: bind_mcx314_paths.cpp.
+// MCX314 function library: parameters, drives, waiting, status. Paths and signals: bind_mcx314_paths.cpp.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -126,7 +126,7 @@ void bind_drives(Mcx314Class& c) {
             "A sentence for each axis.");
 }
 
-/// One drive before anything moves.
+/// Plan of one drive, before any motion.
 py::dict planned(const mcx314::CurvePlan& plan) {
     py::dict out;
     const auto part = [&](const char* name, const mcx314::CurvePart& it) {

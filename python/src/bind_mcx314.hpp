@@ -1,4 +1,4 @@
-// The function library of the MCX314 as both of its binding files have it.
+// Shared parts of the two binding files of the MCX314 function library.
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -14,7 +14,7 @@ struct HostOf<mcx314::Driver> {
 using Mcx314 = BoundDriver<mcx314::Driver>;
 using Mcx314Class = py::class_<Mcx314>;
 
-/// Refuses what is no mask of axes.
+/// Throws if `axes` is not an axis mask.
 unsigned mask(unsigned axes);
 
 void bind_mcx314_moves(Mcx314Class& c);

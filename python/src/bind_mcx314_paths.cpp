@@ -1,4 +1,4 @@
-// The MCX314's function library: lines, arcs, chains, bit patterns, signals.
+// MCX314 function library: lines, arcs, chains, bit patterns, signals.
 #include <pybind11/stl.h>
 
 #include <python/src/bind_mcx314.hpp>

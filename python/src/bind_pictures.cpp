@@ -1,4 +1,4 @@
-// The project's own pictures of values over time, for notebooks without matplotlib.
+// Built-in pictures of values over time, for notebooks without matplotlib.
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
-/// A line: its name, its look ("x" .. "d") and its values.
+/// A line: its name, its style ("x" .. "d") and its values.
 using Line = std::tuple<std::string, std::string, Floats>;
 /// A chart: its title and its lines.
 using Chart = std::tuple<std::string, std::vector<Line>>;

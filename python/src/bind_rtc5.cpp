@@ -1,4 +1,4 @@
-// The RTC5's commands on a card of a rack. The list commands are those of the card's map: one row, one method.
+// RTC5 commands on a card of a rack. The list commands come from the card's map: one row, one method.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using rtc5::Engine;
 
-/// Refuses what the list command of the same meaning would refuse.
+/// Rejects a parameter that the equivalent list command would reject.
 Result<void> check_parameter(rtc5::Op op, double parameter) {
     MOTIONRACK_CHECK(rtc5::list_command(op, {parameter}));
     return {};
@@ -32,7 +32,7 @@ std::string doc_of(const rtc5::ListCommandInfo& command) {
                        ranges);
 }
 
-/// The list commands of the card's map: one row, one method.
+/// Binds the list commands of the card's map: one row, one method.
 void bind_list_commands(Rtc5Class& c) {
     py::options options;
     options.disable_function_signatures();

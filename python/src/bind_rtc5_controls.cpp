@@ -1,4 +1,4 @@
-// The RTC5's control commands in Python, made from the card's table of them.
+// RTC5 control commands in Python, generated from the card's table.
 #include <fmt/format.h>
 
 #include <algorithm>

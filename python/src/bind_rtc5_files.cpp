@@ -1,4 +1,4 @@
-// The RTC5's commands in Python that are of the process, of error bits or of files, or that take or give many numbers.
+// RTC5 commands in Python for the process, error bits and files, and those with many parameters or results.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -35,7 +35,7 @@ std::uint32_t select_rtc(Rtc5& self, std::uint32_t number) {
     return number;
 }
 
-/// The table of a file; nullptr: 1:1.
+/// Loads the table of a file; nullptr: 1:1.
 Result<std::shared_ptr<const rtc5::Table>> table_of_file(const Name& name) {
     if (!name) return nullptr;
     MOTIONRACK_TRY(const std::string bytes, read_whole_file(*name, correction_limit));

@@ -1,4 +1,4 @@
-// A rack: opening, time, wires, quantities, faults, samples, copies.
+// Rack: opening, time, wires, quantities, faults, samples, copies.
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -50,7 +50,7 @@ py::tuple samples_of(const Sampler& sampler) {
     return py::make_tuple(array_of(sampler.ticks()), signals);
 }
 
-/// Quantities of everything in the rack: {part: {name: meaning}}.
+/// Returns the quantities of the whole rack: {part: {name: meaning}}.
 py::dict quantities_of(RackHandle& world) {
     py::dict out;
     for (const rack::QuantitiesOfPart& of : rack::quantities_of(world.rack())) {

@@ -1,4 +1,4 @@
-// The parts of the module, each in a file of its own.
+// Parts of the module, each in its own file.
 #pragma once
 
 #include <pybind11/pybind11.h>

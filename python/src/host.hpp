@@ -1,4 +1,4 @@
-// The host of calls from Python: a rack in virtual time, or a real card in the computer's. One thread at a time.
+// Host of calls from Python: a rack in simulated time, or a real card in real time. One thread at a time.
 #pragma once
 
 #include <atomic>
@@ -11,16 +11,16 @@ class Host {
   public:
     virtual ~Host() = default;
     virtual Instant now() = 0;
-    /// Before a call that may move something. Throws a refusal where none is taken now.
+    /// Called before a call that may move axes. Throws refused if motion is not allowed now.
     virtual void check_call() const {}
-    /// After one, with Python's lock: a stop that ended it is over, unless a host keeps it. May throw.
+    /// Called after it, with the GIL held: clears the stop that ended the call, unless the host keeps it. May throw.
     virtual void end_call() { stop_ = false; }
 
-    /// Ends what runs; any thread may.
+    /// Ends the running call; any thread.
     void stop() { stop_ = true; }
     bool stopped() const { return stop_; }
 
-    /// The thread that has it; see RackLock.
+    /// thread that holds the lock; see RackLock
     std::atomic<std::thread::id> owner{};
 
   protected:

@@ -1,4 +1,4 @@
-// Opening, stopping and closing of real cards, and accesses by hand.
+// Opens, stops and closes real cards; manual register access.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace motionrack::python {
 
 namespace {
 
-/// A wait looks for signals and stops this often, at least.
+/// Maximum interval at which a wait checks for signals and stops.
 constexpr Duration listen_every = milliseconds(10);
 
-/// The map of a card that is known as its maker has it, behind registers that a live port reaches.
+/// Map of a card type of known layout, for registers behind a live port.
 const CardMap& map_of(const std::string& type) {
     const rack::CardKind* const kind = rack::find_card_kind(type);
     if (kind != nullptr && kind->view != nullptr) return kind->map();
@@ -69,7 +69,7 @@ void LiveCard::end_call() {
 void LiveCard::quick_stop() {
     if (closed()) return;
     stop();
-    if (owner.load() == std::this_thread::get_id()) return;  // in a handler of a signal: the call ends with the stop
+    if (owner.load() == std::this_thread::get_id()) return;  // in a signal handler: the stop ends the call
     const RackLock turn(*this, RackLock::Access::stop);
     if (closed()) return;
     stops_.stop();
@@ -120,7 +120,7 @@ void LiveCard::Ears::pass(Duration duration) {
     } while (now() < end);
 }
 
-// ---- by hand
+// ---- manual access
 
 void LiveCard::check_offset(std::uint32_t offset, bool written) const {
     std::string known;

@@ -1,10 +1,10 @@
-// A real card as Python has it: a live port with a stop that holds, and Ctrl-C heard while a call waits.
+// A real card in Python: a live port with a latching stop; Ctrl-C is handled while a call waits.
 //
 //   Python ──► RackLock ──► LiveCard ──► Driver, Library ──► GuardedPort ──► live::CardPort ──► card
 //   Ctrl-C, quick_stop() ──► stop flag ──► Ears, QuickStops ── all axes, at once ──► ┘
 //
-// A stop is taken in every state and from every thread. It ends the call that runs, and nothing is written to the card
-// from then on but the stop, until reset_stop().
+// A stop is accepted in every state and from every thread. It ends the running call. Until reset_stop(), only stops are
+// written to the card.
 #pragma once
 
 #include <memory>
@@ -19,47 +19,46 @@ namespace motionrack::python {
 
 class LiveCard final : public Host {
   public:
-    /// Opens the port; no register is touched. Throws invalid_input (the place, the type), io, refused.
+    /// Opens the port without touching a register. Throws invalid_input (address, type), io, refused.
     LiveCard(const std::string& place, const std::string& type);
-    /// As close(), without a word.
+    /// As close(), without throwing.
     ~LiveCard() override;
     LiveCard(const LiveCard&) = delete;
     LiveCard& operator=(const LiveCard&) = delete;
 
     const std::string& place() const { return place_; }
     const CardMap& map() const { return map_; }
-    /// Since it was opened. Throws a refusal once it was closed.
+    /// Time since opening. Throws refused after close().
     Instant now() override { return open_port().now(); }
-    /// Throws a refusal once it was closed, the error of the port, and stopped while a stop holds.
+    /// Throws refused after close(), the error of the port, and stopped while a stop is latched.
     void check_call() const override;
-    /// Writes the stop, where there is one. Throws io where the computer refused an access.
+    /// Writes the pending stop, if any. Throws io if the computer refused an access.
     void end_call() override;
 
-    /// All axes end their pulses, at once, and so does a call of another thread. Throws io where the computer refuses
-    /// the write.
+    /// Stops the pulses of all axes at once and ends the call of another thread. Throws io if the write is refused.
     void quick_stop();
     void reset_stop() { stop_ = false; }
-    /// Stops all axes and lets the card go, for other programs too. Throws io where the stop could not be written; it
-    /// is closed all the same.
+    /// Stops all axes and releases the card for other programs. Throws io if the stop could not be written; closes the
+    /// card in any case.
     void close();
     bool closed() const { return port_ == nullptr; }
 
-    /// The registers of a driver, whose writes end with a stop. Once: a second driver would not know the settings of
-    /// the first. Throws a refusal.
+    /// Registers of a driver; a stop ends its writes. Allowed once: a second driver would not know the settings of the
+    /// first. Throws refused.
     void claim(const std::string& driver);
     RegisterPort& registers() { return guarded_; }
     Interrupt& interrupt() { return stops_; }
 
-    /// Accesses by hand, at the offset of a register that can be read or written. Throw invalid_input.
+    /// Manual access at the offset of a readable or writable register. Throws invalid_input.
     std::uint16_t read(std::uint32_t offset);
     void write(std::uint32_t offset, std::int64_t value);
-    /// All registers, in words; writes WR0, with NOP and read commands, also while a stop holds.
+    /// Returns all decoded registers; writes WR0 with NOP and read commands, also while a stop is latched.
     std::string view(bool clearing);
-    /// Throws a refusal where the port has no interrupt.
+    /// Throws refused if the port has no interrupt.
     bool wait_interrupt(Duration timeout);
 
   private:
-    /// The computer's time for drivers: waits look whether a signal came.
+    /// Real time for drivers; waits check for signals.
     class Ears final : public Interrupt {
       public:
         explicit Ears(LiveCard& card) : card_(card) {}
@@ -72,7 +71,7 @@ class LiveCard final : public Host {
         LiveCard& card_;
         SignalLook signals_;
     };
-    /// The port, which is there while the card is open.
+    /// Port of the card; present while the card is open.
     class Registers final : public RegisterPort {
       public:
         explicit Registers(LiveCard& card) : card_(card) {}

@@ -1,4 +1,4 @@
-// A card's declaration for Python.
+// Declaration of a card as Python objects.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,7 +7,7 @@
 
 namespace motionrack::python {
 
-/// Everything that is declared of a card.
+/// Returns the complete declaration of a card.
 pybind11::dict map_dict(const CardMap& map);
 
 }  // namespace motionrack::python

@@ -1,4 +1,4 @@
-// motionrack._core: the C++ rooms for the Python package, which gives them their names and units.
+// motionrack._core: the C++ modules for the Python package, which adds names and units.
 #include <python/src/bindings.hpp>
 
 PYBIND11_MODULE(_core, m) {

@@ -1,5 +1,5 @@
-// Errors on their way to Python: a Result becomes its value or is thrown, and module.cpp makes the named exception of
-// it.
+// Error conversion to Python: returns the value of a Result or throws; module.cpp maps the thrown object to a named
+// exception.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -9,8 +9,7 @@
 
 namespace motionrack::python {
 
-/// What is thrown. `timeout`: a wait ended before what it waited for came. `all`: every problem, where there are
-/// several.
+/// Thrown exception. `timeout`: a wait timed out. `all`: all problems, if there are several.
 struct PythonError {
     Error error;
     bool timeout = false;
@@ -24,7 +23,7 @@ struct PythonError {
     raise({ErrorKind::refused, std::move(sentence)});
 }
 
-/// The value, or its error thrown.
+/// Returns the value or throws its error.
 template <class T>
 T value_of(Result<T> result) {
     if (!result) raise(std::move(result).error());

@@ -1,4 +1,4 @@
-// Starting a rack, its time, and what happens between two runs of the kernel.
+// Starts a rack, advances its time, and serves requests between two runs of the kernel.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ void RackHandle::close() {
     if (recorder_) static_cast<void>(end_waves());
     sampler_.reset();
     recorder_.reset();
-    // The kernel knows them until the rack is gone; the rack says nothing to them any more.
+    // The kernel keeps them until the rack is destroyed; the rack no longer calls them.
     desk_.reset();
     rack_.reset();
     tap_.reset();

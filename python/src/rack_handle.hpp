@@ -1,5 +1,5 @@
-// A rack as Python has it: not started until something needs its time, then run in slices between which Python is
-// heard.
+// A rack in Python: started when its time is first needed, then run in slices; Python signals are checked between
+// slices.
 //
 //   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
 //                      ├─► WireAccess, WireTap, WaveRecorder
@@ -24,9 +24,9 @@ namespace motionrack::python {
 /// A part program and what goes with it.
 struct ProgramInput {
     std::string text, name;
-    std::string folder;  ///< where its subprograms lie; empty: it has none but its own
+    std::string folder;  ///< folder of its subprograms; empty: only internal ones
     std::string tools,
-        tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; an empty name: there is none
+        tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; empty name: no table
     bool block_delete = false;
 };
 
@@ -38,9 +38,9 @@ class RackHandle final : public Host {
     RackHandle& operator=(const RackHandle&) = delete;
 
     const rack::RackConfig& config() const { return config_; }
-    /// Throws a refusal once the world was closed.
+    /// Throws refused after close.
     rack::Rack& rack();
-    /// The same, started.
+    /// As above, after starting the rack.
     rack::Rack& running();
     const rack::WireAccess& desk() { return running(), *desk_; }
     bool started() const { return rack_ && rack_->started(); }
@@ -48,26 +48,25 @@ class RackHandle final : public Host {
     Instant now() override { return rack().kernel().now(); }
     void close();
 
-    // ---- before it is started
-    /// "X.limit_plus=0@0.5s": see FaultSchedule. Errors: refused in a started rack, and those of the plan; none is
-    /// planned then.
+    // ---- before the start
+    /// "X.limit_plus=0@0.5s": see FaultSchedule. Errors: refused in a started rack, and those of the schedule; then no
+    /// fault is scheduled.
     Result<void> plan_faults(const std::vector<std::string>& texts);
     std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
-    /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
+    /// Sample period of a job, > 0. Errors: refused in a started rack.
     Result<void> set_sample_period(Duration period);
 
-    /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
+    /// "trapezoid" or "jerk_limited"; overrides the rack file. Errors: refused in a started rack.
     Result<void> set_profile(const std::string& profile);
 
-    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be
-    /// sound; whether it fits the other cards, as a rack file must, is not looked at. Errors: refused, invalid_input;
-    /// nothing is changed.
+    /// Sets a numeric setting of a card, in the unit of its key. Checks its range and the card alone, not its
+    /// consistency with other cards. Errors: refused, invalid_input; then nothing is changed.
     Result<void> set_card(const std::string& card, const std::string& key, double value);
 
     // ---- time
     /// Errors: refused (beyond latest), stopped (Ctrl-C).
     Result<void> advance(Duration time);
-    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: invalid_input,
+    /// Returns true once the wire has the level within `timeout`; time stops at that instant. Errors: invalid_input,
     /// stopped.
     Result<bool> wait_wire(const std::string& wire, int level, Duration timeout);
     static constexpr Instant latest{never.count() / 2};
@@ -75,15 +74,15 @@ class RackHandle final : public Host {
     // ---- wires
     Result<void> set_wire(const std::string& name, double value);
 
-    // ---- part programs, one after the other, from where the axes stand
-    /// How the program is read, which is good; else throws every problem, in the order of its lines, or why none can
-    /// begin now. Nothing moves.
+    // ---- part programs, in sequence, from the current axis positions
+    /// Returns the settings to read a valid program; otherwise throws all problems in line order, or the reason why no
+    /// program can start now. Nothing moves.
     control::gcode::Settings check(const ProgramInput& program) const;
-    /// A program that check() has found good, and how it is read. `superseded` is called before the samples of the next
-    /// one take the place of its own.
+    /// Runs a program that check() has accepted, with its settings. `superseded` is called before the samples of the
+    /// next program replace those of this one.
     Result<rack::JobOutcome> run(const ProgramInput& program, control::gcode::Settings reading,
                                  std::function<void()> superseded);
-    /// See home_axes; `settings.stop` is this world's own.
+    /// See home_axes; replaces `settings.stop`.
     rack::HomingOutcome home(rack::HomingSettings settings);
     const rack::Job* job() const { return job_.get(); }
     const std::string& program() const { return program_.text; }
@@ -95,20 +94,20 @@ class RackHandle final : public Host {
     Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
     Result<void> end_waves();
 
-    // ---- the whole world
-    /// A world of its own in the same state; recordings stay with this one.
+    // ---- the whole rack
+    /// Returns an independent copy in the same state; recordings stay with this one.
     std::shared_ptr<RackHandle> copy();
     void copy_from(RackHandle& other);
 
-    // ---- who looks on
-    /// Between runs, at least every 50 ms of virtual time, and where the bell rings.
+    // ---- observers
+    /// Called between runs, at least every 50 ms of simulated time, and at each break.
     void on_look(std::function<void()> call) { look_ = std::move(call); }
-    /// Of a program, about every 50 ms of virtual time; empty: nobody.
+    /// Called about every 50 ms of simulated time of a program; empty: none.
     void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
-    /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look.
-    /// While a driver or a job runs the rack, its host calls this.
+    /// Runs between two runs of the kernel: injects due faults, takes samples, drains recordings, polls Python. While a
+    /// driver or a job runs the rack, its host calls this.
     void service_run();
-    /// After something else had the host's slices (a job, a homing).
+    /// Restores the host's slices after a job or a homing used them.
     void listen_again();
 
   private:

@@ -1,4 +1,4 @@
-// Samples, waves and copies of a world.
+// Samples, waves and copies of a rack.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -67,7 +67,8 @@ std::shared_ptr<RackHandle> RackHandle::copy() {
     return out;
 }
 
-/// Whether the state of one can be that of the other: the same cards in the same places, as many parts and wires.
+/// Returns true if both have the same cards in the same places and equal numbers of parts and wires, so that state can
+/// be copied.
 bool RackHandle::is_built_like(RackHandle& other) {
     const sim::Kernel &own = running().kernel(), &its = other.running().kernel();
     const auto same = [](const rack::RackCard& a, const rack::RackCard& b) {

@@ -1,4 +1,4 @@
-// What can be said of a rack before its time begins.
+// Settings of a rack before its start.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Who has a rack, and Ctrl-C.
+// Ownership of a rack, and Ctrl-C.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,10 +9,10 @@ namespace motionrack::python {
 
 namespace {
 
-/// What Python raised while worlds ran without its lock; touched with the lock only.
+/// Python exceptions raised while racks ran without the GIL; accessed with the GIL only.
 std::vector<std::pair<const Host*, py::error_already_set>>& raised_meanwhile() {
-    // It outlives the interpreter.
-    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): what is raised is put there
+    // Outlives the interpreter.
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): stores raised exceptions
     static auto* const all = new std::vector<std::pair<const Host*, py::error_already_set>>();
     return *all;
 }
@@ -64,7 +64,7 @@ rack::Card& card_of_type(RackHandle& world, const std::string& name, std::string
 }
 
 void SignalLook::look(Host& host) {
-    const auto present = std::chrono::steady_clock::now();  // a run of many short slices does not ask every time
+    const auto present = std::chrono::steady_clock::now();  // limits the checks in a run of many short slices
     if (present - last_ < std::chrono::milliseconds(20)) return;
     last_ = present;
     const py::gil_scoped_acquire lock;
@@ -78,7 +78,7 @@ void poll_python(RackHandle& world) {
 void abort_run(Host& host, py::error_already_set error) {
     host.stop();
     for (const auto& [which, raised] : raised_meanwhile())
-        if (which == &host) return;  // the first is what ended it
+        if (which == &host) return;  // keeps the first, which ended the run
     raised_meanwhile().emplace_back(&host, std::move(error));
 }
 
@@ -90,7 +90,7 @@ void end_call(Host& host) {
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
         try {
             host.end_call();
-        } catch (const PythonError&) {  // the next call raises it again
+        } catch (const PythonError&) {  // the next call throws it again
         }
         throw error;
     }

@@ -1,5 +1,5 @@
-// One call from Python into a rack or a real card: one thread at a time, without Python's lock while it runs, Ctrl-C
-// heard between runs.
+// One call from Python into a rack or a real card: one thread at a time, without the GIL while it runs; checks for
+// Ctrl-C between runs.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,11 +15,12 @@ namespace motionrack::python {
 
 namespace py = pybind11;
 
-/// While one lives its thread has the rack, or the card. Throws a refusal where another thread has it, or where this
+/// Lock of the rack or card for the current thread. Throws refused if another thread holds it, or if this thread is
+/// inside a run (a progress call), which may only read.
 /// one is in the middle of a run (a progress call); there it may only look.
 class RackLock {
   public:
-    /// stopping: waits for the call of another thread, which the stop ends; not from within a call of this thread.
+    /// stop: waits for the call of another thread, which the stop ends; not from within a call of this thread.
     enum class Access : std::uint8_t { read, run, stop };
     RackLock(Host& host, Access what);
     ~RackLock();
@@ -33,12 +34,12 @@ class RackLock {
     bool mine_ = false;
 };
 
-/// Runs `call` without Python's lock; it gives a Result<T> or a plain value. `timeout`: a failure of the machine after
-/// that time is a time-out. What Python raised meanwhile (KeyboardInterrupt, a progress call's exception) goes on.
+/// Runs `call`, which returns a Result<T> or a plain value, without the GIL. `timeout`: a machine failure after that
+/// time is a timeout. Rethrows a Python exception raised meanwhile (KeyboardInterrupt, from a progress call).
 template <class Call>
 auto run_exclusive(Host& host, Call call, Duration timeout = never);
 
-/// The same for what only looks: it keeps Python's lock and may be called from a progress call.
+/// As above for read access: keeps the GIL and may be called from a progress call.
 template <class Call>
 auto inspect_rack(RackHandle& world, Call call) {
     const RackLock turn(world, RackLock::Access::read);
@@ -46,27 +47,27 @@ auto inspect_rack(RackHandle& world, Call call) {
     return call();
 }
 
-/// Asks Python whether a signal came (Ctrl-C), now and then; without Python's lock.
+/// Periodically checks Python for signals (Ctrl-C); called without the GIL.
 class SignalLook {
   public:
-    /// Stops the host where one did; its exception goes on when the run has ended.
+    /// Stops the host on a signal; its exception propagates after the run.
     void look(Host& host);
 
   private:
     std::chrono::steady_clock::time_point last_{};
 };
-/// Lets RackHandle ask Python between runs.
+/// Lets RackHandle poll Python between runs.
 void poll_python(RackHandle& world);
-/// What Python raised ends the run, and goes on when it has ended. With Python's lock.
+/// Ends the run because of a Python exception, which propagates after the run. Requires the GIL.
 void abort_run(Host& host, py::error_already_set error);
-/// Ends the call and throws the exception that Python raised while it ran.
+/// Ends the call and throws the Python exception raised during it.
 void end_call(Host& host);
 
-/// Whole ticks of 100 ps from Python.
+/// Converts whole ticks of 100 ps from Python.
 inline Duration ticks(std::int64_t count) {
     return Duration{count};
 }
-/// Seconds from Python, 0 to 9e8; infinity: never. Throws a refusal beyond that.
+/// Converts seconds from Python, 0 to 9e8; infinity: never. Throws refused beyond that.
 Duration duration(double seconds);
 
 namespace detail {
@@ -106,23 +107,23 @@ auto run_exclusive(Host& host, Call call, Duration timeout) {
     }
 }
 
-/// The host of a driver: a rack, unless specialised.
+/// Host of a driver: a rack, unless specialised.
 template <class Driver>
 struct HostOf {
     using type = RackHandle;
 };
 
-/// A driver with the world whose card it drives.
+/// A driver with the rack of its card.
 template <class Driver>
 struct BoundDriver {
     std::shared_ptr<typename HostOf<Driver>::type> world;
     std::unique_ptr<Driver> driver;
 };
 
-/// The card of that name, which must be of this type. Throws a refusal where it is another.
+/// Returns the card of that name. Throws refused if its type differs.
 rack::Card& card_of_type(RackHandle& world, const std::string& name, std::string_view type);
 
-/// A member function of `Driver` (or of what it is derived from) as a function for Python, run by run_exclusive().
+/// Converts a member function of `Driver` (or of its base) to a Python function, run by run_exclusive().
 template <class Driver, class Base, class Value, class... Parameters>
 auto call(Value (Base::*function)(Parameters...)) {
     return [function](BoundDriver<Driver>& self, std::decay_t<Parameters>... parameters) {

@@ -1,4 +1,4 @@
-// The commands of one RTC5 of a rack in Python: what its methods share.
+// Commands of one RTC5 of a rack in Python: shared parts of its methods.
 #pragma once
 
 #include <motionrack/cards/rtc5/model/control_commands.hpp>
@@ -11,13 +11,12 @@
 
 namespace motionrack::python {
 
-/// The commands of one card. A question takes `question_time` of the rack's time first, as the answer over the bus
-/// does.
+/// Commands of one card. A query first takes `question_time` of simulated time, as the answer over the bus does.
 struct Rtc5 {
     std::shared_ptr<RackHandle> world;
     rtc5::Card* card;  ///< nullptr: free_rtc5_dll
     Duration question_time = microseconds(10);
-    std::uint32_t errors = 0, last_error = 0;  ///< the board's bits
+    std::uint32_t errors = 0, last_error = 0;  ///< error bits of the board
 
     rtc5::Engine& engine() const {
         if (card == nullptr) refuse("free_rtc5_dll let the card go. Nothing was done; select_rtc takes one again.");
@@ -26,7 +25,7 @@ struct Rtc5 {
 };
 using Rtc5Class = py::class_<Rtc5>;
 
-/// Runs `call` and keeps the bits of its error, which goes on.
+/// Runs `call`; stores its error bits and rethrows.
 template <class Call>
 auto keeping_error_bits(Rtc5& self, const rtc5::Refusal& refusal, Call call) {
     self.last_error = 0;
@@ -40,14 +39,14 @@ auto keeping_error_bits(Rtc5& self, const rtc5::Refusal& refusal, Call call) {
     }
 }
 
-/// `call` with the engine. `refusal` is looked at when it has failed.
+/// Runs `call` with the engine; checks `refusal` if it fails.
 template <class Call>
 auto order(Rtc5& self, Call call, const rtc5::Refusal& refusal = rtc5::Refusal::parameter) {
     return keeping_error_bits(self, refusal,
                               [&] { return run_exclusive(*self.world, [&] { return call(self.engine()); }); });
 }
 
-/// The same after the time of a question. `call` gives a Result.
+/// As above, after the time of a query. `call` returns a Result.
 template <class Call>
 auto ask(Rtc5& self, Call call, const rtc5::Refusal& refusal = rtc5::Refusal::parameter) {
     return keeping_error_bits(self, refusal, [&] {
@@ -59,17 +58,17 @@ auto ask(Rtc5& self, Call call, const rtc5::Refusal& refusal = rtc5::Refusal::pa
     });
 }
 
-/// The numbers that a method was given, by place or by name, in the order of `names`. Throws TypeError: one that is no
-/// number, a name that is not there or given twice, one left out by name; how many there are is looked at later.
+/// Returns the positional and keyword arguments of a method in the order of `names`. Throws TypeError for an argument
+/// that is not a number, and for an unknown, duplicate or missing keyword; the caller checks their number.
 std::vector<double> numbers_given(std::string_view command, const std::vector<std::string_view>& names,
                                   const py::args& by_place, const py::kwargs& by_name);
 
 /// "name(self: motionrack._core.Rtc5, No: int) -> int", for a method whose signature pybind11 does not know.
 std::string signature(std::string_view name, const std::vector<std::string>& parameters, std::string_view answer);
 
-/// The control commands of the card's table, one row, one method.
+/// Binds the control commands of the card's table, one method per row.
 void bind_rtc5_controls(Rtc5Class& c);
-/// Cards, error bits, files, and what takes or gives more than numbers.
+/// Binds commands for cards, error bits and files, and those with other types than numbers.
 void bind_rtc5_files(Rtc5Class& c);
 
 }  // namespace motionrack::python

@@ -1,4 +1,4 @@
-// When the bell rings.
+// Timing of the breaks.
 #include <python/src/run_breaker.hpp>
 #include <utility>
 
@@ -43,7 +43,7 @@ void RunBreaker::listen_no_more() {
 }
 
 void RunBreaker::on_scheduled(Instant now) {
-    if (period_ == Duration{}) return;  // of a world that was copied while it rang
+    if (period_ == Duration{}) return;  // in a copy of a rack with periodic breaks
     rung_ = now;
     kernel_.schedule(id_, later(now, period_));
     kernel_.break_run();

@@ -1,4 +1,4 @@
-// Breaks a run where somebody outside wants to look: at even instants, and where a wire takes a level.
+// Breaks a run for outside observers: periodically, and when a wire takes a level.
 //
 //   kernel ──act(t), on_wire──► RunBreaker ──break_run──► between runs: samples, waits
 #pragma once
@@ -9,18 +9,18 @@ namespace motionrack::python {
 
 class RunBreaker final : public sim::Device {
   public:
-    /// Before the rack is started, after all its wires were made. It hears none of them until it waits for one.
+    /// Create before the rack starts and after all its wires exist. It listens to a wire only while it waits for it.
     explicit RunBreaker(sim::Kernel& kernel);
-    /// After the rack was started.
+    /// Call after the rack has started.
     void begin();
 
-    /// Rings now and every `period` (> 0) from now on.
+    /// Breaks now and every `period` (> 0) from now on.
     void break_every(Duration period);
     void ring_no_more();
-    /// The instant of the last ring that was not taken yet, once; never: there was none.
+    /// Returns the instant of the last break once; never: none since the last call.
     Instant take_break();
 
-    /// Rings where `wire` takes that level. One wire at a time.
+    /// Breaks when `wire` takes that level. One wire at a time.
     void break_on_wire(sim::WireId wire, int level);
     void listen_no_more();
     bool heard() const { return heard_; }

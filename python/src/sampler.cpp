@@ -1,4 +1,4 @@
-// Finding what a name stands for, and looking at it.
+// Resolves names and reads their values.
 #include <cmath>
 #include <motionrack/rack/quantities.hpp>
 #include <python/src/sampler.hpp>
@@ -29,7 +29,7 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& desk, const
         if (!card->quantity(value)) return tl::unexpected<Error>(there.error());
     }
     MOTIONRACK_CHECK(rack::get_quantity(rack, name));
-    out.whole = name.ends_with("_counts");  // of a card
+    out.whole = name.ends_with("_counts");  // card counters only
     out.look = [&rack, name] { return *rack::get_quantity(rack, name); };
     for (const rack::QuantitiesOfPart& of : rack::quantities_of(rack))
         for (const rack::Quantity& one : of.quantities) {

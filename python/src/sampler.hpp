@@ -1,7 +1,7 @@
-// Values of a running rack over time: wires, registers and counters of cards, quantities of the machine.
+// Samples of a running rack: wires, registers and counters of cards, quantities of the machine.
 //
 //   "c1.xdrive" ─ wire ─┐
-//   "c1.x.LP" ── card ──┼─► a whole number or a double each period
+//  "c1.x.LP" ── card ──┼─► an integer or a double per period
 //   "X.position_mm" ────┘
 #pragma once
 
@@ -25,12 +25,12 @@ struct Channel {
 
 class Sampler {
   public:
-    /// Errors: invalid_input, with what there is, for a name that is neither a wire, nor of a card, nor of a part.
+    /// Errors: invalid_input, listing the valid names, if a name is not that of a wire, a card value or a part
+    /// quantity.
     static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
                                   std::size_t most);
 
-    /// Between runs. Where there are more than `most`, every second one is dropped, and from then on only every second
-    /// one is kept.
+    /// Takes a sample between runs. Beyond `most` samples, drops every second one and doubles the sample interval.
     void take(Instant now);
     const std::vector<std::int64_t>& ticks() const { return ticks_; }
     const std::vector<Channel>& channels() const { return channels_; }

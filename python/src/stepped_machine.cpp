@@ -1,11 +1,11 @@
-// The gate.
+// The gate of the motion thread.
 #include <chrono>
 #include <python/src/stepped_machine.hpp>
 
 namespace motionrack::python {
 
 namespace {
-constexpr auto hear_every = std::chrono::milliseconds(2);  // of real time, what was posted
+constexpr auto hear_every = std::chrono::milliseconds(2);  // real-time interval at which the inbox is processed
 constexpr auto look_every = std::chrono::milliseconds(50);
 }  // namespace
 

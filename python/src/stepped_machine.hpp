@@ -1,10 +1,9 @@
-// A machine that is operated step by step: its motion thread runs as far as it was told and waits at a gate meanwhile.
+// A machine operated step by step: its motion thread runs up to the allowed time and then waits at a gate.
 //
-//   Python ──order──► [ inbox ] ──► motion thread: Machine::run ──► pace: gate open until `allowed_`
-//   Python ──advance──► allowed_ ─────────────────────────────────────┘   at the gate: parked_, Python goes on
+//  Python ──command──► [ inbox ] ──► motion thread: Machine::run ──► pace: gate open until `allowed_`
+//  Python ──advance──► allowed_ ───────────────────────────────────────┘   at the gate: parked_, Python continues
 //
-// Python and the motion thread are never at work at the same time, so what is ordered happens at a slice that is the
-// same in every run.
+// Python and the motion thread never run concurrently, so each command takes effect in the same slice in every run.
 #pragma once
 
 #include <condition_variable>
@@ -23,10 +22,10 @@ class SteppedMachine {
     SteppedMachine(const SteppedMachine&) = delete;
     SteppedMachine& operator=(const SteppedMachine&) = delete;
 
-    /// Lets so much time pass, in whole slices of 2 ms. `look` is called every 50 ms of real time meanwhile, and ends
-    /// the wait where it is true: the machine stands at the gate then, in the midst of what it does.
+    /// Advances time in whole slices of 2 ms. Calls `look` every 50 ms of real time; if it returns true, the wait ends
+    /// with the machine at the gate in the middle of its work.
     void advance(Duration time, const std::function<bool()>& look);
-    /// Runs `work` on the motion thread while it waits at the gate, and gives what it gives.
+    /// Runs `work` on the motion thread at the gate and returns its result.
     template <class Work>
     auto order(Work work) {
         using Value = decltype(work(*machine_));
