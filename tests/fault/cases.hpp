@@ -1,4 +1,4 @@
-// Every fault of the catalogue at each of its operating points.
+// Test cases: every fault of the catalogue at each of its operating points.
 #pragma once
 
 #include <cctype>
@@ -25,7 +25,7 @@ struct Case {
     Fault fault;
     Point point;
     std::string text(const std::string& pattern) const { return Fault::at_point(pattern, point); }
-    /// "motor_stall_slow": letters, digits and single underscores.
+    /// Test name, "motor_stall_slow": letters, digits and single underscores.
     std::string name() const {
         std::string out;
         for (const char c : group + "_" + fault.name + "_" + point.name) {

@@ -1,4 +1,4 @@
-// Reading the catalogue.
+// Reads the catalogue.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ Point point_of(const TomlNode& node) {
     return out;
 }
 
-/// Takes the key if it is one of a setup.
+/// Reads the key if it belongs to a setup.
 bool take(Setup& setup, const TomlNode& entry) {
     if (entry.key == "by")
         setup.by = entry.text;
@@ -58,7 +58,7 @@ bool take(Setup& setup, const TomlNode& entry) {
     return true;
 }
 
-/// Takes the key if it is one of a fault alone.
+/// Reads the key if it belongs to a fault.
 bool take(Fault& fault, const TomlNode& entry) {
     if (entry.key == "name")
         fault.name = entry.text;

@@ -1,5 +1,4 @@
-// Nothing that can be injected is missing from the catalogue, nothing in it is without its tests, and its page is
-// current.
+// The catalogue contains every fault that can be injected, each fault has its tests, and the page is current.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +21,7 @@ TEST(FaultCatalogue, IsThePageOfTheReference) {
         << "make it anew: fault_page > docs/reference/faults.md";
 }
 
-/// What has faults in a rack, by what it is: "stepping axis", "servo axis", "stage", "belt or table", or the card's
+/// Returns the kind of a rack element with faults: "stepping axis", "servo axis", "stage", "belt or table", or the card
 /// type.
 std::string kind_of(rack::Rack& rack, const std::string& target) {
     for (const rack::RunningAxis& axis : rack.axes())
@@ -34,7 +33,7 @@ std::string kind_of(rack::Rack& rack, const std::string& target) {
     return "?";
 }
 
-/// The racks that the catalogue's faults are run on.
+/// Racks that the faults of the catalogue run on.
 std::set<std::string> racks() {
     std::set<std::string> out;
     for (const Case& one : all_cases())
@@ -84,7 +83,7 @@ TEST(FaultCatalogue, HasEveryFaultOfEveryPartAndCard) {
         EXPECT_TRUE(names.count(std::string(fault))) << "no axis of the catalogue's racks can have " << fault;
 }
 
-/// The names of all tests that ctest runs by this label.
+/// Returns the names of all tests with this ctest label.
 std::string tests_labelled(const std::string& label) {
     std::string out;
     std::FILE* pipe = ::popen(
@@ -110,7 +109,7 @@ TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
     }
 }
 
-/// The text of the test's own file: where its name and its words stand.
+/// Returns the source file of the test, which contains its name and its words.
 std::string source_of(const std::string& test) {
     const std::size_t dot = test.rfind('.'), slash = test.find('/'), end = test.find('/', dot);
     const std::string suite = slash < dot ? test.substr(slash + 1, dot - slash - 1) : test.substr(0, dot),

@@ -1,4 +1,4 @@
-// Reading coverage.toml, and its page.
+// Reads coverage.toml and writes its page.
 #include <fmt/format.h>
 
 #include <motionrack/rack/toml_reader.hpp>
@@ -54,7 +54,7 @@ std::string names_of(const std::vector<Point>& points) {
     return out;
 }
 
-/// The cells of what tries a fault, line for line: what it is, and at which points by itself and in a served machine.
+/// Returns table cells, line for line: the tests of a fault, and its operating points alone and in a served machine.
 std::string tried_by(const CoveredFault& fault, const std::vector<Group>& catalogue) {
     std::string what, alone, served;
     bool first = true;

@@ -1,4 +1,4 @@
-// What can go wrong with a machine, and what tries each of it: coverage.toml, read for its test and for its page.
+// Possible faults of a machine and their tests, read from coverage.toml for a test and for the page.
 #pragma once
 
 #include <filesystem>
@@ -9,14 +9,14 @@
 
 namespace motionrack::faults {
 
-/// A fault that can happen, whether anything of a rack can have it or not.
+/// A possible fault, whether or not the rack can simulate it.
 struct CoveredFault {
     std::string id;  ///< "E01"
     std::string about;
-    std::vector<std::string> rows;   ///< of the catalogue: "group: fault"
-    std::vector<std::string> tests;  ///< others: "Suite.Name", "hmi: title"
-    std::string reason;              ///< why it cannot happen, or is less than the fault
-    std::string missing;             ///< what nothing tries yet
+    std::vector<std::string> rows;   ///< rows of the catalogue: "group: fault"
+    std::vector<std::string> tests;  ///< other tests: "Suite.Name", "hmi: title"
+    std::string reason;              ///< reason why it cannot occur or is only partly simulated
+    std::string missing;             ///< the part that is not tested yet
 };
 
 struct CoverageSection {
@@ -24,10 +24,10 @@ struct CoverageSection {
     std::vector<CoveredFault> faults;
 };
 
-/// Errors: invalid_input with line and column, of the first thing that is wrong; io.
+/// Errors: invalid_input with line and column of the first error; io.
 Result<std::vector<CoverageSection>> read_coverage(const std::filesystem::path& file);
 
-/// The page of reference, with the operating points of the rows of `catalogue`.
+/// Returns the reference page, with the operating points from `catalogue`.
 std::string coverage_page(const std::vector<CoverageSection>& sections, const std::vector<Group>& catalogue);
 
 }  // namespace motionrack::faults

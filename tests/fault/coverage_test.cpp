@@ -1,4 +1,4 @@
-// Every fault that coverage.toml names is tried by something that is there, and its page is current.
+// Every fault in coverage.toml has an existing test, and the page is current.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ const std::vector<CoverageSection>& coverage() {
     return sections;
 }
 
-/// All files below a folder with one of these endings, one behind the other.
+/// Returns all files in a folder tree with one of these extensions, concatenated.
 std::string texts_below(const std::filesystem::path& folder, const std::set<std::string>& endings) {
     std::string out;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source_root / folder))
@@ -49,7 +49,7 @@ TEST(FaultCoverage, NamesRowsOfTheCatalogue) {
             for (const std::string& row : fault.rows) EXPECT_TRUE(rows.count(row)) << fault.id << ": " << row;
 }
 
-/// Every run of blanks and line ends as one blank.
+/// Replaces every run of white space by one blank.
 std::string on_one_line(const std::string& text) {
     std::string out;
     for (const char c : text) {

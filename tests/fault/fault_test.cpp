@@ -1,5 +1,5 @@
-// Runs every fault of the catalogue at its operating points, with the program as a user calls it, and checks what the
-// catalogue says of it.
+// Runs every fault of the catalogue at its operating points, through the program's command line, and checks the results
+// against the catalogue.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// The instant of "--fault X.motor.stall@0.3s".
+/// Returns the instant of "--fault X.motor.stall@0.3s".
 Instant instant_of(const std::string& option) {
     const auto timed = rack::read_timed_text(option.substr(option.rfind(' ') + 1));
     EXPECT_TRUE(timed) << option << " has no time";
@@ -30,7 +30,7 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
     const Case& one() const { return GetParam(); }
     const Fault& fault() const { return GetParam().fault; }
 
-    /// The rack's file from the project's folder, or one that is written here.
+    /// Returns the rack file in the project folder, or writes one.
     std::string rack_file() const {
         const std::string rack = one().text(fault().setup.rack);
         if (rack.find('\n') == std::string::npos) return rack;
@@ -82,7 +82,7 @@ void AFault::run_program() const {
     look_at_recording(summary);
 }
 
-/// Times and values of a series.
+/// Returns times and values of a series.
 std::vector<std::pair<Instant, double>> read(const trace::RecordingReader& recording, const std::string& name) {
     std::vector<std::pair<Instant, double>> out;
     const trace::RecordedSeries* series = recording.find(name);
@@ -126,7 +126,7 @@ void AFault::look_at_values(const trace::RecordingReader& recording) const {
     }
 }
 
-// ---- home: the search for a switch
+// ---- home: homing an axis
 
 void AFault::home() const {
     const std::string arguments = "home X -q --json --rack " + rack_file() + options();
@@ -154,7 +154,7 @@ void AFault::show_frames() const {
     EXPECT_EQ(ran.code, fault().exit) << ran.out;
     expect_words(ran.out);
     if (!fault().within_ms || fault().says.empty()) return;
-    // Each of the words is told with its instant: "... at 0.0104120 s ...".
+    // Each of these words appears with its instant: "... at 0.0104120 s ...".
     for (const std::string& pattern : fault().says) {
         const std::size_t words = ran.out.find(one().text(pattern));
         if (words == std::string::npos) continue;

@@ -1,4 +1,4 @@
-// The catalogue as a page.
+// Catalogue as a page.
 #include <fmt/format.h>
 
 #include <tests/fault/catalogue.hpp>
@@ -7,14 +7,14 @@ namespace motionrack::faults {
 
 namespace {
 
-/// As the cell of a table: on one line, without its borders.
+/// Returns the text as a table cell: on one line, with `|` escaped.
 std::string cell(std::string text) {
     for (std::size_t at = 0; (at = text.find_first_of("|\n", at)) != std::string::npos; ++at)
         text.replace(at, 1, text[at] == '\n' ? " " : "\\|"), ++at;
     return text;
 }
 
-/// "`X.motor.stall@{at}s`" of "--fault X.motor.stall@{at}s".
+/// Converts "--fault X.motor.stall@{at}s" to "`X.motor.stall@{at}s`".
 std::string injected(const std::string& option) {
     constexpr std::string_view fault = "--fault ";
     return "`" + (option.rfind(fault, 0) == 0 ? option.substr(fault.size()) : option) + "`";

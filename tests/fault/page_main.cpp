@@ -1,4 +1,4 @@
-// Writes docs/reference/faults.md to standard output, with the word `coverage` docs/reference/fault-coverage.md.
+// Writes docs/reference/faults.md to standard output; with the argument `coverage`, docs/reference/fault-coverage.md.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,6 +1,5 @@
-// The faults of a program that is run, of a search for home and of stages, in a machine that people operate: it ends in
-// the state that the catalogue says, with one alarm in the words that a run tells, and its positions are trusted as
-// after the run.
+// Faults of a program run, of homing and of stages in a served machine: it ends in the state given by the catalogue,
+// with one alarm in the words of a run, and position validity as after the run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +27,7 @@ rack::RackConfig served_config(const std::string& text) {
     return *reading.config;
 }
 
-/// Breaks what the catalogue breaks, at its times after the program's begin.
+/// Injects the faults of the catalogue at their times after the program start.
 struct Breaking {
     explicit Breaking(const Case& one) {
         for (const std::string& option : one.fault.inject) {
@@ -54,8 +53,8 @@ struct Breaking {
     std::vector<rack::ScheduledText> todo;
 };
 
-/// A machine of the case's rack that drives its program, or homes, from 0.2 s on until it has stood for half a second.
-/// Where stages are broken it only stands, for as long as its case says.
+/// A machine with the rack of the case. It runs the program, or homes, from 0.2 s until it has been stationary for 0.5
+/// s. With stage faults it remains stationary for the duration of the case.
 class Served {
   public:
     explicit Served(const Case& one)
@@ -72,14 +71,14 @@ class Served {
         EXPECT_TRUE(machine->enable(true));
     }
     std::unique_ptr<Machine> machine;
-    operate::MachineState state{};  ///< at the end, before it quits
+    operate::MachineState state{};  ///< at the end, before quitting
 
   private:
     void quit() {
         state = machine->state();
         machine->quit();
     }
-    /// A rack of stages alone gets an axis, which a served machine needs.
+    /// Adds an axis to a rack of stages only, because a served machine needs one.
     static std::string rack_of(const Case& one) {
         std::string text = one.text(one.fault.setup.rack);
         if (one.fault.setup.by != "frames") return text;
@@ -116,7 +115,7 @@ class Served {
     Instant begun_ = never, moved_{};
 };
 
-/// The fault comes at another place of the path than in a run, where a stop may cost steps.
+/// The fault occurs at another point of the path than in a run; a stop there may lose steps.
 bool lost_steps(rack::Rack& rack) {
     const std::vector<sim::Condition> all = rack.kernel().conditions();
     return std::any_of(all.begin(), all.end(), [](const sim::Condition& one) {

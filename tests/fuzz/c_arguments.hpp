@@ -1,4 +1,4 @@
-// What the fuzz target of the C interface gives its functions: a rack, names, programs, numbers.
+// Arguments of the fuzz target of the C interface: a rack, names, programs, numbers.
 #pragma once
 
 #include <array>
@@ -85,7 +85,7 @@ inline constexpr std::array names = {"c1.xlmtp",
                                      "sender.silent",
                                      "encoder.jitter=1e-6",
                                      "motor.load=nan"};
-inline constexpr std::uint64_t max_ns = 1'000'000'000'000'001;  ///< from here on mr_advance_ns refuses
+inline constexpr std::uint64_t max_ns = 1'000'000'000'000'001;  ///< mr_advance_ns refuses values from here on
 inline constexpr std::array cards = {"c1", "p", "i", "s", "c2", ""};
 inline constexpr std::array patterns = {"",     "*",           "X.* c1.xlmtp", "c1.xpp,c1.xlp", "Q.*", "line.* head.*",
                                         "????", "c1.*\n\t,s.*"};

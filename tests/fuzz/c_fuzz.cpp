@@ -1,7 +1,7 @@
-// libFuzzer: any bytes as calls of motionrack/c.h and motionrack/flex2pos.h with good and bad arguments, null pointers
-// among them. Each gives one of its codes; one that fails has a sentence and changes nothing: the state hash and the
-// place for the value are as they were, unless the machine stopped a program or a homing, which has moved. What only
-// looks changes nothing either; a copy of a rack is the same rack; call-backs let no time pass.
+// libFuzzer: any bytes as calls of motionrack/c.h and motionrack/flex2pos.h with valid and invalid arguments, including
+// null pointers. Each call returns one of its codes. A failed call has a sentence and changes nothing: the state hash
+// and the output value stay, unless the machine stopped a program or a homing after motion. Read-only calls change
+// nothing either; a copy of a rack equals the rack; callbacks do not advance time.
 #include <motionrack/c.h>
 #include <motionrack/flex2pos.h>
 
@@ -39,7 +39,7 @@ class Caller {
         const std::uint64_t before = hash_, now = mr_now_ns(rack_);
         looks_ = drives_ = false;
         const int code = one();
-        // A machine that does not let them begin, by an emergency stop, is asked over the bus.
+        // A machine that cannot start them, because of an emergency stop, is accessed over the bus.
         const bool moved = drives_ && (code == MR_MACHINE || code == MR_STOPPED || code == MR_REFUSED);
         require(code == MR_OK || code == MR_BAD_CALL || code == MR_REFUSED || (code == MR_IO && is_file_) || moved ||
                     (code == MR_BAD_INPUT && drives_),
@@ -55,7 +55,7 @@ class Caller {
   private:
     // ---- arguments
     std::uint32_t below(std::uint32_t n) { return bytes_.below(n); }
-    /// Null now and then.
+    /// Occasionally null.
     template <class Pointer>
     Pointer or_null(Pointer pointer) {
         return below(40) == 0 ? nullptr : pointer;
@@ -75,7 +75,7 @@ class Caller {
                 return 2 * below(8);
         }
     }
-    /// A name as it is or with another letter in it.
+    /// A name, unchanged or with one letter replaced.
     const char* name() {
         std::string& text = texts_[next_++ % texts_.size()];
         text = names[below(names.size())];
@@ -95,7 +95,7 @@ class Caller {
     }
 
     // ---- calls
-    // Arguments are drawn one after the other: in a call their order would be the compiler's.
+    // Draws arguments in sequence, because the order of evaluation inside a call depends on the compiler.
     int one() {
         is_file_ = false;
         mr_rack* const on = rack();
@@ -115,7 +115,7 @@ class Caller {
         if (what == 4) return mr_fault(on, of, name());
         return what == 3 ? mr_part_set(on, of, number()) : mr_wire_set(on, of, number());
     }
-    /// What is called while time passes may look, and must not let time pass.
+    /// A callback during a run may read but must not advance time.
     static int progress(void* user, double seconds, std::int64_t, std::int64_t) {
         auto& own = *static_cast<Caller*>(user);
         require(seconds >= 0, "a program's time begins at 0");
@@ -133,7 +133,7 @@ class Caller {
         mr_rack* copy = nullptr;
         require(mr_advance_ns(rack_, 1) == MR_REFUSED && mr_snapshot(rack_, &copy) == MR_REFUSED,
                 "a call-back lets no time pass");
-        mr_rack_close(rack_);  // does nothing
+        mr_rack_close(rack_);  // no effect
     }
     int control(mr_rack* on) {
         if (below(2) == 0) {
@@ -240,7 +240,7 @@ class Caller {
         records_ = records_ || code == MR_OK;
         return code;
     }
-    /// Made, perhaps damaged, checked and loaded.
+    /// Makes an image, possibly damages it, checks and loads it.
     void use_image(flex2pos* flex) {
         std::array<std::uint8_t, 100> image{};
         std::size_t size = below(4) == 0 ? below(40) : image.size();
@@ -309,15 +309,15 @@ class Caller {
 
     Bytes& bytes_;
     mr_rack* rack_ = nullptr;
-    std::uint64_t hash_ = 0;  ///< of its state
+    std::uint64_t hash_ = 0;  ///< of the rack state
     flex2pos* flex_ = nullptr;
     std::array<std::string, 4> texts_;
     std::size_t next_ = 0;
-    bool looks_ = false;      ///< the call only looks
-    bool is_file_ = false;    ///< it makes or ends a file
-    bool drives_ = false;     ///< it is a program or a homing
-    int stops_ = 0;           ///< what progress answers
-    std::uint64_t told_ = 0;  ///< number of the last condition that was told
+    bool looks_ = false;      ///< read-only call
+    bool is_file_ = false;    ///< creates or closes a file
+    bool drives_ = false;     ///< program or homing
+    int stops_ = 0;           ///< return value of progress
+    std::uint64_t told_ = 0;  ///< number of the last reported condition
     bool records_ = false;
 };
 

@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a capture of any format; it is refused with a place or gives counts that fit together.
+// libFuzzer: any bytes as a capture of any format; it is rejected with a position or gives consistent counts.
 #include <cmath>
 #include <cstdint>
 #include <motionrack/decode/analysis.hpp>
@@ -23,7 +23,7 @@ void check(const ChannelResult& channel, const Analysis& analysis) {
     }
 }
 
-/// The first byte says how the rest is read.
+/// The first byte selects how the rest is read.
 void decode(std::uint8_t choice, std::string_view text) {
     static constexpr Format formats[] = {Format::automatic, Format::vcd, Format::csv, Format::raw};
     CaptureSettings settings;

@@ -1,9 +1,9 @@
-// libFuzzer: any bytes over a whole correction file of an RTC5. It is refused with a sentence, or its numbers are in
-// their ranges, it is written as the same bytes again, and a card that has it puts out at a node what the file says.
+// libFuzzer: any bytes patched over a complete correction file of an RTC5. Either it is rejected with a sentence, or
+// its numbers are in range, it is written back with the same bytes, and at a node a card outputs the value in the file.
 //
-//   input: choice (1 byte), then patches: place of a word (3 bytes), its value (4 bytes); what is left over is appended
-//   choice 1: over the file of a lens   2: the file's sum is right   4: words of the planes only   8: cut there
-//   16: written again, which is slow: a file has a megabyte
+//  input: choice (1 byte), then patches: index of a word (3 bytes), its value (4 bytes); remaining bytes are appended
+//  choice 1: over the file of a lens   2: with a correct checksum   4: words of the planes only   8: truncated there
+//  16: written back, which is slow: a file has a megabyte
 #include <fmt/format.h>
 
 #include <cmath>
@@ -39,7 +39,7 @@ std::uint32_t word_of(std::span<const std::uint8_t> bytes, std::size_t size) {
     return out;
 }
 
-/// The same words with the sum that they have.
+/// Returns the same words with a correct checksum.
 Bytes with_sum(std::span<const std::uint8_t> bytes) {
     const auto word = [&](std::size_t i) { return static_cast<std::int32_t>(word_of(bytes.subspan(4 * i), 4)); };
     CorrectionFile file;
@@ -83,7 +83,7 @@ void check_written(const CorrectionFile& file, const Bytes& bytes) {
     require(has_sum || file.header[10] % 1000 < 400, "a wrong sum is one of an older program's");
 }
 
-/// At nodes that the last bytes of the input choose.
+/// Checks nodes selected by the last bytes of the input.
 void check_card(const CorrectionFile& file, std::span<const std::uint8_t> input) {
     static const Settings settings{16, 4, 4};
     Engine card(settings);

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as accesses, wires, faults and passing time on a virtual DataBoard 4002; what must always hold
-// is in the card's test/card_fuzz.hpp.
+// libFuzzer: any bytes as accesses, wires, faults and elapsed time on a virtual DataBoard 4002; test/card_fuzz.hpp of
+// the card contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

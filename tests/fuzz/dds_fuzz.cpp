@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as samples of a grating bus at any time; what must always hold is in the room's
-// test/judge_fuzz.hpp.
+// libFuzzer: any bytes as samples of a grating bus at any time; test/judge_fuzz.hpp of the module contains the
+// invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a drawing (SVG, G-code or text); what must always hold is in the room's test/mark_fuzz.hpp.
+// libFuzzer: any bytes as a drawing (SVG, G-code or text); test/mark_fuzz.hpp of the module contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

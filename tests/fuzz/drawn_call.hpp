@@ -1,4 +1,4 @@
-// Calls of C functions with arguments that are drawn by their types.
+// Calls of C functions with arguments drawn by type.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace motionrack::fuzz {
 
-/// Calls `function`. `arguments.draw(std::type_identity<T>{})` gives an argument of type T; they are drawn in their
-/// order, whatever the compiler. What the function answers, as a whole number; 0 where that is nothing or an address.
+/// Calls `function`. `arguments.draw(std::type_identity<T>{})` returns an argument of type T; arguments are drawn in
+/// order with any compiler. Returns the result as an integer; 0 for void and pointers.
 template <class Arguments, class Answer, class... Parameters>
 std::int64_t call_with_drawn(Answer (*function)(Parameters...), Arguments& arguments) {
     const std::tuple<Parameters...> drawn{arguments.draw(std::type_identity<Parameters>{})...};
-    static_cast<void>(arguments);  // of a function without parameters
+    static_cast<void>(arguments);  // for a function without parameters
     if constexpr (std::is_arithmetic_v<Answer>) {
         return static_cast<std::int64_t>(std::apply(function, drawn));
     } else {
@@ -21,7 +21,7 @@ std::int64_t call_with_drawn(Answer (*function)(Parameters...), Arguments& argum
     }
 }
 
-/// A function by its name.
+/// A function with its name.
 template <class Arguments>
 struct DrawnCall {
     const char* name;

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a G-code program; the reader refuses with a place in the text or gives moves within the
-// limits, in its whole language. The same bytes as lines of a sender.
+// libFuzzer: any bytes as a G-code program; the reader rejects it with a position in the text or gives moves within the
+// limits, for the whole language. Also feeds the same bytes as lines of a sender.
 #include <cmath>
 #include <cstdint>
 #include <motionrack/control/gcode/canon.hpp>

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes down a Grbl port of a machine that runs. The first byte picks the machine; FFh lets 20 ms go by.
-// What comes back is lines of ASCII; after a reset the machine comes to rest, and an empty line is answered with ok.
+// libFuzzer: any bytes to a Grbl port of a running machine. The first byte selects the machine; FFh advances 20 ms. The
+// output is lines of ASCII; after a reset the machine stops, and an empty line is answered with ok.
 #include <cstdint>
 #include <memory>
 #include <motionrack/grbl/grbl_session.hpp>

@@ -1,8 +1,8 @@
-// libFuzzer: any bytes to the server as HTTP. Each whole request gets its answer, in their order, until one of them
-// says that it is the last; an answer to HEAD has no body, and what is no request is refused with a sentence. Without a
-// token nothing changes at the machine but that it may be stopped.
+// libFuzzer: any bytes to the server as HTTP. Each complete request gets its answer, in order, until an answer
+// announces that it is the last. An answer to HEAD has no body; input that is not a request is rejected with a
+// sentence. Without a token a client can change nothing at the machine except stop it.
 //
-//   input: choice (1 byte), then what is sent; FFh lets three slices go by; {token} is a token where choice is odd
+//  input: choice (1 byte), then the bytes to send; FFh advances three slices; {token} is a token if choice is odd
 #include <boost/beast/http/dynamic_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <cstdint>
@@ -17,19 +17,19 @@ using motionrack::fuzz::ServedConnection;
 using motionrack::fuzz::take_answer;
 using motionrack::fuzz::WebAnswer;
 
-// ---- what is sent
+// ---- sent bytes
 
 struct Sent {
-    std::vector<bool> is_head;  ///< of each whole request
-    bool is_rest_head = false;  ///< of what comes behind them
+    std::vector<bool> is_head;  ///< for each complete request
+    bool is_rest_head = false;  ///< of the bytes after them
     bool has_rest = false, is_rest_wrong = false;
 };
 
-/// As a reader of HTTP takes it apart; it looks at no limits of bodies.
+/// Splits the bytes as an HTTP reader does, without limits on bodies.
 Sent taken_apart(std::string_view bytes) {
     Sent out;
     while (!bytes.empty()) {
-        http::request_parser<http::dynamic_body> parser;  // it reserves no room for a body
+        http::request_parser<http::dynamic_body> parser;  // reserves no memory for a body
         parser.eager(true);
         parser.body_limit(boost::none);
         boost::system::error_code error;
@@ -57,9 +57,9 @@ std::string with_token(std::string text, const std::string& token) {
     return text;
 }
 
-// ---- what comes
+// ---- received bytes
 
-/// How many answers came; `is_last`: none follows them.
+/// Returns the number of answers; `is_last`: no answer follows.
 std::size_t answers(const Sent& sent, std::string_view came, bool& is_last) {
     std::size_t count = 0;
     is_last = false;
@@ -95,7 +95,7 @@ class Session {
     }
 
   private:
-    /// Sends what there is, and waits for the end.
+    /// Sends the next bytes and waits for the end.
     bool step() {
         if (--pause_ > 0) return true;
         if (!left_.empty()) {
@@ -112,7 +112,7 @@ class Session {
 
     ServedConnection connection_;
     bool is_known_ = false;
-    std::string text_;  ///< with the token
+    std::string text_;  ///< with the token inserted
     std::string_view left_;
     std::string all_;  ///< sent so far
     int pause_ = 0;

@@ -1,8 +1,8 @@
-// libFuzzer: any bytes over a whole journal, or in its place. It is opened or refused with a sentence, and refused it
-// is left as it is. What is trusted of an opened one is what was written; and what is acknowledged after that is there
-// in the next run.
+// libFuzzer: any bytes patched over a complete journal, or in its place. It is opened, or rejected with a sentence and
+// left unchanged. Values accepted from an opened journal were really written, and every entry acknowledged afterwards
+// exists in the next run.
 //
-//   input: 0, bytes of the file    or    n, then n times: place (3 bytes), number of bytes (1), these bytes
+//  input: 0, bytes of the file    or    n, then n times: offset (3 bytes), number of bytes (1), these bytes
 #include <algorithm>
 #include <cstdint>
 #include <future>
@@ -25,14 +25,14 @@ const ScratchFile& file() {
     return one;
 }
 
-/// The entry's number, or why it is not written.
+/// Returns the number of the entry, or the write error.
 Result<std::int64_t> write(Journal& journal, const std::string& text) {
     std::promise<Result<std::int64_t>> number;
     journal.write(Instant{7}, "order", text, "{}", [&](const Result<std::int64_t>& done) { number.set_value(done); });
     return number.get_future().get();
 }
 
-/// A journal of two runs that ended by themselves.
+/// A journal of two runs that ended regularly.
 std::string make_journal() {
     file().clear();
     for (int run = 0; run < 2; ++run) {
@@ -71,7 +71,7 @@ std::string journal_of(std::string_view input) {
     return out;
 }
 
-/// Nothing is trusted but what was written.
+/// Checks that all accepted values were really written.
 void check_trust(const Journal& journal, bool is_patched) {
     require(!is_patched || journal.before().has_value(), "a journal that has runs is not taken for a new one");
     if (!journal.before()) return;
@@ -89,7 +89,7 @@ void check_trust(const Journal& journal, bool is_patched) {
     }
 }
 
-/// Works on; the next run finds what was acknowledged.
+/// Continues to write; the next run finds all acknowledged entries.
 void go_on(std::unique_ptr<Journal> journal) {
     const auto number = write(*journal, "goes on");
     journal->keep("machine", "X 99");

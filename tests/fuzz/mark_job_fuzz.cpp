@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a marking job; what must always hold is in the room's test/mark_fuzz.hpp.
+// libFuzzer: any bytes as a marking job; test/mark_fuzz.hpp of the module contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as accesses, wires and passing time on a virtual MCX314, or an MCX314As where their number is
-// odd; what must always hold is in the card's test/chip_fuzz.hpp.
+// libFuzzer: any bytes as accesses, wires and elapsed time on a virtual MCX314, or an MCX314As if their number is odd;
+// test/chip_fuzz.hpp of the card contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

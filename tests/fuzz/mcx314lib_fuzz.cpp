@@ -1,5 +1,6 @@
-// libFuzzer: any bytes as calls of mcx314lib.h with good and bad arguments. A call that is refused has a sentence that
-// begins with its name, tells it to the handler once, answers -1 and writes no register; one that is taken has none.
+// libFuzzer: any bytes as calls of mcx314lib.h with valid and invalid arguments. A rejected call has a sentence that
+// begins with its name, passes it to the handler once, returns -1 and writes no register; an accepted call has no
+// sentence.
 #include <mcx314lib.h>
 
 #include <algorithm>
@@ -46,9 +47,9 @@ switches.home_deg = 1
 type = "mcx314"
 )";
 
-constexpr int max_waits = 6;  ///< calls of an input that wait: each waits up to a minute of the rack's time
+constexpr int max_waits = 6;  ///< waiting calls per input: each waits up to a minute of simulated time
 
-/// What a caller gives: numbers in and out of range, structures, null pointers.
+/// Arguments of a caller: numbers in and out of range, structures, null pointers.
 class Arguments {
   public:
     explicit Arguments(Bytes& bytes) : bytes_(bytes) {}
@@ -118,7 +119,7 @@ class Arguments {
         return below(30) == 0 ? nullptr : pointer;
     }
     int speed() { return below(16) == 0 ? draw(std::type_identity<int>{}) : 1 + static_cast<int>(below(4000)); }
-    /// Of what waits for its end.
+    /// A speed for calls that wait for the end of a move.
     int quick() { return 500 + static_cast<int>(below(8000)); }
     int place() { return below(32) == 0 ? draw(std::type_identity<int>{}) : static_cast<int>(below(2000)) - 1000; }
 
@@ -135,10 +136,10 @@ class Arguments {
 };
 
 enum class Kind {
-    source,  ///< of the source's names: answers nothing
-    reads,   ///< answers 0 where it is refused
-    own,     ///< answers -1
-    waits,   ///< lets time pass, or goes on by itself
+    source,  ///< name of the source: returns nothing
+    reads,   ///< returns 0 if rejected
+    own,     ///< returns -1
+    waits,   ///< advances time, or continues by itself
 };
 
 struct Function {
@@ -152,7 +153,7 @@ constexpr Function named(const char* name, Kind kind = Kind::source) {
     return {name, kind, [](Arguments& arguments) { return call_with_drawn(function, arguments); }};
 }
 
-/// A search waits for its end, and may take long: it is refused here, for one of its numbers.
+/// Homing waits for its end and may take long: calls it with one invalid number, so that it is rejected.
 template <void (*home)(int, int, int, int)>
 constexpr Function homing(const char* name) {
     return {name, Kind::source, [](Arguments& arguments) -> std::int64_t {
@@ -258,7 +259,7 @@ constexpr std::array functions = {
     Function{"mcx314_advance_ms", Kind::waits, advance},
 };
 
-/// What is written only; "" of a chip that is closed.
+/// Values of write-only registers; "" for a closed chip.
 std::string registers() {
     std::string out;
     for (const char* axis : {"x.", "y.", "z.", "u."})
@@ -290,7 +291,7 @@ class Caller {
         if (arguments_.below(16) == 0) select(arguments_.below(2));
         const Function& function = functions[arguments_.below(functions.size())];
         if (function.kind == Kind::waits && ++waits_ > max_waits) return;
-        // What goes on by itself may write at any time.
+        // An operation that continues by itself may write at any time.
         by_itself_ = by_itself_ || function.kind == Kind::waits;
         const std::string before = by_itself_ ? "" : registers();
         told_.clear();

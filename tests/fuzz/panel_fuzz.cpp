@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as orders and queries in JSON; what must always hold is in the room's test/panel_fuzz.hpp.
+// libFuzzer: any bytes as commands and queries in JSON; test/panel_fuzz.hpp of the module contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

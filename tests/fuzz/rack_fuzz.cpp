@@ -1,4 +1,5 @@
-// Hostile rack files: any bytes give a config or errors, never a crash, a hang or a half-checked config.
+// libFuzzer: any bytes as a rack file give a configuration or errors, never a crash, a hang or a partly checked
+// configuration.
 //
 // Build with clang++ -fsanitize=fuzzer,address,undefined; run with the folder corpus/rack.
 #include <cmath>

@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a recording of any kind; it is refused with a sentence, or what it says fits together.
+// libFuzzer: any bytes as a recording of any kind; it is rejected with a sentence or its content is consistent.
 #include <cstdint>
 #include <motionrack/trace/diff.hpp>
 #include <motionrack/trace/report_csv.hpp>
@@ -30,7 +30,7 @@ void read_whole(const std::string& path) {
 
 }  // namespace
 
-/// The HDF5 library itself loses some memory where it gives up a damaged file.
+/// The HDF5 library itself leaks some memory when it rejects a damaged file.
 extern "C" const char* __asan_default_options() {
     return "detect_leaks=0";
 }

@@ -1,5 +1,4 @@
-// In libFuzzer's place: replay_NAME FILE|FOLDER... tries each input once, in the order of their names, and says how
-// many there were.
+// Replaces libFuzzer: replay_NAME FILE|FOLDER... runs each input once, sorted by name, and prints their number.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -30,7 +29,7 @@ int main(int argc, char** argv) {
             return 1;
         }
         std::printf("%s, %zu bytes\n", path.c_str(), bytes.size());
-        std::fflush(stdout);  // the input that crashes is the last one named
+        std::fflush(stdout);  // so that the last printed name is the input that crashes
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
     std::printf("%zu inputs were tried.\n", inputs.size());

@@ -1,4 +1,4 @@
-// What a fuzz target states of every input: a law that an input breaks is printed, and the target ends there.
+// Assertion of the fuzz targets: prints a violated invariant and aborts.
 #pragma once
 
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 namespace motionrack::fuzz {
 
-/// `seen`: the value that breaks the law, where it helps.
+/// `seen`: the violating value, if useful.
 inline void require(bool holds, std::string_view law, std::string_view seen = {}) {
     if (holds) return;
     std::fprintf(stderr, "This does not hold: %.*s", static_cast<int>(law.size()), law.data());

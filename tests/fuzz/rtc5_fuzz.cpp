@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as list commands, control commands, words, starts and files on a virtual RTC5; what must always
-// hold is in the card's test/card_fuzz.hpp.
+// libFuzzer: any bytes as list commands, control commands, words, starts and files on a virtual RTC5;
+// test/card_fuzz.hpp of the card contains the invariants.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

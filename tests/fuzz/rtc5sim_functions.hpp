@@ -1,4 +1,4 @@
-// The functions of rtc5sim.h on the selected card, all but those for cards and errors.
+// Functions of rtc5sim.h on the selected card, except those for cards and errors.
 #pragma once
 
 #include <rtc5sim.h>

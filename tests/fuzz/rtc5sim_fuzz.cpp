@@ -1,7 +1,7 @@
 // libFuzzer: any bytes as calls of rtc5sim.h, list commands and control commands in any order, on two cards of a rack
-// or one by itself. A call that is refused has a sentence that begins with its name, tells it to the handler once, has
-// its bits and puts nothing into a list; what comes out is within the field, and at the end the card goes where it is
-// told.
+// or on a stand-alone card. A rejected call has a sentence that begins with its name, passes it to the handler once,
+// sets its error bits and appends nothing to a list. The output stays within the field, and at the end the card
+// executes a position command.
 #include <rtc5sim.h>
 
 #include <array>
@@ -92,7 +92,7 @@ class Arguments {
     }
     UINT* draw(std::type_identity<UINT*>) { return or_null(&words_[next_++ % words_.size()]); }
     long* draw(std::type_identity<long*>) { return or_null(&longs_[next_++ % longs_.size()]); }
-    /// The address of enough numbers.
+    /// Address of a sufficiently large array.
     ULONG_PTR draw(std::type_identity<ULONG_PTR>) {
         static std::vector<std::int32_t> numbers(1 << 21, 7);
         for (std::size_t i = 0; i < 8; ++i) numbers[i] = static_cast<std::int32_t>(below(48));
@@ -100,7 +100,7 @@ class Arguments {
     }
 
   private:
-    /// In this order on every compiler.
+    /// In this order with every compiler.
     UINT wide() {
         const UINT high = bytes_.word();
         return high << 16 | bytes_.word();
@@ -134,7 +134,7 @@ void advance(Arguments& arguments) {
     }
 }
 
-// ---- what comes out
+// ---- output
 
 std::int64_t next_tick[2] = {-1, -1};
 

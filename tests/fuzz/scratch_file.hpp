@@ -1,5 +1,5 @@
-// A file for libraries that read files only, in a folder of its own: in memory where the system has /dev/shm. The
-// folder, with all that lies in it, goes with the program.
+// A file in a private folder, for libraries that read files only: in memory if the system has /dev/shm. The folder and
+// its content are removed at the end of the program.
 #pragma once
 
 #include <unistd.h>
@@ -31,10 +31,10 @@ class ScratchFile {
     ScratchFile& operator=(const ScratchFile&) = delete;
 
     const std::string& path() const { return path_; }
-    /// Of another file in the folder.
+    /// Path of another file in the folder.
     std::string beside(const std::string& name) const { return (folder_ / name).string(); }
 
-    /// The file has these bytes and only its owner's rights; what lies beside it goes.
+    /// Writes the file with owner-only rights and removes all other files in the folder.
     void write(std::string_view bytes) const {
         clear();
         std::ofstream file(path_, std::ios::binary);
@@ -43,12 +43,12 @@ class ScratchFile {
         require(file.good(), "the file can be written");
         std::filesystem::permissions(path_, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     }
-    /// Empty where there is no file.
+    /// Empty if the file does not exist.
     std::string bytes() const {
         std::ifstream file(path_, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     }
-    /// Removes all that lies in the folder.
+    /// Removes all files in the folder.
     void clear() const {
         for (const auto& entry : std::filesystem::directory_iterator(folder_)) std::filesystem::remove_all(entry);
     }

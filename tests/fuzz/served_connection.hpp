@@ -1,4 +1,4 @@
-// One connection to the server of a machine, without a port: a pair of sockets whose other end is the target's. The
+// One connection to the server of a machine without a port: a socket pair whose other end belongs to the target. The
 // machine, the network and the target take turns on one thread.
 //
 //   target ──send──► [ socket pair ] ──► Connection ──► Service ──► Panel ──► Machine::run
@@ -29,7 +29,7 @@ namespace motionrack::fuzz {
 
 class ServedConnection {
   public:
-    /// For what waits for another thread.
+    /// Timeout for work of another thread.
     static constexpr std::chrono::seconds patience{8};
 
     ServedConnection() {
@@ -65,7 +65,7 @@ class ServedConnection {
     ServedConnection(const ServedConnection&) = delete;
     ServedConnection& operator=(const ServedConnection&) = delete;
 
-    /// Lets all take turns until `step` says false, or patience is over; then the answer is false.
+    /// Lets all take turns until `step` returns false; returns false on a timeout.
     bool run(std::function<bool()> step) {
         step_ = std::move(step);
         until_ = std::chrono::steady_clock::now() + patience;
@@ -74,17 +74,17 @@ class ServedConnection {
         return !is_over_;
     }
     void send(std::string_view bytes) { unsent_ += bytes; }
-    /// Nothing more is sent.
+    /// Ends sending after the queued bytes.
     void end_sending() { ends_ = true; }
     bool has_sent() const { return unsent_.empty(); }
-    /// All that came.
+    /// All bytes received.
     const std::string& received() const { return received_; }
-    /// The server has closed.
+    /// Returns true if the server has closed the connection.
     bool has_ended() const { return has_ended_; }
-    /// Of a person who may do everything.
+    /// Token of a user with all rights.
     const std::string& token() const { return token_; }
 
-    /// Who is a stranger has changed nothing but that the machine may have been stopped.
+    /// An unauthenticated client has changed nothing, except that the machine may have stopped.
     void require_untouched() const {
         const operate::Status& status = machine_->status();
         const bool is_stopped = status.state == operate::MachineState::error_stop;
@@ -129,12 +129,12 @@ class ServedConnection {
         io_->restart();
         io_->poll();
     }
-    /// Whether anything came or went.
+    /// Returns true if bytes were sent or received.
     bool exchange() {
         const std::size_t before = unsent_.size() + received_.size();
         const ssize_t sent = unsent_.empty() ? 0 : ::send(end_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
         if (sent > 0) unsent_.erase(0, static_cast<std::size_t>(sent));
-        if (sent < 0 && errno != EAGAIN) unsent_.clear();  // the server has closed
+        if (sent < 0 && errno != EAGAIN) unsent_.clear();  // the server has closed the connection
         if (unsent_.empty() && std::exchange(ends_, false)) ::shutdown(end_, SHUT_WR);
         poll();
         char bytes[65536];
@@ -167,7 +167,7 @@ class ServedConnection {
     std::shared_ptr<server::ConnectionPool> hall_;
     std::function<bool()> step_;
     std::chrono::steady_clock::time_point until_;
-    std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< of the clocks that the server sees
+    std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< of the clocks visible to the server
     std::string token_, unsent_, received_;
     std::size_t users_ = 0;
     std::uint64_t history_ = 0;
@@ -175,7 +175,7 @@ class ServedConnection {
     bool ends_ = false, has_ended_ = false, is_over_ = false;
 };
 
-/// An answer of HTTP as it came.
+/// An HTTP answer as received.
 struct WebAnswer {
     int status = 0;
     std::string head, body;
@@ -183,7 +183,8 @@ struct WebAnswer {
     bool has(std::string_view field) const { return head.find(field) != std::string::npos; }
 };
 
-/// Takes the next answer from what came. False: it is not whole so far. `head_only`: the request was a HEAD request.
+/// Removes the next answer from the received bytes. Returns false if it is incomplete. `head_only`: answers a HEAD
+/// request.
 inline bool take_answer(std::string_view& came, bool head_only, WebAnswer& out) {
     const std::size_t end = came.find("\r\n\r\n");
     if (end == std::string_view::npos) return false;

@@ -1,6 +1,6 @@
-// libFuzzer: any bytes as a sweep file. It is refused with places in the text or with the file's name, in their order;
-// a sweep that is read varies finite numbers between finite ends, and has as many values and points as the file says.
-// A short one is prepared for a rack and a program: each point is a text that reads back as itself.
+// libFuzzer: any bytes as a sweep file. It is rejected with sorted positions in the text or with the file name. A valid
+// sweep varies finite numbers between finite limits and has as many values and points as the file states. A short one
+// is prepared for a rack and a program: the text of each point reads back as itself.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using fuzz::require;
 using rack::TomlNode;
 using rack::TomlType;
 
-constexpr std::int64_t max_prepared = 12;  ///< points: each is a rack that is read
+constexpr std::int64_t max_prepared = 12;  ///< points: each reads a rack
 
 void check_errors(const std::vector<Error>& errors, std::string_view text) {
     const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
@@ -33,7 +33,7 @@ void check_errors(const std::vector<Error>& errors, std::string_view text) {
     }
 }
 
-/// The node of the file whose key stands there.
+/// Returns the node of the file whose key is at that position.
 const TomlNode* node_at(const TomlNode& table, Place key) {
     if (table.type != TomlType::table) return nullptr;
     for (const TomlNode& child : table.children) {

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a tool table. It is refused with a place in the text, or it is read; a table that was read,
-// written and read again is the same.
+// libFuzzer: any bytes as a tool table. It is rejected with a position in the text or accepted; an accepted table is
+// the same after writing and reading it again.
 #include <cmath>
 #include <cstdint>
 #include <motionrack/control/gcode/program_lines.hpp>

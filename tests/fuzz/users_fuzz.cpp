@@ -1,6 +1,6 @@
-// libFuzzer: any bytes as a users file. It is refused with a sentence and left as it is, or its users are those that
-// the door can have; nobody comes in by a token that was not given out, and a file that is written anew is read as the
-// same users. Each TOKEN in the bytes becomes the hash of a token that is known here.
+// libFuzzer: any bytes as a users file. Either it is rejected with a sentence and left unchanged, or its users are
+// valid. No token authenticates unless it was issued, and a rewritten file gives the same users. Each TOKEN in the
+// bytes is replaced by the hash of a known token.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -51,7 +51,7 @@ void check_user(const Authenticator& door, const Identity& user) {
     require(door.role_of(user.id, user.expires) == Role::none, "a token that has expired gives no role", user.user);
 }
 
-/// Nobody knows a token that gives one of the other hashes, nor one whose hash is another's text.
+/// No known token matches another hash, or a hash used as a token.
 void check_tokens(const Authenticator& door, std::string_view text) {
     for (const std::string& wrong :
          {std::string(), std::string("TOKEN"), std::string(64, 'b'), hash_of(known_token()), std::string(64, '\0')})
@@ -75,7 +75,7 @@ void check_again(const std::vector<Identity>& users) {
             "users that were written are read as the same ones");
 }
 
-/// Changes the file: a user goes, another one comes.
+/// Changes the file: removes a user and adds another.
 void change(Authenticator& door) {
     const Timestamps now{at(1'000'000), std::chrono::steady_clock::time_point{}};
     const std::vector<Identity> before = door.users();

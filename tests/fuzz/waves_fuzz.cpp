@@ -1,8 +1,8 @@
-// libFuzzer: waves as files, VCD and CSV. The first byte says what the others are:
+// libFuzzer: waveforms as files, VCD and CSV. The first byte selects the kind of the rest:
 //
-//   0  any VCD file    it is refused with a place in the text, or times never go back and each line has a level in
-//   1  any CSV file    each sample; read in pieces of any size it is the same
-//   2  changes         written as VCD and as tables, they are read as the same levels at the same instants
+//  0  any VCD file    it is rejected with a position in the text, or times never decrease and each line has a level in
+//  1  any CSV file    each sample; reading in pieces of any size gives the same
+//  2  changes         written as VCD and as tables, they give the same levels at the same instants
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,9 +24,9 @@ using fuzz::ScratchFile;
 
 constexpr std::size_t max_chosen = 8, max_samples = 1 << 16;
 
-// ---- what a capture says
+// ---- content of a capture
 
-/// Gives at most `step` bytes at a time.
+/// Returns at most `step` bytes at a time.
 class Pieces final : public decode::Source {
   public:
     Pieces(std::string_view text, std::size_t step) : text_(text), step_(step) {}
@@ -47,7 +47,7 @@ struct Reading {
     std::vector<std::string> signals;
     double tick_s = 0;
     std::vector<std::int64_t> times;
-    std::vector<std::uint32_t> levels;  ///< of each sample, a bit a signal
+    std::vector<std::uint32_t> levels;  ///< of each sample, one bit per signal
     std::vector<std::string> facts;
     bool operator==(const Reading&) const = default;
 };
@@ -121,11 +121,11 @@ void check_text(std::string_view text, bool is_vcd, std::uint8_t how) {
             whole.error);
 }
 
-// ---- what was written
+// ---- written files
 
 constexpr int wires = 2, bits = 3, line_count = wires + bits;
 
-/// Levels from a unit of time on: bits 0, 1 the wires, 2 to 4 the vector, its highest bit first.
+/// Levels from a time unit on: bits 0 and 1 are the wires, 2 to 4 the vector, most significant bit first.
 using Waves = std::map<std::int64_t, std::uint32_t>;
 
 std::uint32_t vector_of(std::uint32_t levels) {
@@ -143,7 +143,7 @@ Waves waves_of(std::string_view bytes) {
     return out;
 }
 
-/// Changes alone, each at the first instant that has it.
+/// Removes repeated levels; keeps the first instant of each.
 Waves without_repeats(const Waves& waves) {
     Waves out;
     for (const auto& [unit, levels] : waves)
@@ -192,7 +192,7 @@ void write_table(const Waves& waves, Duration unit, const std::string& path) {
     require(csv->close().has_value(), "a table can be closed");
 }
 
-/// Rows of levels, as a logic analyser exports them.
+/// Rows of levels, as exported by a logic analyser.
 std::string rows_of(const Waves& waves, Duration unit) {
     std::string out = "Time [s],A,B,C,D,E\n";
     for (const auto& [at, levels] : waves) {
@@ -204,7 +204,7 @@ std::string rows_of(const Waves& waves, Duration unit) {
     return out;
 }
 
-/// As the reader of `diff` has them.
+/// Changes as read by `diff`.
 Waves changes_of(const std::string& path, bool is_vcd, std::int64_t unit_ps) {
     trace::SignalNames names;
     const auto source = is_vcd ? trace::open_vcd_changes(path, names) : trace::open_csv_changes(path, names);
@@ -243,7 +243,7 @@ void check_written(std::string_view bytes, std::uint8_t how) {
     static const ScratchFile file("fuzz.vcd");
     file.clear();
     const Waves waves = waves_of(bytes.substr(0, 2000));
-    std::int64_t ticks = 1;  // of 100 ps, a unit
+    std::int64_t ticks = 1;  // of 100 ps, per unit
     for (int i = how % 4; i > 0; --i) ticks *= 10;
     const Duration unit{ticks};
     write_vcd(waves, unit, file.path());

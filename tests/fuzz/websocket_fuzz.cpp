@@ -1,8 +1,8 @@
-// libFuzzer: any bytes as a WebSocket's handshake and frames. A handshake is answered as RFC 6455 has it, or refused
-// with a sentence; what the server sends is frames with JSON in them, each message with an id has one answer with this
-// id, and a close has a code. Without a token nothing changes at the machine but that it may be stopped.
+// libFuzzer: any bytes as a WebSocket's handshake and frames. A handshake is answered as in RFC 6455, or rejected with
+// a sentence. The server sends frames with JSON; each message with an id gets one answer with this id, and a close has
+// a code. Without a token a client can change nothing at the machine except stop it.
 //
-//   input: choice (2 bytes), then: kind (1 byte), its text up to the next line end, and so on
+//  input: choice (2 bytes), then repeatedly: kind (1 byte), its text up to the next line end
 #include <openssl/evp.h>
 #include <openssl/sha.h>
 
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 constexpr std::string_view key = "AAECAwQFBgcICQoLDA0ODw==";
 
-/// What a server makes of the key (RFC 6455, 4.2.2).
+/// Returns the server's response to the key (RFC 6455, 4.2.2).
 std::string accept_of(std::string text) {
     text += "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
     std::array<unsigned char, SHA_DIGEST_LENGTH> hash{};
@@ -31,7 +31,7 @@ std::string accept_of(std::string text) {
     return reinterpret_cast<const char*>(out.data());
 }
 
-/// `wrong`: a bit for each thing that is not as it should be.
+/// `wrong`: one bit per error in the handshake.
 std::string handshake(std::uint8_t wrong, std::string_view text) {
     const auto is = [&](int bit) { return (wrong >> bit & 1) != 0; };
     std::string out = is(0) ? "GET /api/other HTTP/1.1\r\n" : "GET /api/stream HTTP/1.1\r\n";
@@ -62,11 +62,11 @@ std::string frame(unsigned first, std::string_view text, bool is_masked = true) 
     return out;
 }
 
-// ---- what comes
+// ---- received bytes
 
 class Frames {
   public:
-    /// Takes whole frames.
+    /// Removes complete frames.
     void take(std::string_view& came) {
         while (came.size() >= 2) {
             const auto first = static_cast<unsigned char>(came[0]), second = static_cast<unsigned char>(came[1]);
@@ -83,7 +83,7 @@ class Frames {
     }
     bool is_closed() const { return is_closed_; }
     std::size_t answers() const { return answers_; }
-    /// By their ids; "null" of those without.
+    /// Answers by id; "null" for those without.
     const std::map<std::string, int>& answered() const { return answered_; }
 
   private:
@@ -144,13 +144,13 @@ class Session {
         waiting_ += frame(0x81, text);
         note(text);
     }
-    /// A message that will be answered.
+    /// Records a message that will be answered.
     void note(const std::string& text) {
         ++said_;
         const json message = json::parse(text, nullptr, false);
         if (message.is_object() && message.contains("id")) ++ids_[message["id"].dump()];
     }
-    /// Sends what the next kind and text stand for.
+    /// Sends the message for the next kind and text.
     void next() {
         const auto kind = static_cast<std::uint8_t>(left_[0]);
         const std::size_t end = std::min(left_.find('\n'), left_.size());
@@ -199,7 +199,7 @@ class Session {
         }
         return true;
     }
-    /// Whether it is open now.
+    /// Returns true if the connection is open now.
     bool open(std::string_view& came) {
         WebAnswer answer;
         if (!take_answer(came, false, answer)) return false;

@@ -1,4 +1,4 @@
-// The rules, each by itself.
+// Invariants, one function each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 using operate::MachineState;
 
-/// Velocities are means over at least so long.
+/// Minimum interval of mean velocities.
 constexpr Duration interval = milliseconds(10);
 constexpr Duration lasers_off_within = milliseconds(4);
-/// A position that is off is found within a look or two while the machine stands, and a little later than the pulses
-/// that were lost while it moves.
+/// A position error is found within one or two checks at standstill, and slightly later than the lost pulses during
+/// motion.
 constexpr Duration off_standing = milliseconds(100), off_moving = milliseconds(40);
 
-/// Hysteresis of the switch, and what passes while it is seen.
+/// Hysteresis of the switch, plus the distance moved during its detection.
 constexpr double home_tolerance = 0.5;
 
 bool moves(MachineState state) {
@@ -67,7 +67,7 @@ void Invariants::ordered(Order order) {
     if (order == Order::reset) reset_ = reset_now_ = true, stop_now_ = false;
 }
 
-/// A motor that is held or pushed by hand is off by right until it is looked at again.
+/// A motor that is held or pushed may have a position error until the next check.
 void Invariants::disturbed() {
     may_declare_ = 25;
 }
@@ -115,12 +115,12 @@ void Invariants::see_time(const Sight& now) {
               fmt::format("picture {} came behind picture {}", now.sequence, last_.sequence));
 }
 
-// ---- who moves
+// ---- motion
 
 void Invariants::see_motion(const Sight& now) {
     const bool stand = !moves(now.state) && !moves(last_.state);
     for (std::size_t i = 0; i < facts_.size(); ++i) {
-        if (facts_[i].servo || !moved(i, now)) continue;  // a servo trembles
+        if (facts_[i].servo || !moved(i, now)) continue;  // a servo oscillates around its position
         const auto pulses = now.axes[i].sent - last_.axes[i].sent;
         if (stand)
             found(Rule::motion_needs_order, now.at,
@@ -137,7 +137,7 @@ void Invariants::see_motion(const Sight& now) {
                           operate::name_of(now.state)));
 }
 
-/// Where nothing is homed or declared counters change with the pulses.
+/// While no axis is homed and no position is set, counters change with the pulses.
 void Invariants::see_counters(const Sight& now) {
     const bool by_order = searches_ || searched_ || (operate::idle(now.state) && (!knows_orders_ || may_declare_)) ||
                           (operate::idle(last_.state) && (!knows_orders_ || may_declare_));
@@ -151,15 +151,15 @@ void Invariants::see_counters(const Sight& now) {
     }
 }
 
-// ---- where it is
+// ---- positions
 
 void Invariants::see_positions(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         Own& own = own_[i];
         const AxisSight &axis = now.axes[i], &before = last_.axes[i];
         const double off = axis.true_position - axis.commanded;
-        // Declared: so it is what the person says, also where a motion begins with the next order. Homed: it is the
-        // place of the machine from the edge of the switch on, also where others still search, or a stop comes.
+        // A set position is the one the operator entered, also if a motion starts with the next command. A homed one is
+        // the true position from the switch edge on, also while other axes are still homing or a stop occurs.
         const auto by_pulses = static_cast<std::int32_t>(axis.sent - before.sent);  // counters have 32 bits
         const bool counts_anew = static_cast<std::int32_t>(axis.counter - before.counter) != by_pulses;
         const bool becomes_trusted = axis.position_valid && !before.position_valid;
@@ -168,7 +168,7 @@ void Invariants::see_positions(const Sight& now) {
         const bool stood = operate::idle(now.state) || operate::idle(last_.state);
         const bool again = stood && (knows_orders_ ? may_declare_ : !moved(i, now)) && counts_anew;
         if (homed || declared || again || !axis.position_valid) own.offset = off;
-        if (becomes_trusted) alarm_texts_.clear();  // what took its trust may do so again
+        if (becomes_trusted) alarm_texts_.clear();  // the same cause may invalidate it again
         if (homed && becomes_trusted && std::fabs(off) > home_tolerance)
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
@@ -193,7 +193,7 @@ void Invariants::see_positions(const Sight& now) {
     }
 }
 
-/// A search for home goes beyond it on purpose, and may have to stop there.
+/// Homing exceeds the travel deliberately and may have to stop there.
 void Invariants::see_travel(const Sight& now) {
     if (searches_) return;
     for (std::size_t i = 0; i < facts_.size(); ++i) {
@@ -223,7 +223,7 @@ void Invariants::see_stop(const Sight& now) {
             found(Rule::reset_is_needed, now.at,
                   fmt::format("the error stop ended in the state '{}' without a reset", operate::name_of(now.state)));
     }
-    // One that comes with the reset is looked at in the next slice.
+    // A stop that arrives with the reset is checked in the next slice.
     unheeded_ = now.latched && rests ? unheeded_ + 1 : 0;
     if (unheeded_ > (hangs_ > 0 ? pictures_of_a_hang : 3))
         found(Rule::reset_is_needed, now.at,
@@ -231,7 +231,8 @@ void Invariants::see_stop(const Sight& now) {
     if (last_.latched && !now.latched && knows_orders_ && !reset_)
         found(Rule::reset_is_needed, now.at, "the stop ended without a reset");
     if (rests && !now.latched && stop_due_ == 0) reset_ = false;
-    if (stop_now_ || (now.latched && !last_.latched && !reset_now_)) reset_ = false;  // it knew nothing of this stop
+    if (stop_now_ || (now.latched && !last_.latched && !reset_now_))
+        reset_ = false;  // the reset did not know of this stop
     stop_now_ = reset_now_ = false;
     if (now.latched == last_.latched) return;
     latched_at_ = now.at;
@@ -252,7 +253,8 @@ void Invariants::see_parts(const Sight& now) {
               fmt::format("belts went from {:g} to {:g} a second after a stop", last_.belt_speed, now.belt_speed));
 }
 
-/// Of the intervals in which the stop was heard the fastest counts; from then on it only becomes slower.
+/// Uses the highest velocity of the intervals with the stop command as reference; afterwards the velocity may only
+/// decrease.
 void Invariants::see_braking(double seconds, const Sight& now) {
     double linear = 0, rotary = 0, noise = 0, min_accel = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < facts_.size(); ++i) {
@@ -276,7 +278,7 @@ void Invariants::see_braking(double seconds, const Sight& now) {
         found(Rule::stop_stays, now.at,
               fmt::format("something moved at {:g} a second while a stop is in force, {:.3f} s after it", speed,
                           to_seconds(now.at - latched_at_)));
-    // At the end of a ramp with limited jerk pulses may come less often than we look.
+    // At the end of a jerk-limited ramp the pulse interval may exceed the check interval.
     const bool driven =
         std::any_of(now.axes.begin(), now.axes.end(), [](const AxisSight& axis) { return axis.driven; });
     if (linear + rotary == 0 && !driven) stood_ = true;
@@ -329,7 +331,7 @@ void Invariants::end_interval(const Sight& now) {
 
 void Invariants::see_limits(std::size_t i, double velocity, double seconds, const Sight& now) {
     const AxisFacts& facts = facts_[i];
-    if (serviced_) return;  // somebody else's functions drive it
+    if (serviced_) return;  // other functions drive the axis
     if (std::fabs(velocity) > facts.max_velocity * 1.01 + 2 * rounding(i, seconds))
         found(Rule::limits_kept, now.at,
               fmt::format("axis {} went at {:g} a second, above its {:g}", facts.letter, velocity, facts.max_velocity));
@@ -348,7 +350,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
         found(Rule::limits_kept, now.at, std::move(text));
 }
 
-/// A card may have to end its pulses without a ramp in a stop; then the axis is not trusted once the machine stands.
+/// In a stop, a card may have to end its pulses without a ramp; then the position must become invalid at standstill.
 void Invariants::see_jumps(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         if (!now.axes[i].position_valid) own_[i].jumped.clear();

@@ -1,10 +1,10 @@
-// The laws of every run of a machine, whatever is ordered and whatever breaks: looked at from outside, by the pulses
-// on the wires, the places of the motors and the status that people see.
+// Invariants of every run of a machine, for all commands and faults, checked from outside: pulses on the wires, true
+// motor positions, and the published status.
 //
 //   machine, rack ──every slice──► Sight ──► Invariants ──► Finding: the rule, the instant, the numbers
-//   orders that were taken ──────ordered──────┘
+//  accepted commands ────────ordered─────────┘
 //
-// A Sight is plain numbers, so that each rule is tested with a history that breaks it (invariants_test.cpp).
+// A Sight contains plain numbers, so that each rule is tested with a history that violates it (invariants_test.cpp).
 #pragma once
 
 #include <array>
@@ -21,30 +21,30 @@
 namespace motionrack::test {
 
 enum class Rule : std::uint8_t {
-    motion_needs_order,        ///< pulses only in states that move, of axes that are enabled, after an order
-    stop_slows,                ///< after a stop nothing becomes faster, all stands in time, lasers are off
-    stop_stays,                ///< nothing moves again before a reset, which moves nothing
+    motion_needs_order,        ///< pulses only in moving states, of enabled axes, after a command
+    stop_slows,                ///< after a stop no axis accelerates, all stop in time, lasers are off
+    stop_stays,                ///< no motion before a reset, and none by the reset
     stop_is_taken,             ///< in every state
-    reset_is_needed,           ///< an error stop ends with a reset
-    position_is_true,          ///< a position that is trusted is that of the machine
-    counters_are_pulses,       ///< counters change with the pulses alone
-    limits_kept,               ///< velocity and acceleration of each axis
-    travel_kept,               ///< a trusted axis stays within its travel
+    reset_is_needed,           ///< an error stop ends only with a reset
+    position_is_true,          ///< a valid position is the true position
+    counters_are_pulses,       ///< counters change only with pulses
+    limits_kept,               ///< velocity and acceleration limits of each axis
+    travel_kept,               ///< an axis with a valid position stays within its travel
     one_alarm_a_cause,         ///< until it is reset
-    time_is_monotone,          ///< as are the numbers of pictures and alarms
-    nothing_taken_is_missing,  ///< each order that was answered is in the record, in order
-    same_history,              ///< of the same seed
+    time_is_monotone,          ///< including the numbers of status snapshots and alarms
+    nothing_taken_is_missing,  ///< each answered command is in the journal, in order
+    same_history,              ///< for the same seed
     no_allocation,             ///< within the kernel's run
-    usable_again               ///< when all is mended and reset
+    usable_again               ///< after all faults are cleared and reset
 };
 std::string_view name_of(Rule rule);
 
 /// One axis at one instant.
 struct AxisSight {
     bool enabled = true, position_valid = false;
-    std::int64_t sent = 0;     ///< pulses on the wires since the start; of a servo what its motor has turned
-    std::int64_t counter = 0;  ///< of the card
-    bool driven = false;       ///< its card makes pulses, however slowly; of a servo: false
+    std::int64_t sent = 0;                    ///< pulses on the wires since the start; of a servo the motor rotation
+    std::int64_t counter = 0;                 ///< of the card
+    bool driven = false;                      ///< the card generates pulses, at any rate; of a servo: false
     double commanded = 0, true_position = 0;  ///< by the counter; of the table
 };
 
@@ -53,14 +53,14 @@ struct Sight {
     std::int64_t sequence = 0;
     operate::MachineState state = operate::MachineState::standstill;
     bool latched = false;
-    bool abrupt = false;  ///< it ends pulses without a ramp
+    bool abrupt = false;  ///< ends pulses without a ramp
     int lasers_on = 0;
     double belt_speed = 0;  ///< of all belts and tables
     std::vector<AxisSight> axes;
     const std::vector<operate::Alarm>* alarms = nullptr;
 };
 
-/// An axis as the rack file has it.
+/// An axis as described in the rack file.
 struct AxisFacts {
     char letter = 'X';
     bool servo = false;
@@ -79,32 +79,32 @@ class Invariants {
   public:
     using Report = std::function<void(const Finding&)>;
     struct Settings {
-        double jerk_time_s = 0;              ///< what a profile with limited jerk needs to begin to decelerate
-        Duration obeyed = milliseconds(12);  ///< so long after a stop what has to slow down does
+        double jerk_time_s = 0;              ///< time for a jerk-limited profile to start decelerating
+        Duration obeyed = milliseconds(12);  ///< maximum delay from a stop to the start of deceleration
     };
-    /// Each rule is reported once.
+    /// Reports each rule once.
     Invariants(std::vector<AxisFacts> axes, const Settings& settings, Report report);
 
-    /// An order was taken. With the first call all later ones come here, too.
+    /// Records an accepted command. After the first call, all later commands must be recorded.
     enum class Order : std::uint8_t { motion, position, stop, reset, enable, part };
     void ordered(Order order);
-    /// From outside something was pushed, held or written, so that pulses and places part by right.
+    /// A motor or value was pushed, held or overwritten from outside, so that pulses and true positions may differ.
     void disturbed();
-    /// A card hangs: its host waits for an answer, for 2 s at most, and does nothing else.
+    /// A card hangs: its host waits for an answer, at most 2 s, and does nothing else.
     void hung() { hangs_ = pictures_of_a_hang; }
     void see(const Sight& sight);
-    /// A rule that is looked at elsewhere.
+    /// Reports a rule that is checked elsewhere.
     void found(Rule rule, Instant at, std::string text);
     const std::vector<Finding>& findings() const { return findings_; }
 
   private:
     struct Own {
-        double offset = 0;    ///< place less commanded when it became trusted
-        Instant off_since{};  ///< it has been off for so long
+        double offset = 0;    ///< true position minus commanded when the position became valid
+        Instant off_since{};  ///< start of the position error
         bool off = false;
-        double velocity = 0;    ///< of the interval before
-        std::int64_t base = 0;  ///< pulses at the begin of the interval
-        std::string jumped;     ///< in a stop that goes on: what its velocity did
+        double velocity = 0;    ///< of the previous interval
+        std::int64_t base = 0;  ///< pulses at the start of the interval
+        std::string jumped;     ///< velocity change during the current stop
     };
     bool moved(std::size_t i, const Sight& now) const { return now.axes[i].sent != last_.axes[i].sent; }
     void see_time(const Sight& now);
@@ -127,28 +127,28 @@ class Invariants {
     std::vector<Finding> findings_;
     std::set<Rule> told_;
     bool first_ = true;
-    bool searches_ = false, searched_ = false;  ///< for home, or stops on the way to it; in the picture before
+    bool searches_ = false, searched_ = false;  ///< homing, or stopping during homing; in the previous snapshot
     Sight last_;
     std::vector<Own> own_;
-    // orders
+    // commands
     bool knows_orders_ = false, parts_stand_ = false;
     bool reset_ = false;                         ///< since the stop
-    bool reset_now_ = false, stop_now_ = false;  ///< since the last picture, the one that came last
+    bool reset_now_ = false, stop_now_ = false;  ///< since the last snapshot; whichever came last
     static constexpr int pictures_of_a_hang = 1'500;
     int hangs_ = 0;
-    int may_move_ = 0, may_declare_ = 0, stop_due_ = 0;  ///< for so many pictures
-    // the interval in which velocities are measured
+    int may_move_ = 0, may_declare_ = 0, stop_due_ = 0;  ///< number of snapshots
+    // interval of the velocity measurement
     Instant base_at_{};
     double last_seconds_ = 0;
-    bool serviced_ = false;  ///< a card was in service in this interval
-    bool jumped_ = true;     ///< pulses ended without a ramp, or this is the begin: nothing to compare with
-    bool braked_ = false, was_braked_ = false;  ///< a stop was in force in it, in the one before it
+    bool serviced_ = false;                     ///< a card was in service in this interval
+    bool jumped_ = true;                        ///< pulses ended without a ramp, or the run starts: no reference
+    bool braked_ = false, was_braked_ = false;  ///< a stop was active in this interval, in the previous one
     // a stop
     Instant latched_at_{}, stands_by_{};
     double lowest_ = 0;
     bool stood_ = false;
     bool linear_moves_ = false;
-    int unheeded_ = 0;  ///< pictures of an idle machine in a stop
+    int unheeded_ = 0;  ///< snapshots of an idle machine during a stop
     // alarms
     std::int64_t last_alarm_ = 0;
     std::set<std::string> alarm_texts_;

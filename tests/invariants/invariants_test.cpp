@@ -1,4 +1,4 @@
-// Each rule finds a history that breaks it, and nothing in one that keeps all of them.
+// Each rule detects a history that violates it, and accepts one without violations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace {
 
 using operate::MachineState;
 
-/// One axis of 100 pulses a mm, 100 mm/s, 1000 mm/s2; looked at each 2 ms.
+/// One axis with 100 pulses per mm, 100 mm/s, 1000 mm/s2, checked every 2 ms.
 class History {
   public:
     History() : invariants_({{'X', false, 100, 100, 1000, 2, 0, 300, 1}}, {}, {}) {
@@ -22,7 +22,7 @@ class History {
         pass(0.02);
     }
 
-    /// Velocity and its change a second, for so long.
+    /// Drives for a time with an acceleration.
     void drive(double seconds, double accel) {
         for (double t = 0; t < seconds - 1e-9; t += 0.002) {
             velocity_ += accel * 0.002;
@@ -35,7 +35,7 @@ class History {
     void order(Invariants::Order order) { invariants_.ordered(order); }
     void to(MachineState state) { now_.state = state; }
     void jump(double velocity) { velocity_ = velocity; }
-    /// To speed by an order.
+    /// Accelerates after a command.
     void begin() {
         order(Invariants::Order::motion);
         to(MachineState::moving);
@@ -58,8 +58,8 @@ class History {
     void ask_for(Rule rule) { invariants_.found(rule, now_.at, "seen elsewhere"); }
 
     std::vector<operate::Alarm> alarms;
-    std::int64_t counter_off = 0;  ///< of the card's counter
-    double place_off = 0;          ///< of the table
+    std::int64_t counter_off = 0;  ///< error of the card's counter
+    double place_off = 0;          ///< error of the table position
 
   private:
     void see() {
@@ -315,7 +315,7 @@ TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
     h.to(MachineState::stopping);
     h.now().axes[0].driven = true;
     h.drive(0.098, -500);
-    h.jump(0.4);  // each 25 ms a pulse
+    h.jump(0.4);  // one pulse every 25 ms
     h.pass(0.1);
     h.now().axes[0].driven = false;
     h.jump(0);
@@ -325,7 +325,7 @@ TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
 }
 
 TEST(AGoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
-    for (const double within : {0.002, 0.004, 0.006, 0.008, 0.01}) {  // of an interval
+    for (const double within : {0.002, 0.004, 0.006, 0.008, 0.01}) {  // within an interval
         History h;
         h.begin();
         h.latch(true);

@@ -22,8 +22,8 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
     return out;
 }
 
-/// Pieces of a path with limited jerk are given to the card two at once, each of at most 30 ms, and the deceleration
-/// grows no faster than the jerk lets it.
+/// Sections of a jerk-limited path are submitted to the card two at a time, each of at most 30 ms, and the deceleration
+/// changes within the jerk limit.
 Invariants::Settings settings_of(const rack::RackConfig& config, Duration slice) {
     Invariants::Settings out;
     for (const rack::RackAxis& axis : config.axes)
@@ -70,7 +70,7 @@ Sight RackWatch::sight() {
 void RackWatch::look() {
     Sight now = sight();
     now.sequence = ++sequence_;
-    now.state = operate::MachineState::homing;  // it may do anything
+    now.state = operate::MachineState::homing;  // any motion is allowed
     invariants_.see(now);
 }
 

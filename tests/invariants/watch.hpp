@@ -1,4 +1,4 @@
-// The invariants over a real machine or rack, on in every run of the tests that make one.
+// Invariant checks on a real machine or rack, enabled in every test that creates one.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>
@@ -9,21 +9,21 @@
 
 namespace motionrack::test {
 
-/// Fails the test that runs, with the rule and the instant.
+/// Fails the current test with the rule and the instant.
 void fail_test(const Finding& finding);
 
-/// Looks at a rack between two runs of its kernel.
+/// Checks a rack between two runs of its kernel.
 class RackWatch {
   public:
-    /// The rack must outlive it, and be started when it is looked at first.
+    /// The rack must outlive it and be started before the first check.
     explicit RackWatch(rack::Rack& rack, Invariants::Report report = fail_test)
         : RackWatch(rack, milliseconds(50), std::move(report)) {}
-    /// A program drives it: it may move at any time, until it is stopped.
+    /// Checks a rack driven by a program: motion is allowed at any time until a stop.
     void look();
     Invariants& invariants() { return invariants_; }
 
   protected:
-    /// `slice`: of what drives it.
+    /// `slice`: that of the driving program.
     RackWatch(rack::Rack& rack, Duration slice, Invariants::Report report);
     Sight sight();
 
@@ -35,7 +35,7 @@ class RackWatch {
     std::int64_t sequence_ = 0;
 };
 
-/// Looks at a machine in every slice. To be made before Machine::run, and to outlive it.
+/// Checks a machine in every slice. Create before Machine::run; must outlive it.
 class MachineWatch : public RackWatch {
   public:
     explicit MachineWatch(operate::Machine& machine, Invariants::Report report = fail_test);

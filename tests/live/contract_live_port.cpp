@@ -1,7 +1,7 @@
-// The contract tests' card here: the live port of MOTIONRACK_LIVE_PORT.
+// Card of the contract tests: the live port of MOTIONRACK_LIVE_PORT.
 //
-// A real card: MOTIONRACK_LIVE_PORT=uio:/dev/uio0 MOTIONRACK_LIVE_MOTORS=unplugged contract_live. All four axes send
-// pulses. A served one: live_server memory contract_live.
+// Real card: MOTIONRACK_LIVE_PORT=uio:/dev/uio0 MOTIONRACK_LIVE_MOTORS=unplugged contract_live. All four axes send
+// pulses. Served card: live_server memory contract_live.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -26,7 +26,7 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
-/// For the trap, which has no other way to know.
+/// Global for the trap's signal handler.
 Doorbell* served_bell = nullptr;
 
 void ask_before(const Touch& access) {
@@ -63,7 +63,7 @@ class LiveContractPort final : public ContractPort {
   private:
     std::optional<MappedFile> bell_;
     std::unique_ptr<live::CardPort> port_;
-    std::optional<Trap> trap_;  // ends before the mapping does
+    std::optional<Trap> trap_;  // destroyed before the mapping
 };
 
 }  // namespace

@@ -1,10 +1,10 @@
-// How the driver's process and the one that serves the card speak: a page of shared memory, one question at a time.
+// Protocol between the driver's process and the server of the card: a page of shared memory, one request at a time.
 //
-//   driver's process      what, offset ──► asked + 1, wake ──► wait until answered == asked ──► value
-//   server's process      wait until asked != answered ──► works the card ──► value ──► answered = asked, wake
+//  driver's process      request, offset ──► asked + 1, wake ──► wait until answered == asked ──► value
+//  server's process      wait until asked != answered ──► accesses the card ──► value ──► answered = asked, wake
 //
-// The register words lie in another file, which both map too: "read" means that the server puts the register's value
-// into its word, "write" that it takes the word and writes it to the card.
+// The register words are in another file, which both map too. For "read" the server copies the register value into its
+// word; for "write" it copies the word to the card.
 #pragma once
 
 #include <linux/futex.h>
@@ -20,11 +20,11 @@ namespace motionrack::live_test {
 enum class Question : std::uint32_t {
     read,      ///< offset, width
     write,     ///< offset, width
-    pass,      ///< value: how long
-    interrupt  ///< value: how long at most; answer: 1 if the line is active
+    pass,      ///< value: duration
+    interrupt  ///< value: maximum duration; answer: 1 if the line is active
 };
 
-/// `atomic` in shared memory of two processes is sound where it is lock-free.
+/// `atomic` in memory shared between processes requires it to be lock-free.
 struct Doorbell {
     std::atomic<std::uint32_t> asked;
     std::atomic<std::uint32_t> answered;
@@ -32,11 +32,11 @@ struct Doorbell {
     std::uint32_t offset;
     std::uint32_t width;
     std::int64_t value;
-    std::atomic<std::int64_t> now;  ///< virtual time; the server keeps it current
+    std::atomic<std::int64_t> now;  ///< simulated time; updated by the server
 };
 static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
-/// Sleeps while the word has that value, two seconds at most; callable in a signal handler.
+/// Sleeps while the word has that value, at most two seconds; async-signal-safe.
 inline void sleep_while(std::atomic<std::uint32_t>& word, std::uint32_t value) {
     const timespec most{2, 0};
     ::syscall(SYS_futex, &word, FUTEX_WAIT, value, &most, nullptr, 0);
@@ -46,7 +46,7 @@ inline void wake(std::atomic<std::uint32_t>& word) {
     ::syscall(SYS_futex, &word, FUTEX_WAKE, 1, nullptr, nullptr, 0);
 }
 
-/// The driver's side; callable in a signal handler. Ends the process if nobody answers for a minute.
+/// Driver side; async-signal-safe. Ends the process after a minute without an answer.
 inline std::int64_t ask(Doorbell& bell, Question what, std::int64_t value, std::uint32_t offset = 0,
                         std::uint32_t width = 16) {
     bell.what = what;

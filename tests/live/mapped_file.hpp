@@ -1,4 +1,4 @@
-// A file in memory that is shared with another process.
+// File mapped into memory that is shared with another process.
 #pragma once
 
 #include <fcntl.h>
@@ -12,7 +12,7 @@ namespace motionrack::live_test {
 
 class MappedFile {
   public:
-    /// `create`: makes it, that long, all zero.
+    /// `create`: creates it with that length, zero-filled.
     MappedFile(const std::string& path, std::size_t length, bool create) : length_(length) {
         const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | (create ? O_CREAT | O_TRUNC : 0), 0600);
         if (file < 0) return;

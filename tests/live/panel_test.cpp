@@ -1,5 +1,5 @@
-// The operator panel with a real card in service: `motionrack serve --live`, with a virtual MCX314 in the real one's
-// place that another process serves: live_server port --real-time panel_live.
+// The operator panel with a real card in service: `motionrack serve --live`, with a virtual MCX314 in place of the real
+// one, served by another process: live_server port --real-time panel_live.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -23,10 +23,10 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Of RR0.
+/// Bit of RR0.
 constexpr unsigned x_drives = 1;
 
-/// Where the served card is, and what a test sees of it beside the program that drives it.
+/// Address of the served card, and the test's own access to it beside the driving program.
 class CardSeen {
   public:
     CardSeen() : place(std::getenv("MOTIONRACK_LIVE_PORT")) {
@@ -41,7 +41,7 @@ class CardSeen {
         ::close(file);
         return word & 0xFU;
     }
-    /// So many accesses of the program fail from now on.
+    /// Makes the next `accesses` accesses of the program fail.
     void refuse(std::uint32_t accesses) const {
         const int file = ::open((files_ / "refuse").c_str(), O_WRONLY | O_CLOEXEC);
         EXPECT_EQ(::write(file, &accesses, sizeof accesses), 4);
@@ -67,13 +67,13 @@ class ThePanelOnARealCard : public testing::Test {
         fs::remove_all(folder_);
     }
     void serve() {
-        served.reset();  // the one before it has let go of the journal
+        served.reset();  // its predecessor has released the journal
         served = std::make_unique<Served>(
             std::vector<std::string>{(folder_ / "rack.toml").string(), "--port", "0", "--no-pairing", "--users",
                                      (folder_ / "users.json").string(), "--live", "bench=" + card.place});
         ASSERT_NE(served->port(), 0) << served->said;
     }
-    /// Its answer must have this text.
+    /// Checks that the answer contains this text.
     void good(const std::string& function, const json& arguments, const std::string& text) const {
         const json answer = served->post("call", {{"card", "bench"}, {"function", function}, {"arguments", arguments}});
         EXPECT_EQ(answer.value("text", ""), text) << function << ": " << answer;
@@ -95,7 +95,7 @@ class ThePanelOnARealCard : public testing::Test {
         until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
         EXPECT_EQ(card.drives(), 0U);
     }
-    /// Of the card, the newest; null: there is none.
+    /// Returns the newest alarm of the card; null: none.
     static json alarm(ServedLink& link) {
         json found;
         const json status = link.status();

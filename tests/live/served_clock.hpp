@@ -1,4 +1,4 @@
-// The clock of a card that is served in virtual time: time passes at the server, when the driver's process asks for it.
+// Clock of a card that is served in simulated time: the server advances time at the request of the driver's process.
 #pragma once
 
 #include <poll.h>

@@ -1,4 +1,4 @@
-// The served files over libfuse. One request at a time, from a thread of its own.
+// Served files over libfuse, one request at a time, on a separate thread.
 #define FUSE_USE_VERSION 35
 #include <fuse.h>
 #include <poll.h>
@@ -16,14 +16,14 @@ namespace {
 
 constexpr unsigned registers_end = port_base + 16;
 
-/// What the files know; libfuse hands it back in every call.
+/// State of the files; libfuse passes it to every call.
 struct Served {
     VirtualCard& card;
-    // The interrupt side of a UIO node: the kernel's driver shuts the line when it has counted, and a write of 1 opens
-    // it.
+    // Interrupt side of a UIO node: the kernel driver masks the line after counting an interrupt, and a write of 1
+    // unmasks it.
     std::uint32_t count = 0, seen = 0;
     bool open = false;
-    std::uint32_t refusals = 0;  // to come
+    std::uint32_t refusals = 0;  // remaining number
 
     bool refuses(const char* path) {
         if (refusals == 0 || std::strcmp(path, "/port") != 0) return false;
@@ -65,7 +65,7 @@ int attributes(const char* path, struct stat* out, fuse_file_info*) {
 
 int open_file(const char* path, fuse_file_info* info) {
     if (!is_port(path) && !is(path, "/uio0") && !is(path, "/refuse")) return -ENOENT;
-    info->direct_io = 1;  // no pages in between: a read is a read
+    info->direct_io = 1;  // no page cache: every read reaches the card
     info->nonseekable = is(path, "/uio0");
     return 0;
 }
@@ -114,7 +114,7 @@ int write_file(const char* path, const char* from, std::size_t bytes, off_t at, 
     return static_cast<int>(bytes);
 }
 
-/// Tells how it is. Nobody is called later: who waits longer looks again at the end of its time.
+/// Reports readiness. Sends no later notification: a waiting client polls again after its timeout.
 int poll_file(const char* path, fuse_file_info*, fuse_pollhandle* handle, unsigned* events) {
     if (handle) ::fuse_pollhandle_destroy(handle);
     Served& files = served();
@@ -130,7 +130,7 @@ class FuseFiles final : public ServedFiles {
         if (!fuse_) return;
         if (thread_.joinable()) {
             ::fuse_exit(fuse_);
-            ::fuse_unmount(fuse_);  // ends the thread's wait
+            ::fuse_unmount(fuse_);  // ends the wait of the thread
             thread_.join();
         }
         ::fuse_destroy(fuse_);

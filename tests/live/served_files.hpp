@@ -1,11 +1,12 @@
-// Files that a process serves (FUSE): real system calls on real files, each of which reaches the virtual card.
+// Files served by a process (FUSE): system calls on real files that reach the virtual card.
 //
-//   FOLDER/port    as the file of a PCI card's I/O region: pread and pwrite of 2 bytes at port_base + offset are 16-bit
+//  FOLDER/port    like the file of a PCI card's I/O region: pread and pwrite of 2 bytes at port_base + offset are
+//  16-bit
 //                  accesses, of 1 byte 8-bit ones
-//   FOLDER/uio0    as the interrupt side of a UIO node
-//   FOLDER/look    as FOLDER/port, for a test that looks at the card beside the program that drives it
-//   FOLDER/refuse  a number of 4 bytes, written: so many accesses to FOLDER/port fail from now on (ENODEV), as of a
-//                  card that was pulled out
+//  FOLDER/uio0    like the interrupt side of a UIO node
+//  FOLDER/look    like FOLDER/port, for a test that accesses the card beside the driving program
+//  FOLDER/refuse  write a number of 4 bytes: that many next accesses to FOLDER/port fail (ENODEV), like those of a
+//                 removed card
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ inline constexpr unsigned port_base = 0x300;
 
 class ServedFiles {
   public:
-    /// nullptr, with a sentence in `why`, where this computer does not let files be served.
+    /// Returns nullptr, with a sentence in `why`, if this computer cannot serve files.
     static std::unique_ptr<ServedFiles> serve(VirtualCard& card, const std::string& folder, std::string& why);
     virtual ~ServedFiles() = default;
 };

@@ -1,12 +1,12 @@
-// Serves a virtual MCX314 to another program through files and runs that program:
+// Serves a virtual MCX314 to another program through files, and runs that program:
 //
 //   live_server memory|port8|port [--real-time] PROGRAM [ARGUMENT]...
 //
 //   memory    the registers are words of a file that PROGRAM maps (with a trap, see trap.hpp)
 //   port      the registers are bytes of a file that PROGRAM reads and writes two by two (FUSE), port8: one by one
 //
-// PROGRAM finds in MOTIONRACK_LIVE_PORT where its card is, and in MOTIONRACK_LIVE_DOORBELL how to let virtual time
-// pass. Ends as PROGRAM does; 77 where this computer cannot serve.
+// PROGRAM finds the address of its card in MOTIONRACK_LIVE_PORT, and the doorbell for simulated time in
+// MOTIONRACK_LIVE_DOORBELL. Returns the exit code of PROGRAM; 77 if this computer cannot serve.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,10 +29,10 @@ using namespace motionrack::live_test;
 namespace {
 
 constexpr std::size_t page = 4096;
-constexpr std::size_t first_register = page - 16;  // an access that is too wide runs off the page
+constexpr std::size_t first_register = page - 16;  // an access that is too wide leaves the page
 constexpr int cannot_serve = 77;
 
-/// Answers the doorbell until told to end.
+/// Answers the doorbell until it is ended.
 class Attendant {
   public:
     Attendant(VirtualCard& card, Doorbell& bell, char* registers)
@@ -81,9 +81,9 @@ class Attendant {
     std::thread thread_;
 };
 
-pid_t child = 0;  // for the handler of a signal, which has no other way to know
+pid_t child = 0;  // global for the signal handler
 
-/// SIGTERM and SIGINT are for the program.
+/// Forwards SIGTERM and SIGINT to the program.
 void hand_on(int signal) {
     ::kill(child, signal);
 }

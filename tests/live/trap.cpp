@@ -1,4 +1,4 @@
-// The trap's two signal handlers.
+// Signal handlers of the trap.
 #include <sys/mman.h>
 #include <ucontext.h>
 
@@ -21,7 +21,7 @@ struct Trapped {
     struct sigaction old_segv, old_trap;
 };
 
-/// Signal handlers have no other way to know.
+/// Global for the signal handlers.
 Trapped trapped;
 
 void close_page() {
@@ -42,7 +42,7 @@ greg_t& flags_of(void* context) {
 void on_segv(int, siginfo_t* info, void* context) {
     char* const place = static_cast<char*>(info->si_addr);
     if (place < trapped.page || place >= trapped.page + trapped.length) {
-        // Somebody else's mistake: it happens again, with the handler that was there.
+        // Not caused by the trap: the fault repeats with the previous handler.
         ::sigaction(SIGSEGV, &trapped.old_segv, nullptr);
         return;
     }

@@ -1,10 +1,10 @@
-// Notices every access of this process to a mapped page, one by one, as a card on a bus does: plain memory cannot say
-// that it was read, or written with the value that it had. The code that makes the access is as it always is.
+// Detects every access of this process to a mapped page individually, as a card on a bus does. Plain memory cannot
+// detect a read, or a write of an unchanged value. The accessing code is unmodified.
 //
 //   access ──► page is closed: SIGSEGV ──► before() ──► page opened, single step
-//          ──► the access is made: SIGTRAP ──► page closed ──► after() ──► the program goes on
+//         ──► the access is made: SIGTRAP ──► page closed ──► after() ──► the program continues
 //
-// x86-64 only, for its single step. One trap at a time in a process, one thread.
+// Requires x86-64 for its single step. One trap at a time per process, one thread.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@
 namespace motionrack::live_test {
 
 struct Touch {
-    std::size_t offset = 0;  ///< bytes from the page's start, of the first byte
+    std::size_t offset = 0;  ///< bytes from the start of the page to the first byte
     bool writes = false;
 };
 
 class Trap {
   public:
-    /// False where this machine cannot single-step.
+    /// Returns false if this machine cannot single-step.
     static bool possible();
-    /// Where this process has mapped the file; nullptr if it has not.
+    /// Returns the address at which this process has mapped the file; nullptr if not mapped.
     static void* mapping_of(const std::string& path);
 
-    /// `before` and `after` are called in a signal handler: no allocation, no locks. `length`: whole pages.
+    /// Calls `before` and `after` in a signal handler: no allocation, no locks. `length`: whole pages.
     Trap(void* page, std::size_t length, void (*before)(const Touch&), void (*after)(const Touch&));
     ~Trap();
     Trap(const Trap&) = delete;

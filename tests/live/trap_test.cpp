@@ -1,4 +1,4 @@
-// What a live port does to memory: one access a word, sixteen bits wide, at its own address, and nothing else.
+// Memory accesses of a live port: exactly one 16-bit access per word, at its address.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t page = 4096;
 
-/// What the trap saw; a signal handler writes it.
+/// Accesses recorded by the trap's signal handler.
 struct Seen {
     std::array<Touch, 64> list;
     std::size_t count;
@@ -53,7 +53,7 @@ class LivePortInMemory : public testing::Test {
 };
 
 TEST_F(LivePortInMemory, MakesOneAccessOfSixteenBitsForEachWord) {
-    // The last register ends with the page: a wider access would run off it.
+    // The last register ends with the page: a wider access would leave it.
     const auto port = open(",offset=4080");
     ASSERT_TRUE(port);
     file_->as<std::uint16_t>(page - 2) = 0xBEEF;
@@ -93,7 +93,7 @@ TEST_F(LivePortInMemory, MakesTwoAccessesOfEightBitsHighByteFirst) {
 }
 
 TEST_F(LivePortInMemory, OpeningTouchesNoRegister) {
-    // A mapping that is closed before anybody reads it: nothing was, or the trap would have seen it.
+    // Closes a mapping that was never read; the trap would have detected a read.
     const auto port = open("");
     ASSERT_TRUE(port);
     const Trap trap(Trap::mapping_of(path_), page, note, nothing);

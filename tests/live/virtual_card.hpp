@@ -1,4 +1,4 @@
-// The card that the server works: a virtual MCX314, in virtual time or at the pace of the computer's clock.
+// Card of the server: a virtual MCX314, in simulated or in real time.
 #pragma once
 
 #include <atomic>
@@ -13,15 +13,14 @@ namespace motionrack::live_test {
 
 class VirtualCard {
   public:
-    /// `real_time`: the card's time is the computer's; else it passes only where somebody lets it pass. It is kept in
-    /// `now`.
+    /// `real_time`: the card follows the computer's clock; otherwise time advances only on request. Stores it in `now`.
     VirtualCard(bool real_time, std::atomic<std::int64_t>& now)
         : now_(now), chip_(kernel_, "c"), port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), bus_time) {
         kernel_.start();
         if (real_time) clock_.emplace();
     }
 
-    /// One access of the bus; `width` 16, or 8 at a byte's port.
+    /// One bus access; `width` is 16, or 8 at a byte port.
     std::uint16_t read(std::uint32_t offset, unsigned width) {
         const std::lock_guard lock(mutex_);
         begin_access();
@@ -42,7 +41,7 @@ class VirtualCard {
         const std::lock_guard lock(mutex_);
         pass_locked(duration);
     }
-    /// Lets time pass until the interrupt line is active, `most` at most; true if it is.
+    /// Advances time until the interrupt line is active, `most` at most; returns true if it is.
     bool run_to_interrupt(Duration most) {
         const std::lock_guard lock(mutex_);
         const bool active = port_.wait(most);

@@ -1,4 +1,4 @@
-// What is drawn from a seed, the same on every computer.
+// Random draws from a seed, the same on every computer.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The lives of a machine.
+// Lives of a machine.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,13 +38,13 @@ enum class Ending : std::uint8_t { clean, killed, power };
 constexpr std::array ending_names = {"ends clean", "is killed", "loses power"};
 
 constexpr std::size_t events_kept = 12;
-/// mm: a record that is trusted says where the machine stands, one of a servo within what its card's lock holds.
+/// mm: tolerance of a recorded valid position; of a servo that of the card's position lock
 constexpr double stepper_tolerance = 0.05, servo_tolerance = 0.35;
-/// Steps that are lost so shortly before the end are not found any more.
+/// Steps lost this shortly before the end are not detected.
 constexpr Duration found_within = milliseconds(100);
 
 rack::RackConfig draw_rack(Draws& draws, std::string& what) {
-    // MOTIONRACK_CARRIAGES=1 draws servos too, which do not keep all laws yet.
+    // MOTIONRACK_CARRIAGES=1 also draws servos, which still violate some invariants.
     const int kind = draws.pick(from_environment("MOTIONRACK_CARRIAGES", 0) != 0 ? 5 : 4);
     const char* name = std::array{"two axes", "single", "router", "router", "carriage"}[static_cast<std::size_t>(kind)];
     const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
@@ -111,7 +111,7 @@ class Lives {
 
     void run(const std::string& path, bool last) {
         auto opened = journal::Journal::open(path);
-        if (!opened) return;  // its disk fails; the file is left as it is
+        if (!opened) return;  // the disk fails; the file stays unchanged
         journal_ = std::move(*opened);
         look_for_taken();
         operate::MachineSettings settings;
@@ -138,7 +138,7 @@ class Lives {
         end();
     }
 
-    /// As somebody does first who wants to work.
+    /// Prepares the machine for work, as an operator does first.
     void make_ready() {
         test::Invariants& laws = watch_->invariants();
         EXPECT_TRUE(machine_->enable(true));
@@ -162,14 +162,14 @@ class Lives {
         lost_at_end_ = disturbed_ && machine_->now() - *disturbed_ < found_within;
         book_.reset();
         cut_off_ = forbidden_ || ending_ != Ending::clean;
-        // An end that could not be written may be there all the same.
+        // An end that could not be written may exist nevertheless.
         if (journal_ && ending_ == Ending::clean) (void)journal_->close();
         journal_.reset();
         watch_.reset();
         machine_.reset();
     }
 
-    /// Where the next life finds the axes: where they were left, trusted as the record says.
+    /// Axis positions at the start of the next life: as left, with the validity in the journal.
     std::vector<InitialAxisState> standing() {
         std::vector<InitialAxisState> out = truth_;
         if (!journal_->before()) return out;
@@ -205,7 +205,7 @@ class Lives {
         }
     }
 
-    // ---- while it runs
+    // ---- during the run
 
     void see(const Status& status) {
         if (book_) book_->see(status);
@@ -235,7 +235,7 @@ class Lives {
 
     void finish() {
         if (std::exchange(finished_, true)) return;
-        if (ending_ != Ending::clean) {  // nothing of what follows is in the record
+        if (ending_ != Ending::clean) {  // later events are not in the journal
             lose_power_after_ = disk_->calls();
             book_.reset();
             journal_.reset();
@@ -243,7 +243,7 @@ class Lives {
         machine_->quit();
     }
 
-    /// As a server does it.
+    /// Checks the journal, as a server does.
     void look_at_journal() {
         if (forbidden_ || !journal_) return;
         const std::string failure = journal_->failure();
@@ -268,7 +268,7 @@ class Lives {
         acknowledge(fmt::format("{} {}", drawn.name, out_.taken));
     }
 
-    /// The order is answered when its entry is safe.
+    /// Answers the command once its entry is on disk.
     void acknowledge(const std::string& text) {
         if (!journal_) return;
         std::promise<Result<std::int64_t>> written;
@@ -290,7 +290,7 @@ class Lives {
         disturbed_ = machine_->now();
     }
 
-    /// All is mended and reset: it drives where it is sent.
+    /// Clears and resets all faults; then the machine must execute commands.
     void use_again(Instant now) {
         if (now < wait_until_) return;
         wait_until_ = now + milliseconds(300);
@@ -338,11 +338,11 @@ class Lives {
         }
     }
 
-    /// A servo without voltage comes to rest by its friction.
+    /// A servo without voltage decelerates to a stop by friction.
     bool runs_out() const { return config_.axes.front().servo.has_value(); }
     double tolerance() const { return runs_out() ? servo_tolerance : stepper_tolerance; }
 
-    /// For whoever looks for a cause.
+    /// Prints an event for diagnosis.
     void tell(const std::string& event) {
         const operate::AxisStatus& first = machine_->status().axes.front();
         out_.story.push_back(fmt::format("{:9.4f} s, {}, {} {:.4f}{}: {}", to_seconds(machine_->now()),
@@ -362,10 +362,10 @@ class Lives {
     std::string folder_;
     SeedEnd out_;
     rack::RackConfig config_;
-    std::vector<InitialAxisState> truth_;  ///< where the life before left the axes
+    std::vector<InitialAxisState> truth_;  ///< axis positions at the end of the previous life
     std::vector<Taken> taken_;
-    bool cut_off_ = false, lost_at_end_ = false;  ///< the life before
-    // of a life
+    bool cut_off_ = false, lost_at_end_ = false;  ///< in the previous life
+    // of one life
     Ending ending_ = Ending::clean;
     bool is_last_ = false;
     const BadDisk* disk_ = nullptr;
@@ -375,8 +375,8 @@ class Lives {
     std::unique_ptr<Machine> machine_;
     std::optional<test::MachineWatch> watch_;
     Instant next_{}, ends_{}, wait_until_{};
-    std::optional<Instant> disturbed_;  ///< when something was broken last
-    int phase_ = 0;                     ///< of use_again()
+    std::optional<Instant> disturbed_;  ///< time of the last fault
+    int phase_ = 0;                     ///< state of use_again()
     bool forbidden_ = false, finished_ = false;
 };
 

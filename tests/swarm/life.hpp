@@ -1,14 +1,14 @@
-// A machine through several lives, all drawn from one seed.
+// Several lives of one machine, all drawn from one seed.
 //
-//   seed ──► rack; a life: journal opened, machine where the last one left it, orders and faults at random instants
-//              │                                 │ each order that is taken: an entry, safe before the next order
+//  seed ──► rack; a life: journal opened, machine as the last one left it, commands and faults at random instants
+//             │                                 │ each accepted command: an entry, on disk before the next command
 //              │                                 ▼
-//              ├─ ends clean ─ is killed ─ loses power ─ its disk fails ──► the next life
+//             ├─ ends regularly ─ is killed ─ loses power ─ its disk fails ──► the next life
 //              ▼
-//            all mended and reset: it drives where it is sent
+//           all faults cleared and reset: it executes moves
 //
-// The invariants watch every picture. Of a journal: each entry that was acknowledged is there in the next life, and an
-// axis that is trusted there stands where the record says.
+// The invariants check every snapshot. Journal: the next life contains each acknowledged entry, and an axis whose
+// position is valid there is at the recorded position.
 #pragma once
 
 #include <cstdint>
@@ -20,18 +20,18 @@
 namespace motionrack::swarm {
 
 struct SeedEnd {
-    std::optional<test::Finding> finding;  ///< the first law that was broken
-    std::string what;                      ///< what the seed was: the rack, and how its lives ended
-    std::deque<std::string> story;         ///< the last orders and faults
-    int taken = 0, refused = 0;            ///< orders
+    std::optional<test::Finding> finding;  ///< first violated invariant
+    std::string what;                      ///< description of the seed: the rack, and the ends of its lives
+    std::deque<std::string> story;         ///< last commands and faults
+    int taken = 0, refused = 0;            ///< commands
     int lives = 0, faults = 0;
-    /// The seed decides on all that happens. A disk's nth call is not of it, nor what was on the disk when power went:
-    /// how many entries share a transaction is the journal's thread's affair, and with it when an entry fails.
+    /// The seed determines everything except the nth call of a disk and its content at a power loss. The journal's
+    /// thread decides how many entries share a transaction, and therefore when an entry fails.
     bool repeats = true;
-    std::uint64_t history = 0;  ///< hash of all pictures, entries and orders, for as long as it repeats
+    std::uint64_t history = 0;  ///< hash of all snapshots, entries and commands while the run is repeatable
 };
 
-/// `folder`: an empty one, for the journals.
+/// `folder`: an empty folder for the journals.
 SeedEnd drive_seed(std::uint64_t seed, const std::string& folder);
 
 }  // namespace motionrack::swarm

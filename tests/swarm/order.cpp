@@ -108,7 +108,7 @@ Result<void> enable(Machine& machine, Draws& draws) {
 Result<void> home(Machine& machine, Draws& draws) {
     return machine.home(draws.one_in(2) ? std::string(1, some_letter(machine, draws)) : std::string());
 }
-/// As an honest person declares it: where it is, at this instant.
+/// Sets the position correctly: to the true position at this instant.
 Result<void> declare(Machine& machine, Draws& draws) {
     const char letter = some_axis(machine, draws).letter;
     for (const rack::RunningAxis& axis : machine.rack().axes())
@@ -135,7 +135,7 @@ Result<void> set_work_zero(Machine& machine, Draws& draws) {
     return machine.set_work_zero(some_letter(machine, draws), draws.number(-20, 20));
 }
 
-/// A card of the machine: every rack has one that drives, with a library.
+/// A card of the machine: every rack has one with motion and a library.
 const std::string& some_card(Machine& machine, Draws& draws) {
     const auto& cards = machine.rack().cards();
     return cards[static_cast<std::size_t>(draws.pick(static_cast<int>(cards.size())))]->name();
@@ -146,7 +146,7 @@ Result<void> service(Machine& machine, Draws& draws) {
                                    [](const Result<std::string>&) {});
 }
 
-/// Most of them as a form begins, so that something drives; some anywhere in their range, or beyond it.
+/// Mostly the initial values of a form, so that axes move; some anywhere in their range or beyond.
 std::int64_t some_value(const ArgumentInfo& argument, Draws& draws) {
     if (!argument.values.empty())
         return argument.values[static_cast<std::size_t>(draws.pick(static_cast<int>(argument.values.size())))].value;
@@ -155,7 +155,7 @@ std::int64_t some_value(const ArgumentInfo& argument, Draws& draws) {
     return std::llround(draws.number(static_cast<double>(argument.min), static_cast<double>(argument.max)));
 }
 
-/// Functions that set what drives need, drive, wait for drives and stop them.
+/// Functions that set drive parameters, drive, wait for drives and stop them.
 Result<void> call(Machine& machine, Draws& draws) {
     static constexpr std::array called = {"SetRange", "SetMultiple", "SetV",      "TCurve_F", "TCurve_C",
                                           "SCurve_F", "SCurve_C",    "Line2D_T",  "Line3D_S", "CircleCW_C",
@@ -232,7 +232,7 @@ DrawnFault draw_fault(Machine& machine, Draws& draws) {
     if (target.faults.empty()) return {};
     const std::string_view fault =
         target.faults[static_cast<std::size_t>(draws.pick(static_cast<int>(target.faults.size())))];
-    // Without its encoder the place of a servo is unknown, up to its limit of the following error.
+    // Without its encoder, a servo's position is uncertain up to its following error limit.
     const bool servo = machine.rack().axes().front().servo != nullptr;
     if (servo && fault.starts_with("encoder.")) return {};
     const double value = draws.one_in(3) ? 0 : draws.one_in(2) ? 1 : draws.number(1, 200);

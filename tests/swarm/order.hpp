@@ -1,4 +1,4 @@
-// What people, senders and pages order of a machine, drawn.
+// Random commands of operators, senders and pages to a machine.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>
@@ -12,23 +12,23 @@ namespace motionrack::swarm {
 
 struct DrawnOrder {
     const char* name;
-    int weight;                                      ///< so often among all
-    std::optional<test::Invariants::Order> changes;  ///< what the laws must know of
+    int weight;                                      ///< relative frequency
+    std::optional<test::Invariants::Order> changes;  ///< effect that the invariants must know
     Result<void> (*give)(operate::Machine& machine, Draws& draws);
 };
 
-/// All that there are.
+/// All commands.
 std::span<const DrawnOrder> all_orders();
-/// By weight.
+/// Draws a command by weight.
 const DrawnOrder& draw_order(Draws& draws);
 
-/// Breaks something, mends it, or throws a switch; its name.
+/// Injects or clears a fault, or toggles a switch; holds its name.
 struct DrawnFault {
     std::string text;
-    bool disturbs = false;  ///< positions part from places by right, until that is noticed
+    bool disturbs = false;  ///< pulses and true positions may differ until this is detected
 };
 DrawnFault draw_fault(operate::Machine& machine, Draws& draws);
-/// All of them.
+/// Clears all faults.
 void mend_all(operate::Machine& machine);
 
 }  // namespace motionrack::swarm

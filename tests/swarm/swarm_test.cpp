@@ -1,5 +1,5 @@
-// Thousands of machines, each from a seed. MOTIONRACK_SEED=N picks the first, MOTIONRACK_MACHINES=N how many at most,
-// MOTIONRACK_SWARM_SECONDS=N for how long.
+// Thousands of machines, each from a seed. MOTIONRACK_SEED=N sets the first, MOTIONRACK_MACHINES=N the maximum number,
+// MOTIONRACK_SWARM_SECONDS=N the maximum duration.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ SeedEnd driven(std::uint64_t seed) {
     return drive_seed(seed, folder);
 }
 
-/// So that shards share the seeds: each of four programs has five parts, one after the other.
+/// Divides the seeds among shards: each of four programs runs five parts in sequence.
 constexpr std::uint64_t parts = 20, parts_of_a_shard = 5;
 
 class Swarm : public testing::TestWithParam<std::uint64_t> {};
