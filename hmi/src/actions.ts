@@ -1,4 +1,4 @@
-// What can be done to the machine by a button and by a key: one place that says who may and what is sent.
+// Actions of buttons and keys: one table of permissions and commands.
 import { signal } from '@preact/signals';
 import { axes, machineState, status } from './link/state';
 import { mayOperate, notice, order, stop, whyNot } from './link/commands';
@@ -7,12 +7,12 @@ import * as text from './program/text';
 
 export interface Action {
   label: string;
-  /** Why not now; empty: it may. */
+  /** Reason why it is not allowed now; empty: allowed. */
   why(): string;
   run(): void;
 }
 
-/** The axis that touch off is for, and what its place is called then. */
+/** The axis for touch off, and the new position in the work offset. */
 export const chosenAxis = signal('X');
 export const placeText = signal('0');
 
@@ -27,7 +27,7 @@ async function oneStep(): Promise<void> {
   startText();
 }
 
-/** The chosen axis; the first one where the machine has no such axis. */
+/** The chosen axis, or the first one if the machine does not have it. */
 export const axisLetter = (): string =>
   axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : (axes.value[0]?.letter ?? '');
 
@@ -70,7 +70,7 @@ export const acknowledge = (alarm: number): Action => ({
   run: () => void order('acknowledge', { alarm }),
 });
 
-/** Does it, or says why not. */
+/** Performs the action, or shows why it is not allowed. */
 export function perform(action: Action): void {
   const why = action.why();
   if (why === '') action.run();

@@ -1,4 +1,4 @@
-// The whole page: bars, the open view, dialogs, notices.
+// The whole page: bars, the current view, dialogs, notices.
 import type { JSX } from 'preact';
 import { Cards } from './cards/overview';
 import { Registers } from './cards/registers';
@@ -80,7 +80,7 @@ function View(): JSX.Element {
   }
 }
 
-/** 360 px: what the machine does, and STOP. */
+/** 360 px: machine state and STOP. */
 function Phone(): JSX.Element {
   return (
     <div class="view phone">

@@ -1,4 +1,4 @@
-// The page's beginning.
+// Entry point of the page.
 import { effect } from '@preact/signals';
 import { render } from 'preact';
 import './style/base.css';

@@ -1,15 +1,15 @@
-// Which view is open, and what this browser is set to: theme, large numbers.
+// Current view, and the settings of this browser: theme, large numbers.
 import { effect, signal } from '@preact/signals';
 
 export const VIEWS = ['operate', 'scope', 'cards', 'registers', 'faults', 'events'] as const;
 export type View = (typeof VIEWS)[number];
 
 export const view = signal<View>('operate');
-/** What of the view: the card's name. */
+/** Detail of the view: the card name. */
 export const detail = signal('');
 export const helpOpen = signal(false);
 
-/** What somebody typed into the address need not be well formed. */
+/** Decodes text from the address, which may be malformed. */
 export function decoded(text: string): string {
   try {
     return decodeURIComponent(text);
@@ -37,7 +37,7 @@ export const largeNumbers = keptFlag('motionrack.large');
 export type Theme = 'system' | 'dark' | 'light';
 export const theme = signal<Theme>((localStorage.getItem('motionrack.theme') as Theme | null) ?? 'system');
 const systemDark = matchMedia('(prefers-color-scheme: dark)');
-/** What is shown, whoever decided it. */
+/** Displayed theme, from the setting or the system. */
 export const dark = signal(true);
 
 function paint(): void {
@@ -50,7 +50,7 @@ export function setTheme(to: Theme): void {
   localStorage.setItem('motionrack.theme', to);
 }
 
-/** A phone shows what the machine does, and STOP; nothing that moves it. */
+/** A phone shows the machine state and STOP only, without motion controls. */
 const phone = matchMedia('(max-width: 599px)');
 export const narrow = signal(phone.matches);
 

@@ -1,4 +1,4 @@
-// A belt, a table or a stage: where it is, and the button that lets it go on after a stop.
+// Belt, table or stage: its position, and the button that restarts it after a stop.
 import type { JSX } from 'preact';
 import { mayOperate, order } from '../link/commands';
 import { fixed, unitName } from '../parts/numbers';

@@ -1,4 +1,4 @@
-// Accesses to a card through its bus, by hand: ports and registers written and read with all their effects.
+// Manual bus accesses to a card: reads and writes ports and registers with all side effects.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { whyNot, orderFor, notice } from '../link/commands';
@@ -18,7 +18,7 @@ export const mayAccess = (card: CardInfo): string =>
   (!inControl.value ? 'Take control first.' : '') ||
   (standsStill.value || card.bus.while_moving ? '' : 'The bus is used by hand only while the machine stands still.');
 
-/** A register that is read and one that is written may share their place. */
+/** A read register and a write register may share an offset. */
 const namesAt = (card: CardInfo, offset: number): string =>
   card.registers
     .filter((one) => one.offset === offset)

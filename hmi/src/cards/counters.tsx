@@ -1,4 +1,4 @@
-// The counters of an MCX314's channels, as the pages of virtual and real cards show them.
+// Counters of an MCX314's channels, shared by the pages of virtual and real cards.
 import type { JSX } from 'preact';
 
 export const COUNTERS = [
@@ -8,7 +8,7 @@ export const COUNTERS = [
   { name: 'CA', text: 'present acceleration' },
 ] as const;
 
-/** The first cells of the head of their table. */
+/** First cells of the table head. */
 export function CounterHeads(): JSX.Element {
   return (
     <>

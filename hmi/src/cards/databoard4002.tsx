@@ -1,5 +1,4 @@
-// The DataBoard 4002's panel: commands with their handshake, its ports by hand, status and events, the slope as a
-// picture.
+// Panel of the DataBoard 4002: commands with handshake, manual port access, status and events, the slope as a chart.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
@@ -15,13 +14,13 @@ import { ask, give, type Bus, type Exchanged } from './handshake';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
 interface SlopesAnswer {
-  /** Speed in Hz over counts. */
+  /** Velocity in Hz over counts. */
   slopes: { name: string; points: [number, number][] }[];
   moving: boolean;
   hz: number;
 }
 
-/** Both halves of the table over one list of places. */
+/** Both halves of the table over one list of counts. */
 const curves = (slopes: SlopesAnswer['slopes']): (number | null)[][] =>
   slopes.length === 0
     ? []
@@ -36,7 +35,7 @@ const curves = (slopes: SlopesAnswer['slopes']): (number | null)[][] =>
 function Slope({ card }: { card: CardInfo }): JSX.Element {
   const { data, why } = usePoll<SlopesAnswer>('slopes', { name: card.name }, 2000);
   const names = (data.value?.slopes ?? []).map((slope) => slope.name);
-  // Drawn anew when the table changes, not whenever it is asked for.
+  // Redrawn when the table changes, not at every query.
   const table = JSON.stringify(data.value?.slopes ?? []);
   const picture = useMemo(() => curves(JSON.parse(table) as SlopesAnswer['slopes']), [table]);
   const loaded = (picture[0]?.length ?? 0) > 1;
@@ -63,10 +62,10 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
   );
 }
 
-/** Arguments of more bytes are tables, for programs. */
+/** Longer arguments are tables, for programs. */
 const MOST_BYTES = 4;
 
-/** The ports by their names; DATA is written as OUT and read as INP. */
+/** Ports by name; DATA is written as OUT and read as INP. */
 function busOf(card: CardInfo, answer: CardAnswer | null): Bus {
   const port = (name: string): number =>
     card.bus.base +
@@ -137,7 +136,7 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
   );
 }
 
-/** A row for each command. */
+/** One row per command. */
 function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
   const why = mayAccess(card);
   const bus = busOf(card, answer);

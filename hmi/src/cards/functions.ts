@@ -1,4 +1,4 @@
-// The functions of a card's library as their declaration has them: groups, what was typed, what is sent and answered.
+// Functions of a card's library from their declaration: groups, typed texts, calls and answers.
 import { typed, whole } from '../parts/numbers';
 
 export interface ArgumentInfo {
@@ -7,11 +7,11 @@ export interface ArgumentInfo {
   greatest: number;
   unit: string;
   meaning: string;
-  /** What a form begins with. */
+  /** Initial value of the form. */
   start: number;
-  /** The only values that there are; none: all of the range. */
+  /** The only valid values; empty: the whole range. */
   values: { value: number; meaning: string }[];
-  /** Any sum of `values`. */
+  /** Any sum of `values` is valid. */
   sum: boolean;
 }
 export interface FunctionInfo {
@@ -19,7 +19,7 @@ export interface FunctionInfo {
   group: string;
   meaning: string;
   arguments: ArgumentInfo[];
-  /** The returned number, with its unit; empty: none. */
+  /** Description of the returned number with its unit; empty: none. */
   returns: string;
   waits: boolean;
   own: boolean;
@@ -29,7 +29,7 @@ export interface Group {
   functions: FunctionInfo[];
 }
 
-/** Those in which every word of the search is found, in their groups and in their order. */
+/** Functions that match every word of the search, in their groups and order. */
 export function groupsOf(functions: readonly FunctionInfo[], search: string): Group[] {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   const groups: Group[] = [];
@@ -54,7 +54,7 @@ export type Texts = Record<string, string>;
 export const startsOf = (one: FunctionInfo): Texts =>
   Object.fromEntries(one.arguments.map((argument) => [argument.name, String(argument.start)]));
 
-/** What is sent, or why not. The program checks again, and has the last word. */
+/** Returns the fields to send, or the reason for a rejection. The program checks again and decides. */
 export function readTexts(
   one: FunctionInfo,
   texts: Texts,
@@ -72,7 +72,7 @@ export function readTexts(
   return { values };
 }
 
-/** A sum with one of its parts put in or taken out. */
+/** Toggles one part of a sum. */
 export const turned = (sum: number, part: number): number => ((sum & part) === part ? sum & ~part : sum | part);
 
 /** "TCurve_F(axis 1, m_SV 100)". */

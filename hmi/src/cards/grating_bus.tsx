@@ -1,4 +1,4 @@
-// The grating bus' panel: which frame each card holds, how old it is, and whether all agree.
+// Panel of the grating bus: the frame of each card, its age, and whether all agree.
 import type { JSX } from 'preact';
 import type { CardInfo } from '../link/rack';
 import { Icon } from '../parts/icons';

@@ -1,16 +1,16 @@
-// The handshake of a DataBoard 4002: each byte to C2 and DATA, and each from DATA, needs Ready in STAT. A command is a
-// letter at C2, then its argument's bytes at DATA, the lowest first, or its answer's from there.
+// Handshake of a DataBoard 4002: each byte to C2 and DATA, and each from DATA, requires Ready in STAT. A command is a
+// letter at C2, followed by its argument bytes at DATA, least significant first, or by its answer bytes from DATA.
 import type { CommandInfo } from '../link/rack';
 
-/** The card's ports. */
+/** Ports of the card. */
 export interface Bus {
-  /** Another card of the bus may be the chosen one. False: it was refused. */
+  /** Selects this card on the bus. Returns false if rejected. */
   choose(): Promise<boolean>;
-  /** The byte at a port; null: it was refused. */
+  /** Returns the byte at a port; null if rejected. */
   read(port: string): Promise<number | null>;
-  /** False: it was refused. */
+  /** Returns false if rejected. */
   write(port: string, byte: number): Promise<boolean>;
-  /** Lets the card work. */
+  /** Gives the card time to work. */
   rest(): Promise<void>;
 }
 
@@ -33,11 +33,11 @@ async function ready(bus: Bus): Promise<boolean | null> {
   return false;
 }
 
-/** Bytes of a number, the lowest first; a number below 0 as its two's complement. */
+/** Bytes of a number, least significant first; negative numbers as two's complement. */
 export const bytesOf = (value: number, count: number): number[] =>
   [...Array(count).keys()].map((byte) => Math.floor(value / 2 ** (8 * byte)) & 0xff);
 
-/** The number that these bytes are; of more than one byte with a sign. */
+/** Number of these bytes; signed if there is more than one. */
 export function numberOf(bytes: readonly number[]): number {
   const value = bytes.reduceRight((sum, byte) => sum * 256 + byte, 0);
   const range = 256 ** bytes.length;
@@ -52,7 +52,7 @@ async function begin(bus: Bus, command: CommandInfo): Promise<Exchanged | null> 
   return (await bus.write('C2', command.code)) ? null : refused;
 }
 
-/** Sends a command with its argument, if it has one. */
+/** Sends a command with its argument, if any. */
 export async function give(bus: Bus, command: CommandInfo, argument: number): Promise<Exchanged> {
   const wrong = await begin(bus, command);
   if (wrong !== null) return wrong;

@@ -1,17 +1,17 @@
-// The last seconds of some channels, for small charts beside the numbers.
+// Last seconds of some channels, for small charts beside the numbers.
 import { signal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { channel, want } from '../link/channels';
 import { channelNames } from '../link/rack';
 import { whenPicture } from '../link/socket';
 
-/** x in seconds before now, then one array a channel. A chart takes it as it is. */
+/** x in seconds before now, then one array per channel, in the format of a chart. */
 type Rows = (number | null)[][];
 
-/** A chart is drawn no more often than that. */
+/** Minimum redraw interval of a chart. */
 const DRAWN_MS = 50;
 
-/** Fills `data` until the returned function is called. `rate` in samples a second. */
+/** Fills `data` until the returned function is called. `rate` in samples per second. */
 export function record(names: readonly string[], rate: number, seconds: number, data: Signal<Rows>): () => void {
   const stop = want([...names], rate);
   const rows: { at: number; values: (number | null)[] }[] = [];
@@ -32,7 +32,7 @@ export function record(names: readonly string[], rate: number, seconds: number, 
   };
 }
 
-/** Of those channels that the rack has. */
+/** History of those channels that the rack has. */
 export function useHistory(names: readonly string[], rate: number, seconds: number): Signal<Rows> {
   const key = names.filter((name) => channelNames.value.has(name)).join(' ');
   const list = useMemo(() => (key === '' ? [] : key.split(' ')), [key]);

@@ -1,5 +1,5 @@
-// The IOFLEX02's panel: positions and speeds of its four axes, calibration commands, time, inputs and outputs, what is
-// wrong with an encoder.
+// Panel of the IOFLEX02: positions and velocities of its four axes, calibration commands, time, inputs and outputs,
+// encoder faults.
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { orderFor } from '../link/commands';
@@ -26,7 +26,7 @@ const COMMANDS = [
   { code: 3, name: 'cResNmSig', text: 'zero at index and signal' },
 ];
 
-/** Lines of an axis at the inputs. */
+/** Input lines of an axis. */
 const LINES = [
   { name: 'a', text: 'track A' },
   { name: 'b', text: 'track B' },
@@ -35,13 +35,13 @@ const LINES = [
 ];
 const TICK_S = 1.2e-6;
 
-/** The answer that is shown, and the one before it. */
+/** Current and previous answer. */
 interface Seen {
   now: CardAnswer | null;
   before: CardAnswer | null;
 }
 
-/** Counts a second between two answers. */
+/** Counts per second between two answers. */
 export function speedOf({ now, before }: Seen, axis: number): number | null {
   const [to, from] = [valueOf(now, `${axis}.POSITION`), valueOf(before, `${axis}.POSITION`)];
   if (now === null || before === null || to === null || from === null || now.at <= before.at) return null;
@@ -59,7 +59,7 @@ function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }
   const answer = seen.now;
   const calibrated = valueOf(answer, `${axis}.CALIBRATED`);
   const illegal = valueOf(answer, `${axis}.ILLEGAL_TRANSITIONS`);
-  // KEEP: the other axes take no command.
+  // KEEP: the other axes receive no command.
   const send = (code: number): void => write(card, 'CMD', (code << (2 * axis)) | (0xf00 & ~(0x100 << axis)));
   return (
     <tr>
@@ -99,7 +99,7 @@ function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }
   );
 }
 
-/** The 16 outputs of X5, a byte a register. */
+/** The 16 outputs of X5, one byte per register. */
 function Outputs({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
   const why = mayAccess(card);
   const level = (output: number): number => answer?.pins[`out${output}`] ?? 0;

@@ -1,5 +1,5 @@
-// The functions of a card's library, called by hand: the list, a form for the chosen one, the calls so far with their
-// answers. Made from the declaration that the program gives; nothing here knows a card.
+// Manual calls of a card's library functions: the list, a form for the selected function, the calls with their answers.
+// Generated from the declaration sent by the program; independent of the card type.
 import { signal, useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -22,7 +22,7 @@ import {
 } from './functions';
 
 const KEPT = 100;
-/** Functions that wait, as for a homing, answer when they have ended. */
+/** Functions that wait, e.g. for homing, answer when they end. */
 const GIVE_UP_MS = 700_000;
 
 interface Line {
@@ -31,16 +31,16 @@ interface Line {
   bad: boolean;
 }
 
-/** Calls of each card, the newest first; they stay while the page is open. */
+/** Calls of each card, newest first; kept while the page is open. */
 const calls = signal<Record<string, Line[]>>({});
-/** What was typed, by card and function. */
+/** Typed texts by card and function. */
 const typedTexts = signal<Record<string, Texts>>({});
 
 function note(card: string, line: Line): void {
   calls.value = { ...calls.value, [card]: [line, ...(calls.value[card] ?? [])].slice(0, KEPT) };
 }
 
-/** Gives an order; its sentence goes to the calls, too. */
+/** Sends a command and adds its sentence to the calls. */
 async function give(card: string, text: string, order: string, fields: Record<string, unknown>): Promise<void> {
   try {
     const reply = await ask({ ...fields, order }, GIVE_UP_MS);
@@ -53,7 +53,7 @@ async function give(card: string, text: string, order: string, fields: Record<st
 
 const inService = (card: CardInfo): boolean => status.value?.service === card.name;
 
-/** Why the service cannot be begun; empty: it can. */
+/** Reason why the service cannot start; empty: it can. */
 function mayBegin(card: CardInfo): string {
   const [why, other] = [mayMaintain(), status.value?.service ?? ''];
   if (why !== '') return why;
@@ -62,7 +62,7 @@ function mayBegin(card: CardInfo): string {
   return stands ? '' : 'The service begins while the machine is enabled and stands still.';
 }
 
-/** Why a function cannot be called; a card without axes of the machine is taken into service by its first call. */
+/** Reason why a function cannot be called; empty: it can. Without machine axes, the first call starts the service. */
 function mayCall(card: CardInfo): string {
   const why = mayMaintain();
   if (why !== '' || inService(card)) return why;

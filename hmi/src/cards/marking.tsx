@@ -1,4 +1,4 @@
-// Marking with a scan head of the rack: a job as text, at once or on each part that comes.
+// Marking with a scan head of the rack: a job as text, run at once or on each arriving part.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useId } from 'preact/hooks';

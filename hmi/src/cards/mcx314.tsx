@@ -1,5 +1,5 @@
-// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures,
-// drive flags.
+// Panel of the MCX314: counters of its channels at the refresh rate of the source's panel, velocity charts, drive
+// flags.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -89,7 +89,7 @@ function Speeds({ card }: { card: CardInfo }): JSX.Element {
   );
 }
 
-/** Moves of one axis, by hand. */
+/** Manual moves of one axis. */
 function Moves({ card }: { card: CardInfo }): JSX.Element {
   const letters = card.channels.map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
   const chosen = useSignal('');
@@ -143,7 +143,7 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
   );
 }
 
-/** RR0's flags of what drives. */
+/** Drive flags of RR0. */
 function Drives({ card }: { card: CardInfo }): JSX.Element | null {
   const name = `${card.name}.RR0`;
   const has = channelNames.value.has(name);

@@ -1,4 +1,4 @@
-// The panel of a real MCX314: where it is, and what its service has read of it. Nothing here is of the virtual one.
+// Panel of a real MCX314: its address and the values read by its service. Independent of the virtual card.
 import type { JSX } from 'preact';
 import { status } from '../link/state';
 import type { CardInfo } from '../link/rack';

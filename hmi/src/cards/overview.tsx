@@ -1,4 +1,4 @@
-// All cards at a glance, and the panel of one of them.
+// Overview of all cards, and the panel of one of them.
 import type { ComponentType, JSX } from 'preact';
 import { cardNamed, rack, type CardInfo } from '../link/rack';
 import { Icon } from '../parts/icons';

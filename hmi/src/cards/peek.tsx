@@ -1,4 +1,4 @@
-// Chosen registers of a card as lamps, and its numbers: what several cards' panels show.
+// Selected registers of a card as lamps, and its numbers; shared by several card panels.
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
@@ -8,13 +8,13 @@ import { Empty, Led } from '../parts/ui';
 import { fieldValues } from './words';
 
 export interface CardAnswer {
-  /** The rack's time, s. */
+  /** Simulated time, s. */
   at: number;
   registers: { name: string; register: string; word: number }[];
   values: { name: string; value: number }[];
   quantities: { name: string; value: number }[];
   pins: Record<string, number>;
-  /** Why a real card shows nothing. */
+  /** Reason why a real card has no values. */
   why?: string;
 }
 
@@ -54,7 +54,7 @@ export function Flags({ register, word }: { register: RegisterInfo; word: number
   );
 }
 
-/** The numbers that the card itself tells, live. */
+/** Live numbers published by the card. */
 export function Quantities({ card }: { card: CardInfo }): JSX.Element {
   const own = channelList.value.filter(
     (one) => one.name.startsWith(`${card.name}.`) && card.quantities.includes(one.name.slice(card.name.length + 1)),

@@ -1,4 +1,4 @@
-// A work piece under a scan head: the program's answer, and its drawing.
+// Workpiece under a scan head: the program's answer and its drawing.
 import type { CarrierState } from './carrier';
 
 export type Place = [number, number];
@@ -16,7 +16,7 @@ export interface PieceAnswer {
   part?: CarrierState;
 }
 
-/** Left, top, width and height of the picture, y downwards: around the marks; without any, around the field. */
+/** Left, top, width and height of the picture, y downwards: around the marks, or around the field without marks. */
 export function sight(piece: PieceAnswer): [number, number, number, number] {
   const marks = piece.marks.flat();
   const points = marks.length > 0 ? marks : [piece.field.least, piece.field.greatest];
@@ -27,10 +27,10 @@ export function sight(piece: PieceAnswer): [number, number, number, number] {
   return [x0 - pad, -y1 - pad, x1 - x0 + 2 * pad, y1 - y0 + 2 * pad];
 }
 
-/** Marks and the one that is being made. */
+/** All marks, including the unfinished one. */
 export const strokesOf = (piece: PieceAnswer): Place[][] =>
   piece.marking === undefined ? piece.marks : [...piece.marks, piece.marking];
 
-/** As the d of a path, y downwards. */
+/** Attribute d of a path, y downwards. */
 export const pathOf = (strokes: readonly (readonly Place[])[]): string =>
   strokes.map((one) => one.map(([x, y], i) => `${i === 0 ? 'M' : 'L'}${x} ${-y}`).join('')).join('');

@@ -1,4 +1,4 @@
-// A card's pins as lamps, live.
+// Pins of a card as live lamps.
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';

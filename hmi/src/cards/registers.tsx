@@ -1,4 +1,4 @@
-// Registers of a card with the names of their bits, by peek: looking changes nothing.
+// Registers of a card with bit names, read by peek without side effects.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { cardNamed, rack, type CardInfo, type RegisterInfo } from '../link/rack';

@@ -1,4 +1,4 @@
-// The RTC5's panel: the work piece as it was marked, the field over it, the beam, the card's flags.
+// Panel of the RTC5: the marked workpiece, the field above it, the beam, the card's flags.
 import type { JSX } from 'preact';
 import { rack, type CardInfo } from '../link/rack';
 import { fixed } from '../parts/numbers';

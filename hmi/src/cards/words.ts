@@ -1,4 +1,4 @@
-// A register's word: as its fields, and as it is typed.
+// Register words as fields and as typed text.
 import type { FieldInfo, RegisterInfo } from '../link/rack';
 
 export interface FieldValue {
@@ -8,7 +8,7 @@ export interface FieldValue {
   value: number;
 }
 
-/** Highest bits first. */
+/** Most significant bits first. */
 export function fieldValues(register: RegisterInfo, word: number): FieldValue[] {
   return register.fields
     .map((field) => ({
@@ -19,7 +19,7 @@ export function fieldValues(register: RegisterInfo, word: number): FieldValue[] 
     .sort((a, b) => b.field.low - a.field.low);
 }
 
-/** "1Fh", "0x1F", "31", "'G'" as a word of so many bits; null: it is none. */
+/** Parses "1Fh", "0x1F", "31", "'G'" as a word of this many bits; null if invalid. */
 export function typedWord(text: string, bits: number): number | null {
   const plain = text.trim();
   const letter = /^'(.)'$/.exec(plain)?.[1];

@@ -1,13 +1,13 @@
-// Jogging: a lease that is renewed while a key or a button is held, and ended by everything that could mean that none
-// is held any more.
+// Jogging: a lease that is renewed while a key or a button is held, and ended by every event that may mean that none is
+// held.
 //
 //   begin ──► jog ──80 ms──► jog (renews) ──80 ms──► ...
 //   end, blur, hidden, page gone, connection lost, arm switch off ──► jog_stop
 //
-// Orders are numbered, so that none that comes late moves anything. A renewal that is refused ends the hold: something
-// else has stopped the axis, and only another press may move it.
+// Commands are numbered, so that a late one does not move anything. A rejected renewal ends the hold: another cause has
+// stopped the axis, and only a new press may move it.
 //
-// The program itself stops an axis that was not renewed for 250 ms: what this page does is only to be quicker.
+// The program itself stops an axis that was not renewed for 250 ms; this page only reacts faster.
 import { signal } from '@preact/signals';
 import { axisOf } from '../link/state';
 import { order } from '../link/commands';
@@ -15,16 +15,16 @@ import { ask, whenLost } from '../link/socket';
 
 export const RENEW_MS = 80;
 
-/** Distances of a step in mm or degrees; null: continuous. */
+/** Step lengths in mm or degrees; null: continuous. */
 export const STEPS: readonly (number | null)[] = [0.001, 0.01, 0.1, 1, 10, null];
 
 const kept = Number(localStorage.getItem('motionrack.jog.step') ?? 3);
 export const stepIndex = signal(kept >= 0 && kept < STEPS.length ? kept : 3);
-/** Speed of jogging, as a part of each axis' greatest. */
+/** Jog speed as a fraction of each axis' maximum velocity. */
 export const speedPart = signal(Number(localStorage.getItem('motionrack.jog.speed') ?? 0.2) || 0.2);
-/** The arm switch of the keyboard. */
+/** Arm switch of the keyboard. */
 export const armed = signal(false);
-/** Axes that are held, for the buttons' looks. */
+/** Held axes, for the appearance of the buttons. */
 export const jogging = signal('');
 
 export function setStep(index: number): void {
@@ -60,7 +60,7 @@ function renew(): void {
     );
 }
 
-/** This hold moves nothing any more; one that took its place stays. */
+/** Ends this hold; a hold that replaced it stays. */
 function drop(who: string, one: Held): void {
   if (held.get(who) !== one) return;
   held.delete(who);
@@ -71,7 +71,7 @@ function tell(): void {
   jogging.value = [...held.values()].map((one) => (one.direction < 0 ? '-' : '+') + one.axis).join('');
 }
 
-/** `who` holds: a key or a button. In a step mode one press is one move, and holding it does nothing. */
+/** `who` (a key or a button) is pressed. In step mode each press is one move; holding has no effect. */
 export function begin(who: string, axis: string, direction: 1 | -1, rapid = false): void {
   if (axisOf(axis) === undefined || held.has(who)) return;
   const step = STEPS[stepIndex.value];
@@ -97,19 +97,19 @@ export function end(who: string): void {
   settle();
 }
 
-/** Rapid jogs go on at the normal speed. */
+/** Continues rapid jogs at normal speed. */
 export function slowDown(): void {
   for (const one of held.values()) one.rapid = false;
 }
 
-/** Every jog ends, whoever held it. */
+/** Ends every jog of any key or button. */
 export function endAll(): void {
   if (held.size === 0) return;
   held.clear();
   settle();
 }
 
-/** When the last one was let go, everything that jogs is stopped. */
+/** After the last release, stops all jogging axes. */
 function settle(): void {
   tell();
   if (held.size > 0) return;

@@ -1,10 +1,9 @@
-// What a key does, page-wide: heard before anything on the page, so that a focused button never takes Space for a
-// click.
+// Key handling for the whole page. Runs before any element, so that Space never clicks a focused button.
 import { armed, begin, end, slowDown } from '../jog/lease';
 import { mayOperate, notice } from '../link/commands';
 import { jogOf, KEYS, type Key } from './table';
 
-/** Fields in which keys write, or choose. */
+/** Input fields that use typed or selecting keys. */
 function types(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement)
@@ -48,7 +47,7 @@ function down(event: KeyboardEvent): void {
 function up(event: KeyboardEvent): void {
   end(`key ${event.code}`);
   if (event.key === 'Shift') slowDown();
-  // A button clicks when Space is let go.
+  // A button clicks when Space is released.
   if (event.key === ' ' && !types(event.target)) consume(event);
 }
 

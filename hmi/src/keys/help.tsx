@@ -1,4 +1,4 @@
-// The table of keys, as people read it.
+// Help page with the table of keys.
 import type { JSX } from 'preact';
 import { Dialog } from '../parts/dialog';
 import { helpOpen } from '../view';

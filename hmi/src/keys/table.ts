@@ -1,4 +1,4 @@
-// The keyboard: one table that the page obeys and that its help shows.
+// Keyboard table, used by the key handler and shown in the help.
 import { actions, perform, setFeed } from '../actions';
 import { axes } from '../link/state';
 import { dialogOpen, inviteOpen } from '../link/pairing';
@@ -6,13 +6,13 @@ import { setStep, stepIndex, STEPS } from '../jog/lease';
 import { helpOpen } from '../view';
 
 export interface Key {
-  /** KeyboardEvent.key values that do it; any one of them. */
+  /** KeyboardEvent.key values of this action. */
   keys: readonly string[];
-  /** As the help shows it. */
+  /** Label in the help. */
   shown: string;
   text: string;
   ctrl?: boolean;
-  /** Works while a field is typed in, too. */
+  /** Also active while typing in a field. */
   always?: boolean;
   press(key: string): void;
 }
@@ -20,7 +20,7 @@ export interface Key {
 export interface JogKey {
   keys: readonly [minus: string, plus: string];
   shown: string;
-  /** Which axis, of those that the machine has. */
+  /** Selects an axis from those of the machine. */
   axis(letters: readonly string[]): string | undefined;
   text: string;
 }
@@ -79,7 +79,7 @@ export const KEYS: readonly Key[] = [
 
 const named = (letter: string) => (letters: readonly string[]) => letters.find((one) => one === letter);
 
-/** Only while the keyboard is armed; with Shift at the axis' greatest speed. */
+/** Active only while the keyboard is armed; Shift selects the maximum velocity. */
 export const JOG_KEYS: readonly JogKey[] = [
   { keys: ['ArrowLeft', 'ArrowRight'], shown: '← →', text: 'Jog X − / +', axis: named('X') },
   { keys: ['ArrowDown', 'ArrowUp'], shown: '↓ ↑', text: 'Jog Y − / +', axis: named('Y') },
@@ -92,14 +92,14 @@ export const JOG_KEYS: readonly JogKey[] = [
   },
 ];
 
-/** The axes on the jog pad: in the cross, and in columns beside it. */
+/** Axes on the jog pad: in the cross, and in columns beside it. */
 export function padOf(letters: readonly string[]): { x?: string; y?: string; columns: string[] } {
   const [x, y, ...upright] = JOG_KEYS.map((row) => row.axis(letters));
   const keyed = upright.filter((one): one is string => one !== undefined);
   return { x, y, columns: [...keyed, ...letters.filter((one) => ![x, y, ...keyed].includes(one))] };
 }
 
-/** STOP first; a dialog that is open is closed, too. */
+/** STOP first; then closes an open dialog. */
 function escape(): void {
   perform(actions.stop);
   helpOpen.value = dialogOpen.value = inviteOpen.value = false;
@@ -110,7 +110,7 @@ function nextStep(): void {
   setStep((stepIndex.peek() + 1) % distances);
 }
 
-/** Axis and direction of a jog key, if it is one and the machine has the axis. */
+/** Axis and direction of a jog key; null if it is not one or the machine lacks the axis. */
 export function jogOf(key: string): { axis: string; direction: 1 | -1 } | null {
   for (const row of JOG_KEYS) {
     const which = row.keys.indexOf(key === '{' ? '[' : key === '}' ? ']' : key);

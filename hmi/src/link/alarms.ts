@@ -1,7 +1,7 @@
-// Alarms as ISA-18.2 has them: active or not, acknowledged or not.
+// Alarm states of ISA-18.2: active or not, acknowledged or not.
 import type { Alarm } from './contract';
 
-/** The four states of an alarm, in words. */
+/** Words for the four states of an alarm. */
 export function alarmState(alarm: Alarm): { word: string; tone: string } {
   if (alarm.active)
     return alarm.acknowledged

@@ -1,4 +1,4 @@
-// Channels of the stream: each panel says what it wants to see; one subscription carries them all.
+// Channels of the stream: panels register their channels; one subscription covers all of them.
 import { signal, type Signal } from '@preact/signals';
 import { ask, PERIOD_HZ, whenOpen, whenPicture } from './socket';
 
@@ -13,14 +13,14 @@ const values = new Map<string, Signal<number | null>>();
 let order: string[] = [];
 let planned = false;
 
-/** The newest value of a channel; null until one came. */
+/** Newest value of a channel; null before the first one. */
 export function channel(name: string): Signal<number | null> {
   let one = values.get(name);
   if (one === undefined) values.set(name, (one = signal<number | null>(null)));
   return one;
 }
 
-/** Subscribes until the returned function is called. `rate` in pictures a second. */
+/** Subscribes until the returned function is called. `rate` in snapshots per second. */
 export function want(channels: string[], rate = PERIOD_HZ): () => void {
   const wish = { channels, rate };
   wishes.add(wish);

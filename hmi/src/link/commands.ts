@@ -1,4 +1,4 @@
-// Orders and queries by name; what is refused is shown as the sentence that the program gave.
+// Commands and queries by name; shows the program's sentence for each rejection.
 import { signal } from '@preact/signals';
 import { Refusal, ROLES, type Fields, type Reply, type Role } from './contract';
 import { ask, TOKEN_KEY } from './socket';
@@ -31,12 +31,12 @@ export function sentence(why: unknown): string {
   return `Line ${line}${column === undefined || column <= 0 ? '' : `, column ${column}`}: ${message}`;
 }
 
-/** Gives an order. False: it was refused, and the sentence is on the screen. */
+/** Sends a command. Returns false if it was rejected; the sentence is on the screen. */
 export async function order(name: string, fields: Fields = {}): Promise<boolean> {
   return (await orderFor(name, fields)) !== null;
 }
 
-/** As order, with the answer; null: refused. */
+/** As order, with the answer; null if rejected. */
 export async function orderFor(name: string, fields: Fields = {}): Promise<Reply | null> {
   try {
     return await ask({ ...fields, order: name });
@@ -46,11 +46,11 @@ export async function orderFor(name: string, fields: Fields = {}): Promise<Reply
   }
 }
 
-/** Asks. Throws Refusal. */
+/** Sends a query. Throws Refusal. */
 export const query = async <T>(name: string, fields: Fields = {}): Promise<T> =>
   (await ask({ ...fields, query: name })) as T;
 
-/** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease; a token says who it was. */
+/** Sends STOP over the stream and over HTTP. It needs neither token nor lease; a token identifies the user. */
 export function stop(): void {
   ask({ order: 'stop' }).catch(() => undefined);
   const token = localStorage.getItem(TOKEN_KEY);
@@ -74,7 +74,7 @@ export function hasRole(needed: Role): boolean {
 
 const standing = (): string => (state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`);
 
-/** Why something is not allowed now; empty: it is. Reads signals, so that a component that shows it follows. */
+/** Reason why an action is not allowed now; empty: allowed. Reads signals, so that components update. */
 export function whyNot(needed: Role, control = false): string {
   if (state.link.value !== 'open') return 'There is no connection to the program.';
   if (!hasRole(needed))
@@ -88,7 +88,7 @@ export function whyNot(needed: Role, control = false): string {
 export const mayOperate = (): string => whyNot('operate', true);
 export const mayMaintain = (): string => whyNot('maintain', true);
 
-/** Why the controller moves nothing now: a card is in service; empty: none is. */
+/** Reason why the controller must not move: a card is in service; empty: none is. */
 export function whyInService(): string {
   const card = state.status.value?.service ?? '';
   return card === '' ? '' : `Card ${card} is in service: nothing else drives the machine. End the service first.`;

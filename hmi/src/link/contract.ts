@@ -1,4 +1,4 @@
-// What the program says, as the panel's contract has it: greeting, status, events, errors.
+// Messages of the program according to the panel's contract: greeting, status, events, errors.
 
 export type Role = 'nobody' | 'observe' | 'operate' | 'maintain';
 export const ROLES: readonly Role[] = ['nobody', 'observe', 'operate', 'maintain'];
@@ -13,7 +13,7 @@ export interface Hello {
   user?: string;
 }
 
-/** Names as the machine's states are written; blanks and underscores are the same. */
+/** State names as written; blanks and underscores are equivalent. */
 export type StateName =
   'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop' | 'service';
 
@@ -64,7 +64,7 @@ export interface Status {
   sequence: number;
   state: string;
   why: string;
-  /** The card whose functions are called by hand; empty: none. */
+  /** Card whose functions are called manually; empty: none. */
   service?: string;
   simulation: boolean;
   clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
@@ -108,7 +108,7 @@ export interface ErrorBody {
   column?: number;
 }
 
-/** An answer of the program that says no, with its sentence. */
+/** A rejection by the program, with its sentence. */
 export class Refusal extends Error {
   constructor(readonly body: ErrorBody) {
     super(body.message);

@@ -1,4 +1,4 @@
-// The control lease: taken and given by hand, kept while this tab lives; nothing on the page takes it by itself.
+// Control lease: taken and released manually, kept while this tab is open; the page never takes it by itself.
 import { ask } from './socket';
 import { order, whyNot } from './commands';
 import { holder, inControl, link, mayBeTakenOver, user } from './state';
@@ -8,14 +8,14 @@ const KEEP_MS = 3000;
 /** Held by another tab or browser of the same user. */
 const own = (): boolean => holder.value !== '' && holder.value === user.value;
 
-/** Why control may not be taken now; empty: it may. While the machine moves only its holder's other tab takes it. */
+/** Reason why control may not be taken now; empty: allowed. During motion only the holder's other tabs may take it. */
 export function whyNotControl(): string {
   const no = whyNot('operate');
   if (no !== '' || holder.value === '' || inControl.value || own() || mayBeTakenOver.value) return no;
   return `${holder.value} holds control and the machine moves. It can be taken over at standstill or in a hold.`;
 }
 
-/** From its holder by force, but not from oneself while the machine moves: that passes it on as it is. */
+/** Takes control by force, except from the same user during motion, which passes it on unchanged. */
 export function takeControl(): void {
   const force = holder.value !== '' && !(own() && !mayBeTakenOver.value);
   void order('take_control', force ? { force } : {});

@@ -1,4 +1,4 @@
-// What happened before the page was opened: a reload loses nothing.
+// Events from before the page was opened, so that a reload loses none.
 import type { MachineEvent } from './contract';
 import { query } from './commands';
 import { addEvent } from './socket';
@@ -8,6 +8,6 @@ export async function loadHistory(): Promise<void> {
     const answer = await query<{ events?: MachineEvent[] }>('events', { limit: 200 });
     for (const event of answer.events ?? []) addEvent(event);
   } catch {
-    // The list then begins with what comes.
+    // The list then starts with the next events.
   }
 }

@@ -1,4 +1,4 @@
-// Pairing: a code from the program's start (in the address, or typed) becomes a token that this browser keeps.
+// Pairing: exchanges the code from the program's start (in the address, or typed) for a token stored in this browser.
 import { signal } from '@preact/signals';
 import { Refusal, type ErrorBody } from './contract';
 import { notice, sentence } from './commands';
@@ -7,12 +7,12 @@ import { decoded } from '../view';
 
 export const dialogOpen = signal(false);
 export const inviteOpen = signal(false);
-/** What is in the dialog. */
+/** Code in the dialog. */
 export const codeText = signal('');
 export const nameText = signal(localStorage.getItem('motionrack.name') ?? '');
 export const whyNotPaired = signal('');
 
-/** A name that nobody else has, for who did not say one. */
+/** A unique name for a user who entered none. */
 const freshName = (): string => `browser-${crypto.getRandomValues(new Uint16Array(1))[0]?.toString(16) ?? ''}`;
 
 export async function pair(code: string, name: string): Promise<void> {
@@ -33,19 +33,19 @@ export async function pair(code: string, name: string): Promise<void> {
   await showToken();
 }
 
-/** Gives the token back, which is void from then on. A program that does not answer keeps it until it expires. */
+/** Revokes the token. If the program does not answer, the token stays valid there until it expires. */
 export async function forget(): Promise<void> {
   const token = localStorage.getItem(TOKEN_KEY);
   localStorage.removeItem(TOKEN_KEY);
   try {
     await fetch('api/forget', { method: 'POST', headers: { authorization: `Bearer ${token ?? ''}` }, body: '{}' });
   } catch {
-    // There is no program to tell.
+    // The program is not reachable.
   }
   location.reload();
 }
 
-/** "#pair=CODE" in the address: taken out of it at once, so that it is neither bookmarked nor sent on. */
+/** Reads "#pair=CODE" and removes it from the address at once, so that it is neither bookmarked nor shared. */
 export async function pairFromAddress(): Promise<void> {
   const found = /(?:^#|&)pair=([^&]+)/.exec(location.hash);
   if (found === null) return;

@@ -1,4 +1,4 @@
-// What does not change while the program runs: the rack's cards, registers, wires, faults. Asked once a connection.
+// Constant data of the rack: cards, registers, wires, faults. Queried once per connection.
 import { computed, signal } from '@preact/signals';
 import { query } from './commands';
 import { whenOpen } from './socket';
@@ -23,12 +23,12 @@ export interface CommandInfo {
   name: string;
   code: number;
   meaning: string;
-  /** Of the argument, from `least` to `greatest`; 0: it has none. */
+  /** Bytes of the argument, from `least` to `greatest`; 0: none. */
   data_bytes: number;
   least: number;
   greatest: number;
   unit: string;
-  /** Of the answer; 0: it has none. */
+  /** Bytes of the answer; 0: none. */
   answer_bytes: number;
 }
 export interface PinInfo {
@@ -50,9 +50,9 @@ export interface CardInfo {
   title: string;
   slot: number;
   about: string;
-  /** Where the real card is that stands for it; null: it is virtual. */
+  /** Address of the real card behind it; null: virtual. */
   live: string | null;
-  /** `while_moving`: it only measures, and is accessed by hand at any time. */
+  /** `while_moving`: the card only measures and allows manual access at any time. */
   bus: { base: number; widths: number[]; while_moving: boolean };
   axes: { letter: string; channel: string }[];
   registers: RegisterInfo[];
@@ -61,7 +61,7 @@ export interface CardInfo {
   pins: PinInfo[];
   values: string[];
   quantities: string[];
-  /** Of its function library that can be called by hand; 0: there is none. */
+  /** Number of library functions that can be called manually; 0: none. */
   functions: number;
   channels: string[];
 }
@@ -91,7 +91,7 @@ async function load(): Promise<void> {
     rack.value = await query<RackInfo>('rack');
     channelList.value = (await query<{ channels: ChannelInfo[] }>('channels')).channels;
   } catch {
-    // Panels say that they know no cards until the next connection.
+    // Until the next connection, panels report that no cards are known.
   }
 }
 whenOpen(() => void load());

@@ -1,4 +1,4 @@
-// The WebSocket to the program: asks with answers, pictures, events; comes back by itself when it was lost.
+// WebSocket to the program: requests with answers, snapshots, events; reconnects automatically.
 import {
   Refusal,
   type ErrorBody,
@@ -93,7 +93,7 @@ function heard(message: Record<string, unknown>): void {
 function seen(picture: Picture): void {
   state.received.value = performance.now();
   state.lost.value += picture.lost;
-  // Panels that want a hundred values a second do not make the whole page draw itself as often.
+  // Panels with a hundred values per second must not redraw the whole page that often.
   const now = performance.now();
   if (now - shown > SHOWN_MS || state.status.peek()?.state !== picture.status.state) {
     shown = now;
@@ -120,7 +120,7 @@ function greeted(hello: Hello): void {
   void showToken();
 }
 
-/** Shows the stored token, if there is one; a token that is no longer good is forgotten. */
+/** Sends the stored token, if any; deletes a rejected token. */
 export async function showToken(): Promise<void> {
   const token = localStorage.getItem(TOKEN_KEY);
   if (token !== null)
@@ -166,7 +166,7 @@ export function connect(): void {
   one.onclose = () => gone(one);
 }
 
-/** A connection on which nothing comes any more is a lost one, even where nobody closed it. */
+/** Treats a silent connection as lost, even if it was not closed. */
 function watchSilence(): void {
   const open = socket;
   if (open === null || document.hidden) return;

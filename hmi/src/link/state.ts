@@ -1,4 +1,4 @@
-// What the page knows of the machine: signals that panels read. Only the link writes them.
+// Machine state on the page: signals read by panels, written only by the link.
 import { computed, effect, signal } from '@preact/signals';
 import type { AxisStatus, Hello, MachineEvent, Role, StateName, Status } from './contract';
 
@@ -9,19 +9,19 @@ export const hello = signal<Hello | null>(null);
 export const role = signal<Role>('observe');
 export const user = signal('');
 export const status = signal<Status | null>(null);
-/** performance.now() of the newest picture. */
+/** performance.now() of the newest snapshot. */
 export const received = signal(0);
-/** Pictures left out since the page was opened. */
+/** Snapshots lost since the page was opened. */
 export const lost = signal(0);
 export const events = signal<MachineEvent[]>([]);
 
-/** Milliseconds since the newest picture, looked at ten times a second. */
+/** Milliseconds since the newest snapshot, updated ten times a second. */
 export const age = signal(Infinity);
 export const STALE_MS = 500;
 const AGE_STEP_MS = 50;
 export const stale = computed(() => link.value !== 'open' || age.value >= STALE_MS);
 
-/** Tenths of a second once it matters; below that a bound that does not jump at every picture. */
+/** Tenths of a second if the age is significant; otherwise a fixed bound that does not flicker. */
 export function ageText(ms: number): string {
   if (!Number.isFinite(ms)) return '';
   return ms >= STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`;
@@ -44,13 +44,13 @@ export function stateName(text: string): StateName {
 
 export const machineState = computed<StateName>(() => stateName(status.value?.state ?? 'disabled'));
 export const axes = computed<AxisStatus[]>(() => status.value?.axes ?? []);
-/** Changes only when the axes themselves change, not their numbers. */
+/** Changes only with the axes themselves, not with their numbers. */
 export const axisLetters = computed(() => axes.value.map((axis) => axis.letter).join(''));
 export const openAlarms = computed(() =>
   (status.value?.alarms ?? []).filter((alarm) => alarm.active || !alarm.acknowledged),
 );
 export const standsStill = computed(() => ['standstill', 'disabled', 'error stop'].includes(machineState.value));
-/** Whether control may be taken from its holder. */
+/** Control may be taken from its holder. */
 export const mayBeTakenOver = computed(() => standsStill.value || machineState.value === 'hold');
 
 /** This tab holds control. */
@@ -58,7 +58,7 @@ export const inControl = computed(() => {
   const control = status.value?.control;
   return control?.holder_session !== undefined && control.holder_session === hello.value?.session;
 });
-/** Who holds control, as others see it; empty: nobody. */
+/** Name of the holder of control for display; empty: none. */
 export const holder = computed(() => {
   const control = status.value?.control;
   return control?.holder == null ? '' : control.holder || 'another browser';

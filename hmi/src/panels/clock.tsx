@@ -1,4 +1,4 @@
-// The rack's clock: real, some times as fast, as fast as it can, paused and stepped; the simulated emergency stop.
+// Clock of the rack: real time, scaled, unthrottled, paused and stepped; the simulated emergency stop.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { actions } from '../actions';
@@ -7,7 +7,7 @@ import { status } from '../link/state';
 import { fixed, typed } from '../parts/numbers';
 import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
 
-/** Modes by name, factors of real time as numbers. */
+/** Modes by name, time scales as numbers. */
 const MODES = [
   { value: 'paused', text: 'Pause' },
   ...[0.1, 0.5, 1, 2, 10].map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })),

@@ -1,4 +1,4 @@
-// Where the axes are: commanded, actual, following error, speed; lamps; enable and home.
+// Axis positions: commanded, actual, following error, velocity; lamps; enable and home.
 import type { JSX } from 'preact';
 import { actions, axisLetter, chosenAxis, placeText } from '../actions';
 import { LEDS, type AxisStatus, type LedName } from '../link/contract';
@@ -25,7 +25,7 @@ const LAMPS: Record<LedName, { letter: string; text: string; kind: LedKind }> = 
   alarm: { letter: 'F', text: 'drive fault', kind: 'alarm' },
 };
 
-/** The lamps that an axis has. */
+/** Lamps of an axis. */
 export function Lamps({ axis }: { axis: AxisStatus }): JSX.Element {
   return (
     <div class="lamps">
@@ -36,7 +36,7 @@ export function Lamps({ axis }: { axis: AxisStatus }): JSX.Element {
   );
 }
 
-/** Chooses the axis for touch off. */
+/** Selects the axis for touch off. */
 function Letter({ axis, chosen }: { axis: AxisStatus; chosen: boolean }): JSX.Element {
   if (narrow.value) return <span class="letter">{axis.letter}</span>;
   return (
@@ -63,7 +63,7 @@ function Homed({ axis }: { axis: AxisStatus }): JSX.Element {
   );
 }
 
-/** Enabled or not, and home, of one axis. */
+/** Enable and home of one axis. */
 function Ways({ axis }: { axis: AxisStatus }): JSX.Element {
   const noHome = axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`;
   return (
@@ -165,7 +165,7 @@ export function Dro(): JSX.Element {
   );
 }
 
-/** How old the numbers are, once they are too old to go by. */
+/** Age of the numbers, if they are too old to rely on. */
 function Age(): JSX.Element | null {
   if (!state.stale.value || state.received.value === 0) return null;
   return <span class="age">these values are {(state.age.value / 1000).toFixed(1)} s old</span>;

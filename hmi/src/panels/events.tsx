@@ -1,4 +1,4 @@
-// Alarms with their states as in ISA-18.2, and everything that happened.
+// Alarms with their ISA-18.2 states, and all events.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { acknowledge, perform } from '../actions';

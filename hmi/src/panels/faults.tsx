@@ -1,4 +1,4 @@
-// What can be broken on purpose, and wires that are driven by hand.
+// Fault injection, and manually forced wires.
 import { computed, signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
@@ -14,7 +14,7 @@ interface Broken {
   value: string;
 }
 
-/** What this page broke and has not mended. */
+/** Faults injected by this page and still active. */
 const broken = signal<Broken[]>([]);
 const target = signal('');
 const value = signal('1');

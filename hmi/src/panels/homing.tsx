@@ -1,4 +1,4 @@
-// Homing: in which phase each axis is, and afterwards what was found.
+// Homing: the phase of each axis, and the results afterwards.
 import { signal, useSignalEffect } from '@preact/signals';
 import type { JSX } from 'preact';
 import { query } from '../link/commands';

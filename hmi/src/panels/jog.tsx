@@ -1,4 +1,4 @@
-// The jog pad: arrows that move while they are held, or by a step a press.
+// Jog pad: arrows that move while held, or one step per press.
 import type { JSX } from 'preact';
 import { armed, begin, end, jogging, setArmed, setSpeedPart, setStep, speedPart, stepIndex, STEPS } from '../jog/lease';
 import { padOf } from '../keys/table';
@@ -66,7 +66,7 @@ function Pad(): JSX.Element {
   );
 }
 
-/** How fast the first axis jogs, as a hint; empty: the machine has no axis. */
+/** Jog speed of the first axis, as a hint; empty: the machine has no axis. */
 function speedHint(): string {
   const first = state.axes.value[0];
   if (first === undefined) return '';

@@ -1,4 +1,4 @@
-// Lines by hand: the draft, the log with its answers, and the history that brings lines back.
+// MDI lines: the draft, the log with its answers, and the history.
 import { signal } from '@preact/signals';
 import { sentence } from '../link/commands';
 import { ask } from '../link/socket';
@@ -15,7 +15,7 @@ export const log = signal<Sent[]>([]);
 /** Newest first. */
 const history = signal<string[]>(JSON.parse(localStorage.getItem(KEY) ?? '[]') as string[]);
 export const draft = signal('');
-/** Which line of the history is in the draft; -1: none. */
+/** Index of the history line in the draft; -1: none. */
 const place = signal(-1);
 
 export async function send(): Promise<void> {
@@ -34,7 +34,7 @@ export async function send(): Promise<void> {
   log.value = log.value.map((other) => (other === one ? { ...one, ...answer } : other));
 }
 
-/** Back to the lines that were sent before (1), or forth (-1), down to an empty line. */
+/** Goes back (1) or forward (-1) in the history, down to an empty line. */
 export function walk(by: number): void {
   const next = Math.min(history.value.length - 1, Math.max(-1, place.value + by));
   place.value = next;

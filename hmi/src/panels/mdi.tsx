@@ -1,4 +1,4 @@
-// Lines by hand, with what was sent before: up and down bring it back.
+// MDI lines with history: up and down recall earlier lines.
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { mayOperate } from '../link/commands';

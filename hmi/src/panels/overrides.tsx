@@ -1,4 +1,4 @@
-// Feed and rapid overrides: a slider, its number, back to 100 %.
+// Feed and rapid overrides: a slider, its value, and reset to 100 %.
 import type { JSX } from 'preact';
 import { mayOperate, notice, order } from '../link/commands';
 import { status } from '../link/state';

@@ -1,4 +1,4 @@
-// The dialog that asks for a pairing code, and the one that makes codes for others.
+// Dialog that asks for a pairing code, and dialog that creates codes for others.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { orderFor, sentence, whyNot } from '../link/commands';

@@ -1,4 +1,4 @@
-// The program: open or type it, check it dry, run, step, hold, stop; where it is.
+// Program: open, edit, dry run, start, single block, feed hold, stop, and the current line.
 import { useSignal, type Signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
@@ -12,7 +12,7 @@ import { checked, type Check } from '../path/checked';
 import { program, programName } from '../program/text';
 import { Listing } from '../program/listing';
 
-/** The program reads longer messages only from who may operate. */
+/** The program accepts longer messages only from operators. */
 const SHORT = 60_000;
 const mayCheck = (): string => whyNot(program.value.length > SHORT ? 'operate' : 'observe');
 
@@ -127,7 +127,7 @@ function Editor(): JSX.Element {
   );
 }
 
-/** Another text, typing, the dry check, and whether it is driven line by line. */
+/** Opens another text, edits, runs the dry check, and selects single block. */
 function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
   const file = useRef<HTMLInputElement>(null);
   const single = status.value?.program.single_step === true;

@@ -1,4 +1,4 @@
-// Always visible: STOP and its neighbours, the machine's state, SIMULATION, the emergency stop's input, alarms.
+// Always visible: STOP and its neighbours, the machine state, SIMULATION, the emergency stop input, alarms.
 import type { JSX } from 'preact';
 import { acknowledge, actions, perform } from '../actions';
 import type { StateName } from '../link/contract';
@@ -25,7 +25,7 @@ const LOOKS = {
   'error stop': { icon: 'alarm', word: 'Error stop', tone: 'alarm' },
   service: { icon: 'hand', word: 'Service', tone: 'attention' },
 } satisfies Record<StateName, Look>;
-/** A program that is newer than the page may know states that the page does not. */
+/** A program newer than the page may have states that the page does not know. */
 const lookOf = (name: string): Look =>
   (LOOKS as Partial<Record<string, Look>>)[name] ?? { icon: 'alarm', word: name, tone: 'attention' };
 
@@ -105,7 +105,7 @@ function LinkAge(): JSX.Element {
   );
 }
 
-/** Whether what moves is simulated: not while a real card is in service. */
+/** Shows that motion is simulated, except while a real card is in service. */
 export function Simulation(): JSX.Element | null {
   const real = (rack.value?.cards ?? []).filter((card) => card.live !== null).map((card) => card.name);
   const { value: now } = state.status;
@@ -146,7 +146,7 @@ export function StateBar(): JSX.Element {
   );
 }
 
-/** Alarms that nobody has acknowledged, under the bar on every view. */
+/** Unacknowledged alarms, below the bar in every view. */
 export function AlarmBanner(): JSX.Element {
   const unseen = state.openAlarms.value.filter((one) => !one.acknowledged);
   const newest = unseen[unseen.length - 1];

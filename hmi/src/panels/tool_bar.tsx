@@ -1,4 +1,4 @@
-// The second row: views, who holds control, the clock, who this browser is, its looks.
+// Second row: views, holder of control, clock, user of this browser, appearance.
 import type { JSX } from 'preact';
 import { releaseControl, takeControl, whyNotControl } from '../link/control';
 import { dialogOpen, forget, inviteOpen } from '../link/pairing';

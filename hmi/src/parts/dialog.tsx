@@ -1,4 +1,4 @@
-// A dialog over the page, which stays in use below it: STOP is never covered. Esc closes it, and is STOP all the same.
+// Dialog over the page, which stays usable: STOP is never covered. Esc closes it and also sends STOP.
 import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 import { Icon } from './icons';

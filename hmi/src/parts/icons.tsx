@@ -1,4 +1,4 @@
-// The icons: outlines on a grid of 24, drawn in the colour of the text.
+// Icons: outlines on a grid of 24, in the colour of the text.
 import type { JSX } from 'preact';
 
 const PATHS = {

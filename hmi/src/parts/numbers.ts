@@ -1,8 +1,8 @@
-// Numbers as text that keeps its width, so that digits do not jump.
+// Numbers as text of constant width, so that digits do not jump.
 
 const MINUS = '\u2212';
 
-/** Fixed decimals with a true minus sign; a dash where there is no number. */
+/** Fixed decimals with a true minus sign; a dash for a missing number. */
 export function fixed(value: number | null | undefined, decimals: number): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   const text = Math.abs(value).toFixed(decimals);
@@ -44,7 +44,7 @@ export function duration(seconds: number | null | undefined): string {
 export const seconds = (at: number): string => `${fixed(at, 3)} s`;
 export const unitName = (unit: string): string => (unit === 'deg' ? '°' : unit);
 
-/** A number that somebody typed; null: it is none. A comma is taken for a point. */
+/** Parses a typed number; null if invalid. Accepts a comma as decimal point. */
 export function typed(text: string): number | null {
   const value = Number(text.trim().replace(',', '.').replace(MINUS, '-'));
   return text.trim() === '' || !Number.isFinite(value) ? null : value;

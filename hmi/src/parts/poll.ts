@@ -1,4 +1,4 @@
-// Asks a query again and again while a panel is open; never a second time before the first was answered.
+// Repeats a query while a panel is open; waits for each answer before the next query.
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Fields } from '../link/contract';
@@ -10,7 +10,7 @@ export interface Polled<T> {
   why: Signal<string>;
 }
 
-/** Asks until the returned function is called; not while the page is hidden, nor without a connection. */
+/** Polls until the returned function is called; pauses while the page is hidden or without a connection. */
 export function poll<T>(name: string, fields: Fields, every_ms: number, { data, why }: Polled<T>): () => void {
   let live = true;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -34,7 +34,7 @@ export function poll<T>(name: string, fields: Fields, every_ms: number, { data, 
   };
 }
 
-/** `name` "" asks nothing. */
+/** An empty `name` disables polling. */
 export function usePoll<T>(name: string, fields: Fields, every_ms: number): Polled<T> {
   const data = useSignal<T | null>(null);
   const why = useSignal('');

@@ -1,4 +1,4 @@
-// The small parts that all panels are made of.
+// Basic components shared by all panels.
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 import { perform, type Action } from '../actions';
@@ -8,7 +8,7 @@ import { Icon, type IconName } from './icons';
 interface ButtonProps {
   children: ComponentChildren;
   onClick(): void;
-  /** Why it may not be pressed now; empty: it may. It stays in the focus order and says so. */
+  /** Reason why it cannot be pressed now; empty: it can. It stays in the focus order and shows the reason. */
   why?: string;
   kind?: 'plain' | 'main' | 'quiet' | 'stop';
   icon?: IconName;
@@ -48,7 +48,7 @@ export function ActionButton({
   );
 }
 
-/** On or off, by click or Enter; Space is feed hold everywhere. */
+/** Switch, toggled by click or Enter; Space is feed hold everywhere. */
 export function Switch(props: { on: boolean; label: string; onChange(on: boolean): void; why?: string }): JSX.Element {
   const why = props.why ?? '';
   return (
@@ -69,7 +69,7 @@ export function Switch(props: { on: boolean; label: string; onChange(on: boolean
   );
 }
 
-/** One of several. */
+/** Selects one of several options. */
 export function Choice<T extends string | number>(props: {
   label: string;
   options: readonly { value: T; text: string; why?: string }[];
@@ -115,7 +115,7 @@ export function Panel(props: {
 
 export type LedKind = 'info' | 'warn' | 'alarm';
 
-/** A lamp: on is filled, off is an outline; the letter and the shape say which and how bad. */
+/** Lamp: on is filled, off is an outline; letter and shape show its meaning and severity. */
 export function Led({
   on,
   letter,

@@ -1,4 +1,4 @@
-// What the dry run of the program in the panel found.
+// Result of the dry run of the program in the panel.
 import { signal } from '@preact/signals';
 
 export interface Check {
@@ -11,7 +11,7 @@ export interface Check {
   length_mm?: number;
   least?: Record<string, number>;
   greatest?: Record<string, number>;
-  /** Letters, and places by them. */
+  /** Axis letters; positions are in this order. */
   axes: string;
   path?: number[][];
 }

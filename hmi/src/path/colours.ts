@@ -1,5 +1,4 @@
-// The colours of errors: from blue over grey to amber and red, as light in the dark theme as needed; never green
-// against red.
+// Error colours from blue over grey to amber and red, with lightness for the dark theme; never green against red.
 
 const DARK: readonly (readonly [number, number, number])[] = [
   [72, 166, 236],

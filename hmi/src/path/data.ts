@@ -1,12 +1,12 @@
-// The planned and the driven path, as both views of it read them.
+// Planned and actual path, shared by both views.
 import { computed, signal } from '@preact/signals';
 import { query } from '../link/commands';
 import * as state from '../link/state';
 import { checked, type Check } from './checked';
 
 /**
- * `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one
- * asked about.
+ * `driven`: time, then positions in the order of `axes`; oldest first. `planned` only if it differs from the plan in
+ * the query.
  */
 interface PathAnswer {
   number: number;
@@ -17,7 +17,7 @@ interface PathAnswer {
 }
 
 export const letters = computed(() => state.axisLetters.value.slice(0, 4));
-/** Points of machine coordinates by axis; of a checked program that does not run yet, or of the one that runs. */
+/** Points in machine coordinates by axis; of a checked program before its start, or of the running one. */
 export const planned = signal<number[][]>([]);
 export interface Driven {
   at: number;
@@ -31,7 +31,7 @@ export const plannedIs = signal<'none' | 'checked' | 'running'>('none');
 const KEPT = 6000;
 const EVERY_MS = 200;
 
-/** Number of the plan that is shown, and until when what was driven is not. */
+/** Number of the displayed plan, and the time up to which the actual path is hidden. */
 let have = 0;
 let since = -1;
 let boot: string | undefined;
@@ -43,7 +43,7 @@ state.hello.subscribe((now) => {
   driven.value = [];
 });
 
-/** Places in the order of the page's axes. */
+/** Sorts positions into the order of the page's axes. */
 function inOrder(axes: string, points: readonly number[][]): number[][] {
   const from = [...letters.peek()].map((letter) => axes.indexOf(letter));
   return points.map((point) => from.map((i) => point[i] ?? 0));
@@ -71,11 +71,11 @@ async function look(): Promise<void> {
       ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 })),
     ].slice(-KEPT);
   } catch {
-    // Asked again soon.
+    // The next poll retries.
   }
 }
 
-/** Follows the path while a view of it is open. */
+/** Polls the path while a view is open. */
 export function follow(): () => void {
   let live = true;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -98,5 +98,5 @@ export function clearDriven(): void {
   since = state.status.peek()?.at ?? since;
   driven.value = [];
 }
-/** The greatest error of the driven points, at least so much that a good path is all of one colour. */
+/** Maximum error of the actual points, with a lower limit so that a good path has a single colour. */
 export const greatestError = computed(() => Math.max(0.001, ...driven.value.slice(-KEPT).map((one) => one.error)));

@@ -1,20 +1,20 @@
-// The place from which the path in space is looked at: turned around the middle of the machine, nearer or farther.
+// Viewpoint of the path in space: rotated around the centre of the machine, at a distance.
 
-/** Angles in radians, the distance in the unit of the axes. */
+/** Angles in radians, distance in the unit of the axes. */
 export interface Eye {
   turn: number;
   tilt: number;
   far: number;
 }
 
-/** By so much; the distance by a factor. */
+/** Relative change; distance as a factor. */
 export interface Turn {
   turn?: number;
   tilt?: number;
   far?: number;
 }
 
-/** Not over the poles, where up and down would change places. */
+/** Not beyond the poles, where up and down would swap. */
 const MAX_TILT = 1.5;
 const [NEAREST, FARTHEST] = [1, 1e4];
 
@@ -26,7 +26,7 @@ export const turned = (eye: Eye, by: Turn): Eye => ({
   far: within(eye.far * (by.far ?? 1), NEAREST, FARTHEST),
 });
 
-/** Turns of the keys, by KeyboardEvent.key. */
+/** Rotations by KeyboardEvent.key. */
 export const KEY_TURNS: Partial<Record<string, Turn>> = {
   ArrowLeft: { turn: -0.1 },
   ArrowRight: { turn: 0.1 },

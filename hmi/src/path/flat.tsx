@@ -1,5 +1,4 @@
-// The path in two axes, on a canvas: travel as a box, the planned line, the driven one in the colours of its error,
-// the tool.
+// Path in two axes on a canvas: travel as a box, the planned line, the actual line coloured by error, the tool.
 import { useSignalEffect } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useCallback, useEffect, useRef } from 'preact/hooks';
@@ -9,7 +8,7 @@ import { css, errorColour, STEPS_SHOWN } from './colours';
 import { driven, greatestError, planned } from './data';
 import { boxAround, MARGIN, niceStep, sightOf, travelBox, type Box, type Sight } from './sight';
 
-/** The part of the machine that is shown: all of the travel, or around the path. */
+/** Displayed part of the machine: the whole travel, or the surroundings of the path. */
 function bounds(a: number, b: number, fit: boolean): Box {
   const whole = travelBox(state.axes.peek()[a], state.axes.peek()[b]);
   if (!fit) return whole;
@@ -100,7 +99,7 @@ class Painter {
     pen.stroke();
   }
 
-  /** Pieces of like colour are one stroke. */
+  /** Draws segments of equal colour as one stroke. */
   driven(a: number, b: number, isDark: boolean): void {
     const { pen } = this;
     const points = driven.peek();
@@ -164,7 +163,7 @@ function paint(canvas: HTMLCanvasElement, a: number, b: number, fit: boolean): v
   painter.tool(axes[a]?.actual ?? 0, axes[b]?.actual ?? 0);
 }
 
-/** Axes by their places in the list of axes. */
+/** Axes by their index in the list of axes. */
 export function Flat({ a, b, fit, label }: { a: number; b: number; fit: boolean; label: string }): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const wanted = useRef(false);

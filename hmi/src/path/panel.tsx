@@ -1,4 +1,4 @@
-// The path: flat in two axes, or in space on demand; with the scale of its errors.
+// Path view: flat in two axes, or in space on demand, with the error scale.
 import { signal } from '@preact/signals';
 import type { ComponentType, JSX } from 'preact';
 import { useEffect } from 'preact/hooks';

@@ -1,9 +1,9 @@
-// The part of the machine that a flat picture of the path shows, and its scale.
+// Displayed part of the machine in a flat picture of the path, and its scale.
 
 /** x0, x1, y0, y1 in the unit of the axes. */
 export type Box = readonly [number, number, number, number];
 
-/** A place is on the canvas at left + x scale, top - y scale. */
+/** A position is drawn at left + x scale, top - y scale. */
 export interface Sight {
   scale: number;
   left: number;
@@ -15,17 +15,17 @@ interface Travel {
   max: number;
 }
 
-/** Room around the picture, px. */
+/** Margin around the picture, px. */
 export const MARGIN = 34;
 
-/** 1, 2 or 5 times a power of ten: the least of them that is not below `least`. */
+/** Smallest of 1, 2 or 5 times a power of ten that is not below `least`. */
 export function niceStep(least: number): number {
   const power = 10 ** Math.floor(Math.log10(least));
   for (const factor of [1, 2, 5]) if (power * factor >= least) return power * factor;
   return power * 10;
 }
 
-/** The planes that a machine of these axes can show, and the one of them that is shown when `wanted` was chosen. */
+/** Planes available with these axes, and the one to show for the selection `wanted`. */
 export function planesOf(letters: string, wanted: string): { options: string[]; shown: string } {
   const planes = ['XY', 'XZ', 'YZ'].filter((one) => [...one].every((letter) => letters.includes(letter)));
   const flat = planes.length > 0 ? planes : [letters.slice(0, 2)];
@@ -33,7 +33,7 @@ export function planesOf(letters: string, wanted: string): { options: string[]; 
   return { options: [...flat, ...(letters.length >= 3 ? ['3D'] : [])], shown };
 }
 
-/** All of the travel; an axis that the machine does not have goes from 0 to 1. */
+/** The whole travel; a missing axis ranges from 0 to 1. */
 export const travelBox = (x: Travel | undefined, y: Travel | undefined): Box => [
   x?.min ?? 0,
   x?.max ?? 1,
@@ -41,7 +41,7 @@ export const travelBox = (x: Travel | undefined, y: Travel | undefined): Box => 
   y?.max ?? 1,
 ];
 
-/** Around points, by the places `a` and `b` of two axes in them; null: too few for a picture. */
+/** Bounds of points, by the indices `a` and `b` of two axes; null: too few points. */
 export function boxAround(points: readonly (readonly number[])[], a: number, b: number): Box | null {
   if (points.length < 2) return null;
   let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
@@ -54,7 +54,7 @@ export function boxAround(points: readonly (readonly number[])[], a: number, b: 
   return [x0 - pad, x1 + pad, y0 - pad, y1 + pad];
 }
 
-/** The box in the middle of a canvas of so many pixels, as large as fits. */
+/** Centres the box on a canvas of this size in px, as large as possible. */
 export function sightOf([x0, x1, y0, y1]: Box, width: number, height: number): Sight {
   const scale = Math.min(
     (width - 2 * MARGIN) / Math.max(1e-9, x1 - x0),

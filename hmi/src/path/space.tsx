@@ -1,4 +1,4 @@
-// The path in space; loaded only when somebody asks for it. Dragging turns, the wheel and + − go nearer, arrows turn.
+// Path in space, loaded on demand. Dragging rotates, the wheel and + − zoom, arrows rotate.
 import { effect } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
@@ -128,7 +128,7 @@ class View {
   }
 }
 
-/** The whole of the canvas' size follows the panel. */
+/** The canvas follows the size of the panel. */
 export function Space(): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const view = useRef<View | null>(null);

@@ -1,4 +1,4 @@
-// The program's lines around the one that is driven. Only what is in sight is made, so that long programs scroll.
+// Program lines around the current one. Renders only visible lines, so that long programs scroll.
 import { computed, useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
@@ -11,7 +11,7 @@ const MORE = 8;
 
 const shown = computed(() => running.value?.text ?? program.value);
 const lines = computed(() => shown.value.split(/\r?\n/));
-/** 1-based; 0: none of this text. */
+/** 1-based; 0: not in this text. */
 const current = computed(() => {
   const now = status.value?.program;
   return now?.runs === true && running.value !== null ? now.line : 0;

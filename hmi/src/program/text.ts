@@ -1,4 +1,4 @@
-// The program that is in the panel: its name and text, kept over a reload.
+// Program in the panel: its name and text, kept over a reload.
 import { computed, effect, signal } from '@preact/signals';
 import { query } from '../link/commands';
 import { link, status } from '../link/state';
@@ -9,7 +9,7 @@ const MOST_KEPT = 2_000_000;
 export const programName = signal(localStorage.getItem(`${KEY}.name`) ?? 'program.ngc');
 export const program = signal(localStorage.getItem(KEY) ?? '');
 
-/** The program that runs, whoever began it. */
+/** The running program, started by any client. */
 export const running = signal<{ name: string; text: string } | null>(null);
 const runs = computed(() =>
   link.value === 'open' && status.value?.program.runs === true ? status.value.program.name : '',
@@ -30,6 +30,6 @@ effect(() => {
     if (text.length <= MOST_KEPT) localStorage.setItem(KEY, text);
     else localStorage.removeItem(KEY);
   } catch {
-    // The browser's store is full or closed: then the text lives as long as the page.
+    // Browser storage is full or disabled: the text is kept only while the page is open.
   }
 });

@@ -1,4 +1,4 @@
-// A chart of lines over one axis; the page's one place that knows uPlot.
+// Chart of lines over one axis; the only user of uPlot.
 import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import uPlot from 'uplot';
@@ -17,13 +17,13 @@ interface ChartProps {
   xName: string;
   label: string;
   marks?: readonly Mark[];
-  /** Whether a line holds its value until the next one. */
+  /** A line that holds its value until the next one. */
   stepped?: (name: string) => boolean;
   height?: number;
   onPick?: (x: number) => void;
 }
 
-/** Lines differ by dash, too, not by colour alone. */
+/** Lines differ by dash as well as by colour. */
 const DASHES: readonly number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
 export const LINES = 8;
 export const lineColour = (style: CSSStyleDeclaration, i: number): string =>
@@ -84,14 +84,14 @@ function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark
   };
 }
 
-/** uPlot draws its axes only where there are two places at least. */
+/** uPlot draws its axes only with at least two points. */
 const drawable = (data: (number | null)[][]): uPlot.AlignedData =>
   ((data[0]?.length ?? 0) < 2 ? [[0, 1], ...data.slice(1).map(() => [null, null])] : data) as uPlot.AlignedData;
 
 export function Chart(props: ChartProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
-  // The plot outlives the properties that it was made of: it reads the newest.
+  // The plot outlives its initial properties, so it reads the newest.
   const now = useRef(props);
   now.current = props;
   const steps = props.names.map((name) => props.stepped?.(name) === true).join();
@@ -130,7 +130,7 @@ export function Chart(props: ChartProps): JSX.Element {
   );
 }
 
-/** What the lines are. */
+/** Names of the lines. */
 export function Legend({
   names,
   values,

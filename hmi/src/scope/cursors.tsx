@@ -1,4 +1,4 @@
-// Two cursors over a recording: their times, the values of each channel there, and the differences.
+// Two cursors over a recording: their times, the channel values there, and the differences.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { fixed } from '../parts/numbers';
@@ -6,7 +6,7 @@ import { nearest, thirds, valueAt, type Rows } from './reading';
 
 /** Times of A and B, ms. */
 const cursors = signal<[number, number]>([0, 0]);
-/** The one that the next click on the chart puts. */
+/** Cursor that the next click on the chart moves. */
 const moving = signal<0 | 1>(0);
 
 function put(which: 0 | 1, x: number): void {
@@ -15,13 +15,13 @@ function put(which: 0 | 1, x: number): void {
   cursors.value = next;
 }
 
-/** A click on the chart: the cursors take turns. */
+/** A click on the chart moves the cursors alternately. */
 export function pick(x: number): void {
   put(moving.value, x);
   moving.value = moving.value === 0 ? 1 : 0;
 }
 
-/** The trigger and the cursors, as the chart marks them. */
+/** Trigger and cursors as chart marks. */
 export function marksOf(times: readonly (number | null)[]): { x: number; name: string }[] {
   if (cursors.value[0] === cursors.value[1]) cursors.value = thirds(times) ?? cursors.value;
   return [

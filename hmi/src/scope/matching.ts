@@ -1,10 +1,10 @@
-// Channels by a typed text.
+// Finds channels by typed text.
 import type { ChannelInfo } from '../link/rack';
 
-/** From so many letters on they are looked for in the meanings of channels, too. */
+/** Minimum number of letters to search the meanings of channels, too. */
 const LETTERS_OF_MEANING = 4;
 
-/** Part of the name, or of the meaning; without the channels that are chosen already. */
+/** Matches part of the name or the meaning; skips selected channels. */
 export function matching(all: readonly ChannelInfo[], chosen: readonly string[], text: string): ChannelInfo[] {
   const part = text.toLowerCase();
   const meant = (one: ChannelInfo): boolean =>

@@ -1,4 +1,4 @@
-// The scope: channels, trigger, what comes before it; run, single, stop; two cursors; export.
+// Scope: channels, trigger and pre-trigger; run, single, stop; two cursors; export.
 import type { JSX } from 'preact';
 import { notice, order, whyNot } from '../link/commands';
 import { usePoll } from '../parts/poll';

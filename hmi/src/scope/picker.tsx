@@ -1,4 +1,4 @@
-// Choosing channels out of many: type a part of a name, take what fits.
+// Channel selection: type part of a name, then select a match.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { channelList } from '../link/rack';

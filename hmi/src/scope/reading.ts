@@ -1,15 +1,15 @@
-// Reading a recording: the place of a cursor, the value of a channel there, all of it as a table.
+// Reads a recording: index of a cursor, channel value there, and export as a table.
 
-/** The first row is x, then a row a channel. */
+/** The first row is x, then one row per channel. */
 export type Rows = readonly (readonly (number | null)[])[];
 
-/** A channel that did not change there has its value from before. */
+/** A channel without a change there keeps its previous value. */
 export function valueAt(values: readonly (number | null)[], at: number): number | null {
   for (let i = at; i >= 0; --i) if (values[i] != null) return values[i] ?? null;
   return null;
 }
 
-/** The place of the time nearest to x. */
+/** Index of the time nearest to x. */
 export function nearest(times: readonly (number | null)[], x: number): number {
   let best = 0;
   times.forEach((time, i) => {
@@ -18,13 +18,13 @@ export function nearest(times: readonly (number | null)[], x: number): number {
   return best;
 }
 
-/** Cursors that were not put anywhere stand at a third and two thirds; null: too few times for two cursors. */
+/** Default cursors at one third and two thirds; null: too few times for two cursors. */
 export function thirds(times: readonly (number | null)[]): [number, number] | null {
   if (times.length <= 3) return null;
   return [times[Math.floor(times.length / 3)] ?? 0, times[Math.floor((2 * times.length) / 3)] ?? 0];
 }
 
-/** Comma-separated values; empty where a channel did not change. */
+/** Comma-separated values; empty if a channel did not change. */
 export function csv(names: readonly string[], rows: Rows): string {
   const lines = (rows[0] ?? []).map((time, i) => [time, ...names.map((_, n) => rows[n + 1]?.[i] ?? '')].join(','));
   return [['time_ms', ...names].join(','), ...lines, ''].join('\n');

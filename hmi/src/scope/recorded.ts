@@ -1,4 +1,4 @@
-// What the scope recorded last, as the chart takes it: edges of wires and samples of numbers over one list of times.
+// Last recording of the scope in chart format: wire edges and number samples over one list of times.
 import { signal } from '@preact/signals';
 import uPlot from 'uplot';
 import { hello } from '../link/state';
@@ -6,7 +6,7 @@ import { hello } from '../link/state';
 interface Trace {
   name: string;
   unit: string;
-  /** Every change with its time, else samples at equal distances. */
+  /** Every change with its time; otherwise equidistant samples. */
   edges: boolean;
   values: (number | null)[];
   at?: number[];
@@ -30,9 +30,9 @@ export interface ScopeAnswer {
 interface Recorded {
   number: number;
   names: string[];
-  /** Names of those that hold their value until the next change. */
+  /** Names of channels that hold their value until the next change. */
   stepped: string[];
-  /** Milliseconds, then a row a channel. */
+  /** Milliseconds, then one row per channel. */
   rows: (number | null)[][];
 }
 
@@ -45,7 +45,7 @@ function table(trace: Trace, capture: Capture): [number[], (number | null)[]] {
   return [[capture.from, ...(trace.at ?? []), capture.to].map(ms), [trace.before ?? null, ...trace.values, last]];
 }
 
-/** Captures are counted from the program's start. */
+/** Captures are counted from the start of the program. */
 let boot: string | undefined;
 hello.subscribe((now) => {
   if (now !== null && boot !== now.boot) recorded.value = { number: 0, names: [], stepped: [], rows: [] };

@@ -1,4 +1,4 @@
-// Settings of the scope: as they are typed, kept by this browser, and as the order that arms it.
+// Scope settings: as typed, stored by this browser, and as the arming command.
 import { signal } from '@preact/signals';
 import type { Fields } from '../link/contract';
 import { typed } from '../parts/numbers';
@@ -6,7 +6,7 @@ import { typed } from '../parts/numbers';
 export const MOST_CHANNELS = 16;
 const KEY = 'motionrack.scope';
 
-/** Texts as they were typed. */
+/** Texts as typed. */
 export interface Settings {
   channels: string[];
   /** A channel; empty: none. */
@@ -40,7 +40,7 @@ export function set(part: Partial<Settings>): void {
   localStorage.setItem(KEY, JSON.stringify(settings.value));
 }
 
-/** The fields of scope_arm; null: a level or a time is no number. */
+/** Fields of scope_arm; null if a level or a time is not a number. */
 export function armFields(now: Settings, mode: 'run' | 'single'): Fields | null {
   const [level, period_us, length, pre] = [now.level, now.period, now.length, now.pre].map(typed);
   if (level == null || period_us == null || length == null || pre == null) return null;
