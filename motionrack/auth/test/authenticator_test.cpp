@@ -1,4 +1,4 @@
-// Codes, tokens and the users file, at times that the test says.
+// Codes, tokens and the users file, at times set by the test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -202,7 +202,7 @@ TEST_F(ADoorkeeper, HasKeysCheckedThatOthersMayRead) {
 TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
     write("{}");
     AuthSettings settings;
-    settings.users_file = file() / "users.json";  // in a file, as if it were a folder
+    settings.users_file = file() / "users.json";  // inside a file, as if it were a folder
     const auto opened = Authenticator::open(settings);
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().kind, ErrorKind::io);

@@ -1,4 +1,4 @@
-// The lease of control, at times that the test says.
+// Control lease, at times set by the test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

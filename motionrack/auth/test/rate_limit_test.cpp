@@ -1,4 +1,4 @@
-// Buckets of tries, at times that the test says.
+// Token buckets, at times set by the test.
 #include <gtest/gtest.h>
 
 #include <motionrack/auth/rate_limit.hpp>

@@ -1,4 +1,4 @@
-// A file is whole or as it was, and no command writes over what it reads.
+// A file is complete or unchanged, and no command overwrites its inputs.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -15,7 +15,7 @@ enum class Kind : std::uint8_t { write, truncate, sync, remove };
 struct Call {
     Kind kind;
     std::string path;
-    std::int64_t offset;  ///< of a truncate: the size; of a removal: whether it is on the disk when it is done
+    std::int64_t offset;  ///< of a truncate: the size; of a removal: whether it is synced on return
     std::string bytes;
 };
 
@@ -29,7 +29,7 @@ struct Record {
 };
 Record record;
 
-/// Counts a call; what becomes of it.
+/// Counts a call and returns its fault.
 BadDisk::Fault next_call(Call call) {
     std::unique_lock<std::mutex> alone(record.lock);
     record.released.wait(alone, [] { return !record.held; });
@@ -79,7 +79,7 @@ int on_truncate(sqlite3_file* one, sqlite3_int64 size) {
     }
 }
 
-/// The real disk need not do it: what a loss of power leaves is made of the calls.
+/// The real disk need not sync: the state after a power loss is reconstructed from the calls.
 int on_sync(sqlite3_file* one, int) {
     switch (next_call({Kind::sync, file_of(one)->path, 0, {}})) {
         case BadDisk::Fault::none:
@@ -90,7 +90,7 @@ int on_sync(sqlite3_file* one, int) {
     }
 }
 
-/// All other calls go through.
+/// All other calls are passed through.
 const sqlite3_io_methods methods = {
     2,
     [](sqlite3_file* f) { return real_of(f)->pMethods->xClose(real_of(f)); },
@@ -117,7 +117,7 @@ const sqlite3_io_methods methods = {
     nullptr,
 };
 
-sqlite3_vfs* under = nullptr;  ///< the system's disk
+sqlite3_vfs* under = nullptr;  ///< the disk of the system
 sqlite3_vfs disk;
 
 int on_open(sqlite3_vfs*, const char* path, sqlite3_file* one, int flags, int* out) {
@@ -140,7 +140,7 @@ int on_remove(sqlite3_vfs*, const char* path, int sync_folder) {
     }
 }
 
-/// A file as it is read back after power came again.
+/// Applies calls to a file, giving its content after a power loss.
 void put(std::string& file, const Call& call, std::size_t count) {
     if (call.kind == Kind::truncate) return file.resize(static_cast<std::size_t>(call.offset));
     const auto offset = static_cast<std::size_t>(call.offset);

@@ -1,5 +1,5 @@
-// A disk between SQLite and the system's, whose nth writing call fails, is torn or is lost; and the record of all
-// writing calls, from which the state of a computer that lost power in between can be made.
+// Disk between SQLite and the system, whose nth writing call fails, is torn or is lost. Records all writing calls, from
+// which the state after a power loss at any point can be reconstructed.
 #pragma once
 
 #include <sqlite3.h>
@@ -13,16 +13,16 @@
 
 namespace motionrack::journal {
 
-/// Writing calls: write, truncate, sync and removal of a file. One at a time; the default disk of SQLite while it
-/// lives.
+/// Writing calls: write, truncate, sync and removal of a file. One instance at a time; the default disk of SQLite
+/// during its lifetime.
 class BadDisk {
   public:
     enum class Fault : std::uint8_t {
         none,
-        fail,  ///< nothing is done, and an error comes back: full, or a fault of the device
-        stay,  ///< as `fail`, and so is every later one
-        tear,  ///< half of it is written, and an error comes back
-        drop,  ///< nothing is done, and success comes back
+        fail,  ///< does nothing and returns an error: disk full, or a device fault
+        stay,  ///< as `fail`, and for every later call
+        tear,  ///< writes half and returns an error
+        drop,  ///< does nothing and returns success
     };
     struct Plan {
         Fault fault = Fault::none;
@@ -35,10 +35,10 @@ class BadDisk {
     BadDisk& operator=(const BadDisk&) = delete;
 
     std::int64_t calls() const;
-    /// Writing calls wait while it is held.
+    /// Blocks writing calls while set.
     void hold(bool on);
-    /// The files as a computer finds them that lost power after the call `calls`: what was synced is there; of the rest
-    /// each write may be there, be torn or be lost, as `random` says.
+    /// Writes the files as found after a power loss following the call `calls`. Synced data is present; each later
+    /// write is present, torn or lost, chosen by `random`.
     void write_state(std::int64_t calls, std::mt19937& random, const std::string& from, const std::string& to) const;
 };
 

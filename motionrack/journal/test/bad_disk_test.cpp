@@ -1,5 +1,5 @@
-// The journal on a disk whose nth writing call fails, is torn or is lost, and on a computer that loses power after it:
-// what was acknowledged is there, and nothing wrong is trusted.
+// Journal on a disk whose nth writing call fails, is torn or is lost, and after a power loss at that call: acknowledged
+// entries exist, and no wrong value is accepted.
 #include "bad_disk.hpp"
 
 #include <gmock/gmock.h>
@@ -14,20 +14,20 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What a program knows of its journal as it ends.
+/// Knowledge of the program about its journal at its end.
 struct Known {
     struct Acknowledged {
         std::int64_t number = 0;
         std::string text;
-        std::int64_t calls = 0;  ///< of the disk, when the program heard of it
+        std::int64_t calls = 0;  ///< number of disk calls at the acknowledgement
     };
-    /// Calls of the disk when each was done; -1: it was not.
+    /// Number of disk calls when each step was done; -1: not done.
     struct Run {
-        std::string kept;  ///< the value that was kept last
+        std::string kept;  ///< last kept value
         std::int64_t opening = -1, closing = -1, closed = -1;
     };
     std::vector<Acknowledged> entries;
-    std::map<std::int64_t, Run> runs;  ///< by their numbers
+    std::map<std::int64_t, Run> runs;  ///< by run number
 };
 
 /// A program with a journal: writes, waits for each answer, and closes.
@@ -52,7 +52,7 @@ class Program {
         });
         answered.get_future().wait();
     }
-    /// With an entry behind it, so that the test knows when it is done.
+    /// With an entry after it, so that the test notices its completion.
     void keep(const std::string& value) {
         if (!journal_) return;
         journal_->keep("machine", value);
@@ -132,7 +132,7 @@ class OnABadDisk : public AJournal, public testing::WithParamInterface<Scenario>
     ~OnABadDisk() override {
         for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) std::filesystem::remove(state_ + end);
     }
-    /// Every writing call, or some of them, the first and the last among them.
+    /// Every writing call, or a selection with the first and the last.
     std::vector<std::int64_t> chosen(std::int64_t calls, std::uint64_t everyday) const {
         const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", everyday, 100));
         std::vector<std::int64_t> out;
@@ -147,7 +147,7 @@ class OnABadDisk : public AJournal, public testing::WithParamInterface<Scenario>
         GetParam().run(program);
         return disk.calls();
     }
-    /// The file at `path` after `known`. `lies`: the disk said that it had done what it had not.
+    /// Checks the file at `path` after `known`. `lies`: the disk reported success for lost writes.
     static void check(const std::string& path, const Known& known, std::int64_t calls, bool lies) {
         const Result<std::unique_ptr<Journal>> journal = Journal::open(path);
         if (!journal) {
@@ -163,14 +163,14 @@ class OnABadDisk : public AJournal, public testing::WithParamInterface<Scenario>
         for (const Known::Acknowledged& one : known.entries) {
             if (one.calls > calls) continue;
             ASSERT_TRUE(lies || there.count(one.number) == 1) << "entry " << one.number << " was acknowledged";
-            // A disk that loses what it said it had may have a number given twice.
+            // A disk that loses confirmed writes may cause a number to be assigned twice.
             if (!lies) {
                 ASSERT_EQ(there[one.number], one.text);
             }
         }
         check_trust((*journal)->before(), known, calls, lies);
     }
-    /// What is trusted is what the last run kept before it began to close, and a run that was closed is trusted.
+    /// The accepted value is the last one kept before closing began, and a closed run is accepted.
     static void check_trust(const std::optional<LastRun>& before, const Known& known, std::int64_t calls, bool lies) {
         const bool trusted = before && before->clean && before->doubts.empty();
         if (trusted) {

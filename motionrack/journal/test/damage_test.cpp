@@ -1,4 +1,4 @@
-// What a journal notices of damage and of changes by hand.
+// Detection of damage and of manual changes in a journal.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 class ADamagedJournal : public AJournal {
   protected:
-    /// A run that ended by itself, with three entries and where the machine stood.
+    /// A run with a regular end, three entries and the machine positions.
     void make() {
         remove();
         auto journal = open();
@@ -29,7 +29,7 @@ class ADamagedJournal : public AJournal {
         std::ifstream in(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
-    /// What the next run makes of it.
+    /// Result of the next run.
     LastRun next() const {
         auto journal = open();
         return journal && journal->before() ? *journal->before() : LastRun{};
@@ -155,7 +155,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
     EXPECT_THAT(refused.error().message, HasSubstr("Nothing was started. Keep the file"));
 }
 
-/// A disk that lost the last writes to it: the file begins as it did before it had tables.
+/// A disk that lost the last writes: the file starts as it was before it had tables.
 TEST_F(ADamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
     make();
     change("PRAGMA wal_checkpoint(TRUNCATE)");
@@ -196,7 +196,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
                 testing::AllOf(HasSubstr("none of these runs"), HasSubstr("Nothing was started. Keep the file")));
 }
 
-/// As a program that was killed leaves it: what was written last is in the log beside the file.
+/// As left by a killed program: the last writes are in the log beside the file.
 TEST_F(ADamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
     for (const char* mode : {"PRAGMA journal_mode = WAL", "PRAGMA journal_mode = DELETE"}) {
         make();

@@ -1,4 +1,4 @@
-// What a journal leaves behind when it ends, and how much it takes before.
+// State of a journal after its end, and its size before.
 #include <gmock/gmock.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// What a journal does where the disk fails under it: it says so once and for all, and never ends clean.
+// A journal on a failing disk: it reports the failure permanently and never ends regularly.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -18,12 +18,12 @@ using testing::IsEmpty;
 
 class AJournalOnABadDisk : public AJournal {
   protected:
-    /// Until the journal has noticed; the end of a test that fails is its time limit.
+    /// Waits until the journal reports a failure; the time limit of the test applies.
     static std::string failure_of(const Journal& journal) {
         while (journal.failure().empty()) std::this_thread::yield();
         return journal.failure();
     }
-    /// The run has no clean end, which the next one sees.
+    /// Checks that the next run sees no regular end.
     void expect_no_clean_end(std::unique_ptr<Journal> journal) const {
         const Result<void> closed = journal->close();
         ASSERT_FALSE(closed);

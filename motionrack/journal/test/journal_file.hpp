@@ -1,4 +1,4 @@
-// A journal in a file of its own, and other hands on that file.
+// A journal in a separate file, and direct changes of that file.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class AJournal : public testing::Test {
         EXPECT_TRUE(journal) << journal.error().message;
         return journal ? std::move(*journal) : nullptr;
     }
-    /// Waits until it is on disk.
+    /// Writes an entry and waits until it is on disk.
     static std::int64_t write(Journal& journal, std::string kind, std::string text) {
         std::promise<std::int64_t> number;
         journal.write(Instant{7}, std::move(kind), std::move(text), "{}",
@@ -38,14 +38,14 @@ class AJournal : public testing::Test {
         return number.get_future().get();
     }
 
-    /// As another program would change the file.
+    /// Changes the file as another program would.
     void change(const char* sql) const {
         sqlite3* file = nullptr;
         ASSERT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
         EXPECT_EQ(sqlite3_exec(file, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(file);
         sqlite3_close(file);
     }
-    /// As another program sees the file.
+    /// Reads the file as another program does.
     std::map<std::int64_t, std::string> all_entries() const {
         std::map<std::int64_t, std::string> out;
         sqlite3* file = nullptr;

@@ -1,4 +1,4 @@
-// What a journal promises: in order, on disk when it says so, whole after any end of the program.
+// Guarantees of a journal: in order, on disk when acknowledged, complete after any end of the program.
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <sys/stat.h>
@@ -154,20 +154,20 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
     EXPECT_EQ(journal->read({0, "order", 1000})->size(), 800u);
 }
 
-/// Writes as fast as it can and tells each number through the pipe once it is acknowledged.
+/// Writes at maximum rate and sends each number through the pipe once it is acknowledged.
 [[noreturn]] void write_until_killed(const std::string& path, int pipe_in) {
     auto journal = Journal::open(path);
     if (!journal) ::_exit(1);
     for (int i = 0;; ++i) {
         (*journal)->write(Instant{i}, "order", "order " + std::to_string(i), {},
                           [pipe_in, i](const Result<std::int64_t>& number) {
-                              if (!number) return;  // too many wait for the disk: refused, not acknowledged
+                              if (!number) return;  // queue full: refused, not acknowledged
                               const std::int64_t told[2] = {*number, i};
                               if (::write(pipe_in, told, sizeof told) != sizeof told) ::_exit(2);
                           });
         (*journal)->keep("line", std::to_string(i));
         if (i % 16 == 15) std::this_thread::yield();
-        if (i % 4096 == 4095) ::usleep(1000);  // lets the queue empty
+        if (i % 4096 == 4095) ::usleep(1000);  // allows the queue to empty
     }
 }
 

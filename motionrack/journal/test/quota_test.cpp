@@ -1,4 +1,4 @@
-// A journal within its quota.
+// Quota of a journal.
 #include <gmock/gmock.h>
 
 #include <filesystem>

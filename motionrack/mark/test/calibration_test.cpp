@@ -1,4 +1,4 @@
-// Calibration: the numbers of the formulas, and what a simulated machine was really set to.
+// Calibration: numbers of the formulas, and the actual settings of a simulated machine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -50,7 +50,7 @@ TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
     double squares = 0, uncertainty = 0;
     constexpr int trials = 2000;
     unsigned state = 12345;
-    const auto noise = [&] {  // twelve even numbers are nearly a bell curve of sigma 1
+    const auto noise = [&] {  // the sum of twelve uniform numbers is nearly normal with sigma 1
         double sum = -6;
         for (int i = 0; i < 12; ++i) state = state * 1664525u + 1013904223u, sum += (state >> 8) / 16777216.0;
         return sum * sigma;
@@ -69,7 +69,8 @@ TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
 }
 
 TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
-    // The cross' upright, marked on the simulated belt; where it is on the part says how late the mirrors are.
+    // The vertical line of the cross, marked on the simulated belt; its offset on the part gives the delay of the
+    // mirrors.
     const auto shift = [](double speed, int tracking_error_us) {
         JobRead read = read_job(
             "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal_mirrors = false\ndead_time_us = "

@@ -1,6 +1,6 @@
-// The fuzz targets' seeds and many damaged copies of them; what must always hold is in mark_fuzz.hpp.
+// Seeds of the fuzz targets and many damaged copies of them; mark_fuzz.hpp contains the invariants.
 //
-// MOTIONRACK_SEED and MOTIONRACK_JOBS in the environment choose another and a longer run.
+// The environment variables MOTIONRACK_SEED and MOTIONRACK_JOBS select another and a longer run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<std::string> corpus(const char* name) {
     return out;
 }
 
-/// A few bytes changed, taken out, doubled, or brought from another seed.
+/// Changes, removes or duplicates a few bytes, or inserts some from another seed.
 std::string damaged(std::string text, const std::vector<std::string>& seeds, motionrack::fuzz::Random& random) {
     for (std::uint32_t n = random.below(4) + 1; n > 0 && !text.empty(); --n) {
         const std::size_t at = random.below(static_cast<std::uint32_t>(text.size())), length = random.below(12) + 1;

@@ -1,4 +1,4 @@
-// Jobs from their text, run.
+// Runs jobs from their text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline MarkingJob job_of(const std::string& text) {
     return read.job.value_or(MarkingJob{});
 }
 
-/// All that is wrong with a job, one a line.
+/// Returns all errors of a job, one per line.
 inline std::string errors_of(const std::string& text) {
     std::string out;
     for (const Error& error : read_job(text, "j.toml").errors) out += error.text() + "\n";
@@ -37,7 +37,7 @@ inline MarkingOutcome run(const MarkingJob& job, const std::string& svg = square
     return *out;
 }
 
-/// Why it does not run.
+/// Returns the reason why the job does not run.
 inline std::string refusal(const MarkingJob& job, const std::string& svg = square_svg) {
     const Result<Prepared> prepared = prepare(job, one_file(svg));
     if (!prepared) return prepared.error().text();

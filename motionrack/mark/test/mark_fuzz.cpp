@@ -13,8 +13,7 @@ namespace motionrack::mark::fuzz {
 
 namespace {
 
-constexpr double max_run_s =
-    0.02;  // of marks, of a drawing that is marked: runs are a hundred times slower with sanitizers
+constexpr double max_run_s = 0.02;  // of marks and of a marked drawing: runs are a hundred times slower with sanitizers
 
 bool finite(Spot p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
@@ -32,7 +31,7 @@ std::string drawing_problem(const Drawing& drawing) {
 
 std::string error_problem(const Error& error, std::string_view text) {
     if (error.message.empty()) return "an error without words";
-    // G-code takes a carriage return alone as the end of a line, too.
+    // G-code also accepts a single carriage return as a line end.
     const auto lines = std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }) + 1;
     if (error.place.line < 0 || error.place.line > lines || error.place.column < 0)
         return fmt::format("the place {}:{} is not in a text of {} lines: {}", error.place.line, error.place.column,
@@ -46,7 +45,7 @@ std::string picture_problem(const std::string& text) {
     return "";
 }
 
-/// Marks it for a little while.
+/// Runs the job for a short time.
 std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::string_view text) {
     if (length_of(prepared.drawing) > max_run_s * job.pace.mark_mm_s) return "";
     const Result<MarkingOutcome> out = run_job(job, prepared, {{}, [] { return true; }});
@@ -80,7 +79,7 @@ std::string check_job(std::string_view text) {
     for (const Error& error : read.errors)
         if (const std::string wrong = error_problem(error, text); !wrong.empty()) return wrong;
     if (!read.job) return "";
-    read.job->optics.correction = false;  // making a lens's table is the same work each time, and long
+    read.job->optics.correction = false;  // generating the table of a lens is slow and always the same
     const Load load = [](const std::string& path) -> Result<std::string> {
         if (path.find("ngc") != std::string::npos) return "G21 G90 G0 X1 Y1\nG1 X5 F100\nG3 X5 Y6 I0 J2.5\nM2\n";
         if (path.find("svg") != std::string::npos)

@@ -1,8 +1,8 @@
-// What must hold of marking jobs and drawings, whatever bytes they are made of.
+// Invariants of marking jobs and drawings for any input bytes.
 //
-//   drawing   it is refused with a place that is in the text, or every coordinate is a number and it has some lines
-//   job       it is read or has errors with places, never both; what is read runs, or is refused, or is stopped;
-//             the part's picture, table and page are made of any outcome
+//  drawing   it is rejected with a position inside the text, or has some lines and only finite coordinates
+//  job       it is read or has errors with positions, never both; a valid job runs, is refused, or is stopped;
+//            picture, table and page can be made of any outcome
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace motionrack::mark::fuzz {
 
-/// The first byte says what the others are: SVG, G-code or a text. "" or what does not hold.
+/// The first byte selects the kind: SVG, G-code or text. Returns the violated invariant, or "".
 std::string check_drawing(std::string_view bytes);
 
 std::string check_job(std::string_view text);

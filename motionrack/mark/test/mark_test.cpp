@@ -12,11 +12,11 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
+/// Reference job: a square of 10 mm starting at its corner, at 500 mm/s on a belt at 100 mm/s.
 const std::string mark_belt_job =
     "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 500\n[belt]\nvelocity_mm_s = 100\n";
 
-/// Whether a point was marked within `near_mm`, as the end of a piece.
+/// Returns true if a point within `near_mm` was marked as the end of a segment.
 bool has_corner(const Marked& marked, Spot corner, double near_mm) {
     for (const parts::MarkedPoint& p : marked.points)
         if (std::hypot(p.at.x - corner.x, p.at.y - corner.y) <= near_mm) return true;
@@ -76,7 +76,7 @@ TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
     MarkingJob job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
     const MarkingOutcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
-    // 0.08 s and a little until the last corner; the field ends at 60.57 mm.
+    // 0.08 s and slightly more until the last corner; the field ends at 60.57 mm.
     EXPECT_GT(*out.fits_factor, 6);
     EXPECT_LT(*out.fits_factor, 9);
     job.belt.speed = 100 * *out.fits_factor;

@@ -1,4 +1,4 @@
-// Parts one after the other: starts, track delay, numbers, what is lost.
+// Consecutive parts: starts, track delay, numbers, lost parts.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Squares of 10 mm that take 80 ms and a little, on parts at 200 mm/s.
+/// Squares of 10 mm that take slightly more than 80 ms, on parts at 200 mm/s.
 std::string squares(const std::string& parts, const std::string& fly = "mode = 'encoder'") {
     return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 500\n[belt]\nvelocity_mm_s = "
            "200\ncounts_per_mm "
@@ -31,7 +31,7 @@ TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
     EXPECT_LE(out.on.deviation.worst_mm, 0.005);
-    // Without correction each part has the corners of the formula: 200 mm/s over 20 ms is 4 mm.
+    // Without correction each part has the corners of the formula: 200 mm/s for 20 ms gives 4 mm.
     ASSERT_TRUE(out.off);
     for (const PartMarked& part : out.off->parts) EXPECT_NEAR(part.deviation.worst_mm, 16, 0.1);
 }
@@ -68,7 +68,7 @@ TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
 }
 
 TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
-    // 10 mm are 50 ms: every second part comes while the square before it is marked.
+    // 10 mm take 50 ms: every second part arrives while the previous square is being marked.
     const MarkingJob job = job_of(squares("count = 6\nspacing_mm = 10\ntrack_delay_mm = 20\n"));
     const MarkingOutcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 6u);
@@ -80,7 +80,7 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
     }
     EXPECT_NEAR(out.on.deviation.missing_mm, 120, 1e-9);
     EXPECT_THAT(outcome_text(job, out), HasSubstr("part 2: its start at 0.1500"));
-    // It fits when the way of a part takes longer than its square.
+    // It fits if the spacing of the parts takes longer than a square.
     ASSERT_TRUE(out.fits_factor);
     EXPECT_TRUE(out.starts_limit);
     EXPECT_NEAR(*out.fits_factor * 200, 10 / (out.on.parts[0].end_s - out.on.parts[0].begin_s), 4)
@@ -89,14 +89,14 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
 
 TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
     const MarkingOutcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
-    // At 160 mm the ninth edge comes, the first part is due at 170 mm.
+    // At 160 mm the ninth edge arrives; the first part is due at 170 mm.
     for (std::size_t i = 0; i < 10; ++i)
         EXPECT_EQ(out.on.parts[i].fate, i == 8 ? PartOutcome::lost_too_many : PartOutcome::marked) << i;
     EXPECT_NEAR(out.on.parts[8].begin_s, 160.0 / 200, 2e-5);
 }
 
 TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
-    // 0.0123 mm are 12.3 counts: the card counts 60012 of them from start to start, and none gets lost on the way.
+    // 0.0123 mm are 12.3 counts: the card counts 60012 from start to start, without cumulative loss.
     const MarkingOutcome out = run(job_of(squares("count = 6\nspacing_mm = 60.0123\nstart = 'equidistant'\n")));
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(out.on.parts[i].fate, PartOutcome::marked);
@@ -122,7 +122,7 @@ TEST(MarkLine, EachPartGetsItsNumber) {
         EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.004) << i;
         EXPECT_EQ(out.on.parts[i].deviation.missing_mm, 0) << i;
     }
-    // What the third got is not what the second should have.
+    // The third part received another drawing than intended for the second.
     const Prepared prepared = *prepare(job, one_file(""));
     const PartMarked& third = out.on.parts[2];
     const auto points = std::span(out.on.points).subspan(third.first_point, third.points);

@@ -1,4 +1,4 @@
-// Every stretch in which the corrected position was outside the field.
+// All intervals in which the corrected position was outside the field.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,7 @@ struct LogSink final : rtc5::Sink {
     OverflowLog& log;
 };
 
-/// Jumps and marks about the field's edges while the simulated belt carries everything on.
+/// Jumps and marks near the field edges while the simulated belt moves the output.
 Engine card_with_a_list() {
     Engine card;
     EXPECT_TRUE(card.simulate_encoder(3));
@@ -51,7 +51,7 @@ TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
     ASSERT_TRUE(card.run_to_rest(1'000'000, &sink));
     log.finish(card.tick());
 
-    // The same card, asked after each tick: reading clears bits 0 to 3.
+    // The same card, queried after each tick: reading clears bits 0 to 3.
     struct Seen {
         int bit;
         std::int64_t from, to;

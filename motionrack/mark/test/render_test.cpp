@@ -48,7 +48,7 @@ std::vector<std::string> titles(const Shown& s) {
     return out;
 }
 
-/// Well-formed, and every number in it is one.
+/// Checks that the SVG is well-formed and every number in it is finite.
 void expect_drawable(const std::string& svg) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str())) << svg;

@@ -1,4 +1,4 @@
-// SVG as drawings: numbers by hand, refusals with their places, and damaged files.
+// SVG drawings: manually computed numbers, rejections with positions, and damaged files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string refusal(const std::string& text) {
     const Result<Drawing> out = read_svg(text, "d.svg");
     return out ? "not refused" : out.error().text();
 }
-/// Without a size user units are mm and Y is mirrored about 0.
+/// Without a size, user units are mm and Y is mirrored about 0.
 Drawing path(const std::string& d) {
     return read("<svg><path d=\"" + d + "\"/></svg>");
 }

@@ -1,4 +1,4 @@
-// Points, their texts and keys; values of grids and draws; what a hostile text may be.
+// Points, their texts and keys; values of grids and random draws; hostile texts.
 #include <gmock/gmock.h>
 
 #include <motionrack/sweep/sweep.hpp>
@@ -139,7 +139,7 @@ TEST(Point, GivesTheSameRowAgain) {
 }
 
 TEST(Point, HasLostStepsThoughItFoundThemAgainByChance) {
-    // A motor that falls out of step there and back stands where it was sent in the end.
+    // A motor that loses steps in both directions may end at its commanded position.
     PointText point;
     point.rack = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n";
     point.program = "G21 G90\nG1 X20 F3000\nX0\n";

@@ -1,4 +1,4 @@
-// Thinning: extremes of series stay, paths stay near.
+// Decimation: series keep their extremes, paths stay within tolerance.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,4 +1,4 @@
-// Of any number of samples so many are kept, and the worst deviation whichever sample it belongs to.
+// Keeps a bounded number of any number of samples, and always the maximum deviation.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Differences that were planted are found: name, instant, both values; equal files are equal.
+// Known differences are found with name, instant and both values; equal files are equal.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -35,7 +35,7 @@ RC_GTEST_PROP(DiffOfRecordings, FindsAnEventThatComesATickLater, ()) {
     const PlainRecording a = busy(4000);
     PlainRecording b = a;
     const std::size_t i = *rc::gen::inRange<std::size_t>(10, 3990);
-    if (a.events[i].signal >= 3) return;  // levels that do not change are not recorded
+    if (a.events[i].signal >= 3) return;  // unchanged levels are not recorded
     ++b.events[i].at;
     const Diff diff = diff_of(a, b);
     RC_ASSERT(diff.differences.size() == 1u);
@@ -87,7 +87,7 @@ TEST(DiffOfRecordings, OfOneThatWasCutOffGoesAsFarAsThatOneDoes) {
         ASSERT_TRUE(writer);
         first.write(*writer);
         writer->flush(Instant{first.events.back().at + 1});
-        // What has not ended is read beside its writer.
+        // An unfinished file is read beside its writer.
         const auto diff = diff_files(scratch.path("cut.h5.new"), scratch.path("whole.h5"));
         ASSERT_TRUE(diff) << diff.error().text();
         EXPECT_TRUE(diff->same()) << diff_text(*diff, "cut", "whole");

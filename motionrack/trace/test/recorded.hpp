@@ -1,4 +1,4 @@
-// Recordings made of plain lists, and a referee that reads them with nothing but the lists.
+// Recordings made of plain lists, and a reference reader based on the lists alone.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ struct PlainSample {
 /// A recording as lists: X with steps and an encoder, Y a servo with an encoder, a switch and a counter.
 struct PlainRecording {
     RecordingHead head;
-    std::vector<PlainEvent> events;  ///< in the order of time
+    std::vector<PlainEvent> events;  ///< in time order
     std::vector<PlainSample> samples;
     RecordingEnd end;
 
@@ -64,7 +64,7 @@ struct PlainRecording {
         return writer.close(end);
     }
 
-    /// What a reader must find: of levels only what changes.
+    /// Expected content: for levels only changes.
     std::vector<std::pair<std::int64_t, std::int64_t>> expected(std::size_t signal) const {
         std::vector<std::pair<std::int64_t, std::int64_t>> out;
         std::int64_t last = head.signals[signal].initial;
@@ -97,7 +97,7 @@ inline std::vector<std::pair<std::int64_t, std::int64_t>> events_of(const Record
     return out;
 }
 
-/// So many events of all signals, `apart` ticks from one to the next, and a sample every ten of them.
+/// A number of events of all signals, `apart` ticks from one to the next, and a sample every ten events.
 inline PlainRecording busy(std::size_t events, std::int64_t apart = 1250) {
     PlainRecording out;
     std::int64_t count[5] = {0, 0, -3, 1, 6400};

@@ -1,4 +1,4 @@
-// Recordings: everything that went in comes out, also of a file that was cut off; damage is told and never crashes.
+// Recordings: all data is read back, also from a truncated file; damage is reported and never crashes.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 #include <sys/wait.h>
@@ -112,9 +112,9 @@ RC_GTEST_PROP(ReportJson, KeepsEveryBitOfANumber, (double value, std::int64_t wh
     RC_ASSERT(back->notes[0] == text);
 }
 
-// ---- cut off
+// ---- truncated
 
-/// Writes until it kills itself, with a flush after every `flush` events and events after the last one.
+/// Writes until it kills itself, with a flush after every `flush` events and more events after the last flush.
 void write_and_die(const PlainRecording& plain, const std::string& path, std::size_t flush) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
@@ -157,7 +157,7 @@ TEST(Recording, OfAKilledProgramHasAllThatWasFlushed) {
 
 // ---- damage
 
-/// Reads all of it; whether that succeeded, and a sentence if it did not.
+/// Reads all of it; returns whether that succeeded, and a sentence if not.
 bool read_all(const std::string& path) {
     const auto reader = RecordingReader::open(path);
     if (!reader) {
@@ -198,7 +198,7 @@ TEST(Recording, ThatWasDamagedIsToldAndNeverTakenForGood) {
         put_bytes(scratch.path("bad.h5"), bytes);
         unharmed += read_all(scratch.path("bad.h5"));
     }
-    // Space that nothing uses may hold anything.
+    // Unused space may contain any data.
     EXPECT_LT(unharmed, 200);
 }
 

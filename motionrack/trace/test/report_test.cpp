@@ -1,4 +1,4 @@
-// The report's page: what it holds, that nothing of a run can break out of it, and how large it may become.
+// Report page: its content, escaping of all run data, and its maximum size.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A run of `samples` along a circle of 20 mm by two axes, with one spike of the speed at two thirds of it.
+/// A run of `samples` along a circle of 20 mm by two axes, with a velocity spike at two thirds.
 ReportData circle(std::size_t samples) {
     ReportData data;
     data.title = "Circle";
@@ -178,7 +178,7 @@ TEST(Report, ThinningKeepsExtremesAndStaysNearThePath) {
     const auto x = unpacked(drawing["driven"]["x"]), y = unpacked(drawing["driven"]["y"]);
     ASSERT_GT(x.size(), 50U);
     EXPECT_LT(x.size(), samples / 10);
-    for (std::size_t i = 1; i < x.size(); ++i) {  // the middle of each chord, where an arc is farthest from it
+    for (std::size_t i = 1; i < x.size(); ++i) {  // the middle of each chord, where the arc deviates most
         EXPECT_NEAR(std::hypot((x[i] + x[i - 1]) / 2, (y[i] + y[i - 1]) / 2), 20, 0.0015);
     }
 }

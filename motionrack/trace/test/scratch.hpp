@@ -1,4 +1,4 @@
-// A folder for the files of one test, gone when the test is over.
+// Folder for the files of one test, removed after the test.
 #pragma once
 
 #include <cstdlib>

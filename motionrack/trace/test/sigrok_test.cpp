@@ -1,4 +1,4 @@
-// A stranger reads our VCD: sigrok-cli counts the steps and the quadrature counts of a generated file.
+// Independent check of the VCD output: sigrok-cli counts the steps and quadrature counts of a generated file.
 //
 //     sigrok-cli -I vcd -i run.vcd -P counter:data=x_step:data_edge=rising -A counter=edge_count
 //     sigrok-cli -I vcd -i run.vcd -P stepper_motor:step=x_step:dir=x_dir -A stepper_motor=position
@@ -19,7 +19,7 @@ namespace {
 constexpr int forward = 700;
 constexpr int backward = 300;
 
-/// A step, direction, A and B wire of an axis that goes `forward` steps and `backward` steps back, 10 us each.
+/// Step, direction, A and B wires of an axis that moves `forward` steps and `backward` steps back, 10 us each.
 void write_moves(const std::string& path, Duration timescale) {
     VcdSettings settings;
     settings.timescale = timescale;
@@ -47,7 +47,7 @@ void write_moves(const std::string& path, Duration timescale) {
     ASSERT_TRUE(vcd->close(now));
 }
 
-/// The numbers that sigrok-cli prints after "decoder-1: ".
+/// Returns the numbers that sigrok-cli prints after "decoder-1: ".
 std::vector<int> ask(const std::string& path, const std::string& input, const std::string& decoder,
                      const std::string& row) {
     const std::string command =
@@ -86,7 +86,7 @@ TEST_P(SigrokReads, AsManyStepsAndCountsAsWereWritten) {
     ASSERT_FALSE(rising.empty());
     EXPECT_EQ(rising.back(), forward + backward);
 
-    // The decoders of motors and encoders tell each place when it is left, so the last one told is one step short.
+    // Motor and encoder decoders report a position when it is left, so the last report is one step short.
     const auto places = ask(path, GetParam().input, "stepper_motor:step=x_step:dir=x_dir", "stepper_motor=position");
     ASSERT_EQ(places.size(), static_cast<std::size_t>(forward + backward - 1));
     EXPECT_EQ(places[forward - 1], forward);

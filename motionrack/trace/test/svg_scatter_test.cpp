@@ -1,4 +1,4 @@
-// Dots and maps: everything is drawn, nothing breaks out, no number is drawn that is none.
+// Dots and maps: all data is drawn, all text is escaped, all coordinates are finite.
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Pictures as SVG: what they hold and what range they choose.
+// SVG pictures: content and value ranges.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The VCD writer: its bytes, names, times and what it says when the disk is full.
+// VCD writer: bytes, names, times, and errors on a full disk.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

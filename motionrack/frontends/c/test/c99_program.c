@@ -1,4 +1,4 @@
-/* A C99 program that drives a card through motionrack/c.h and checks what comes of it. */
+/* A C99 program that drives a card through motionrack/c.h and checks the results. */
 #include <math.h>
 #include <motionrack/c.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ static double part(mr_rack* rack, const char* name) {
     return value;
 }
 
-/* The example at the head of motionrack/c.h. */
+/* The example in the header comment of motionrack/c.h. */
 static void the_headers_example_runs(void) {
     mr_rack* rack = NULL;
     uint16_t low = 0;
@@ -96,7 +96,7 @@ static void the_headers_example_runs(void) {
     mr_rack_close(rack);
 }
 
-/* Registers by name, the machine's truth, a limit switch by hand. */
+/* Registers by name, true values of the machine, a manually forced limit switch. */
 static void a_limit_switch_stops_the_drive(void) {
     mr_rack* rack = NULL;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
@@ -120,7 +120,7 @@ static void a_limit_switch_stops_the_drive(void) {
     mr_rack_close(rack);
 }
 
-/* A copy lives its own life; with the same calls it is the same. */
+/* A copy is independent; the same calls give the same results. */
 static void a_snapshot_is_a_world_of_its_own(void) {
     mr_rack *rack = NULL, *copy = NULL;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
@@ -139,7 +139,7 @@ static void a_snapshot_is_a_world_of_its_own(void) {
     mr_rack_close(copy);
 }
 
-/* A broken encoder track: the counter stands while the machine moves. */
+/* A broken encoder line: the counter stops while the machine moves. */
 static void a_broken_track_stops_the_counter(void) {
     mr_rack* rack = NULL;
     CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);

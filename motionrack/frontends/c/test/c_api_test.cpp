@@ -1,4 +1,4 @@
-// motionrack/c.h from outside: bad calls give codes and sentences, never a crash; the library shows nothing else.
+// motionrack/c.h from outside: invalid calls give codes and sentences, never a crash; the library exports nothing else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <motionrack/c.h>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A rack that is closed at the end.
+/// A rack that is closed on destruction.
 class Open {
   public:
     explicit Open(const char* text = "card.c1 = \"mcx314\"") { code = mr_rack_open(text, &rack); }
@@ -133,7 +133,7 @@ TEST(CApi, EachThreadHasItsOwnLastError) {
     EXPECT_EQ(mr_last_error(), here);
 }
 
-/// What nm says: the names that the library shows.
+/// Names exported by the library, from nm.
 TEST(CApi, TheLibraryShowsNothingButItsFunctions) {
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" MOTIONRACK_C_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);

@@ -1,4 +1,4 @@
-// The call-back of conditions: each once, in order, at its instant, and what it may call.
+// Condition callback: each condition once, in order, at its instant; the calls allowed inside it.
 #include <gmock/gmock.h>
 
 #include <motionrack/frontends/c/test/world.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A motor that cannot start with 40,000 pulses a second: it falls out of step, which is a condition.
+/// A motor that cannot start at 40,000 pulses per second: it loses steps, which is a condition.
 constexpr const char* weak_axis = R"(
 [card.c1]
 type = "mcx314"
@@ -29,13 +29,13 @@ struct Heard {
     friend bool operator==(const Heard&, const Heard&) = default;
 };
 
-/// Keeps what it hears, and with it the rack's time then.
+/// Records the reported conditions with their simulated time.
 struct Ear {
     mr_rack* rack = nullptr;
     std::vector<Heard> heard;
     std::vector<std::uint64_t> now_ns;
     void (*also)(Ear& ear) = nullptr;
-    std::vector<std::pair<int, std::string>> answers;  ///< of calls that it made
+    std::vector<std::pair<int, std::string>> answers;  ///< of calls inside the callback
 
     static void call(void* user, std::uint64_t number, std::int64_t at, const char* card, int code,
                      const char* sentence) {
@@ -58,14 +58,14 @@ std::vector<Heard> told(World& world, std::uint64_t since = 0) {
     return ear.heard;
 }
 
-/// Drives X for ever, at once with full speed.
+/// Drives X continuously, at full velocity from the start.
 void drive(World& world) {
     world.set_up(1, 4000);
     world.command(1, 0x04, 4000);
     world.write(0x00, 0x0122);
 }
 
-/// With a push on the way, and a stop at once.
+/// Pushes the table during the motion, and stops at once.
 void drive_and_stop(World& world, std::uint64_t step) {
     drive(world);
     for (std::uint64_t at = 0; at < 600'000'000; at += step) {

@@ -1,12 +1,12 @@
-/* The maker's two demonstration programs for the DataBoard 4002, his functional test and his examples, run port by
- * port, with what comes of them checked. */
+/* The manufacturer's two demonstration programs for the DataBoard 4002, the functional test and the examples, executed
+ * port by port with their results checked. */
 #include "databoard4002_host.h"
 
 /* ---- what is to be expected
  * ----------------------------------------------------------------------------------------------- */
 
-/* How long `counts` take by the description: each count at the least of the speed of the distance travelled, that of
- * the distance to go, and Rate; a rate r makes 400 kHz / (16384 - r). */
+/* Duration of `counts` according to the description. Each count uses the lowest speed of three: by the distance
+ * travelled, by the distance to go, and Rate. A rate r gives 400 kHz / (16384 - r). */
 static uint64_t leg_ns(long counts, unsigned stretch, unsigned rate) {
     uint64_t ns = 0;
     long done;
@@ -24,7 +24,7 @@ static uint64_t leg_ns(long counts, unsigned stretch, unsigned rate) {
     return ns;
 }
 
-/* One leg as the demonstration goes it, with its result. */
+/* One move of the demonstration, with its result. */
 static void leg(host* h, const listing* l, unsigned target, unsigned stretch, unsigned rate) {
     const long from = position(h), to = (long)target * 256, way = to > from ? to - from : from - to;
     const uint64_t start = mr_now_ns(h->rack), expected = leg_ns(way, stretch, rate);
@@ -32,7 +32,7 @@ static void leg(host* h, const listing* l, unsigned target, unsigned stretch, un
     go_position(h, l, target, 200000ull * MS);
     took = mr_now_ns(h->rack) - start;
     CHECK(position(h) == to);
-    /* The commands before G and after the event come on top; between two speeds the period that runs is finished. */
+    /* Adds the commands before G and after the event; between two speeds the current period is completed. */
     CHECK(took > expected - 10 * MS && took < expected + 120 * MS);
     if (took <= expected - 10 * MS || took >= expected + 120 * MS)
         fprintf(stderr, "%s to %u: %.4f s, expected %.4f s\n", l->name, target, (double)took * 1e-9,
@@ -132,7 +132,7 @@ static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listin
 /* ---- the description's own examples
  * --------------------------------------------------------------------------------------- */
 
-/* "Uppstart av 4002": its points 2 to 8. */
+/* "Uppstart av 4002": items 2 to 8. */
 static void the_functional_test_passes(void) {
     host h = host_open();
     CHECK(in(&h, STAT) == 0xff); /* nobody is chosen yet */
@@ -163,7 +163,7 @@ static long number_from(host* h, int command, int bytes) {
     return (long)(value ^ sign) - (long)sign;
 }
 
-/* Ten pulses to the left, as the page about C2 has it; then on by N, back by P, the end told by an interrupt. */
+/* Ten pulses to the left, as on the page about C2; then forward by N, back by P, with an interrupt at the end. */
 static void numbers_positions_and_interrupts(void) {
     host h = host_open();
     unsigned round;
@@ -206,7 +206,7 @@ static void numbers_positions_and_interrupts(void) {
     mr_rack_close(h.rack);
 }
 
-/* C3 and INP 7 in the middle of a move: 0 V at once, Ready, and the mark in the EVENT word. */
+/* C3 and INP 7 during a move: 0 V at once, Ready, and the flag in the EVENT word. */
 static void both_resets_stop_at_once(void) {
     int all;
     for (all = 0; all <= 1; ++all) {

@@ -21,7 +21,7 @@ static int failures = 0;
         }                                                                                 \
     } while (0)
 
-/* The names and numbers of both listings. */
+/* Names and numbers of both listings. */
 enum { DATA = 0, STAT = 1, CS = 1, C2 = 3, C3 = 4, C4 = 5, RST = 7, CARD = 13 };
 enum { READY = 0x80, LEFT = 0x40, RIGHT = 0x20, EMERGENCY = 0x10, EVENT = 0x02, INTERRUPT = 0x01 };
 enum { T_STATE = 250, BUS = 250, MS = 1000000 };
@@ -113,7 +113,7 @@ static const unsigned acceleration[INTERVALS][2] = {
     {16284, 60},  {16292, 70},  {16298, 80},  {16304, 105}, {16312, 130}, {16316, 150}, {16322, 180}, {16326, 215},
     {16330, 250}, {16332, 290}, {16334, 330}, {16336, 365}, {16338, 400}, {16340, 450}, {16342, 500}, {16344, 600}};
 
-/* What differs between the two listings. */
+/* Differences between the two listings. */
 typedef struct {
     const char* name;
     unsigned ready_looks;   /* before "unit never ready" */
@@ -121,9 +121,8 @@ typedef struct {
     uint64_t event_look_ns; /* the same in the loop that waits for an event */
     uint64_t call_ns;       /* from the return of one access to the first look for the next */
     unsigned stretch_2; /* positions of slope type 2: the BASIC program doubles them, the assembler program does not */
-    /* 0: a text that was put on the screen has cost STAT, and the stops after it are not reported. As printed, PRINTSTR
-     * of the assembler program leaves its function code for OS8 in A; which bits it has is not, and here none is a
-     * stop's. */
+    /* 0: displaying a text overwrites STAT, so that later stops are not reported. As printed, PRINTSTR of the assembler
+     * program leaves its function code for OS8 in A. Its bits are not printed; none is assumed to be a stop bit. */
     int keeps_status;
     const char *left, *right, *emergency, *in_position, *fatal;
 } listing;
@@ -141,7 +140,7 @@ static const listing assembler = {"assembler",
                                   "EMERGENCY STOP.",
                                   "IN POSITION.",
                                   "FATAL ERROR, UNIT NOT READY!!!!!!"};
-/* A statement of an interpreter is taken as a millisecond. */
+/* Assumes one millisecond per interpreted statement. */
 static const listing basic = {"basic",
                               100,
                               2 * MS,
@@ -218,13 +217,13 @@ static void store_slope(host* h, const listing* l, unsigned stretch) {
     out_strobe(h, l, C2, 'O');
 }
 
-/* One of the stops in STAT; gives the rest of STAT. */
+/* Reports one of the stops in STAT; returns the remaining bits of STAT. */
 static uint8_t say_stop(host* h, const listing* l, const char* text, uint8_t status) {
     say(h, text);
     return l->keeps_status ? status : 0;
 }
 
-/* GOPOSIT; FNGoPosition, 1860. Gives up (which the programs do not) when nothing happens for `patience_ns`. */
+/* GOPOSIT; FNGoPosition, 1860. Unlike the programs, gives up if nothing happens for `patience_ns`. */
 static void go_position(host* h, const listing* l, unsigned target, uint64_t patience_ns) {
     uint8_t event = 0;
     out_strobe(h, l, C2, 'P');
@@ -254,7 +253,7 @@ static void go_position(host* h, const listing* l, unsigned target, uint64_t pat
     }
 }
 
-/* QUIT; FNQuit, 2620: the user takes a second to press a key. */
+/* QUIT; FNQuit, 2620: the user presses a key after one second. */
 static void quit(host* h, const listing* l) {
     say(h, l->in_position);
     pass(h, 1000 * MS);

@@ -1,4 +1,4 @@
-/* A C99 program that reads encoders with motionrack/flex2pos.h. It ends with 0 if everything was as it should be. */
+/* A C99 program that reads encoders with motionrack/flex2pos.h. Exits with 0 if all checks pass. */
 #include <motionrack/flex2pos.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@ static void expect(int good, const char* what) {
     ++wrong;
 }
 
-/* A line of an encoder, by hand, for 2 us. */
+/* Forces a line of an encoder for 2 us. */
 static void set(mr_rack* rack, const char* wire, int level) {
     expect(mr_wire_set(rack, wire, level) == MR_OK, wire);
     expect(mr_advance_ns(rack, 2000) == MR_OK, "time");
@@ -24,7 +24,7 @@ static void line_of_axis_1(mr_rack* rack) {
     set(rack, "p1.b1", 0);
 }
 
-/* Images of one's own: made, checked, loaded. */
+/* User-defined images: made, checked, loaded. */
 static void images(flex2pos* flex) {
     static const uint8_t reversed[flex2pos_payload] = {1, 0, 1, 0, 1, 0, 1, 0};
     uint8_t image[100];

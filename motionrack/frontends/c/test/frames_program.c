@@ -1,4 +1,5 @@
-/* A C99 program that reads the scales of one instant from two cards of a grating bus, one of which only listens. */
+/* A C99 program that reads the scales of one instant from two cards of a grating bus, one of which is a listener only.
+ * */
 #include <motionrack/c.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +19,7 @@ static const char* const crate =
     "[card.host]\ntype = \"grating_bus\"\naddresses = \"5, 2, 9\"\n"
     "[card.slave]\ntype = \"grating_bus\"\naddresses = \"5, 2, 9\"\n";
 
-/* So many counts forward on scale 2. */
+/* Moves scale 2 forward by `counts`. */
 static void turn(mr_rack* rack, int counts) {
     for (int i = 0; i < counts; ++i) {
         CHECK(mr_wire_set(rack, i % 2 == 0 ? "decoder.a2" : "decoder.b2", i % 4 < 2) == MR_OK);

@@ -1,4 +1,4 @@
-// Recordings over the C interface whose disk is full: what a failed end leaves, and what helps.
+// Recordings over the C interface on a full disk: the file after a failed close, and the recovery.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A second of a drive, recorded; the disk is full at 0.4 s and at the end, or never.
+/// Records one second of a drive; the disk is full at 0.4 s and at the end, or never.
 std::string recorded(const std::string& path, bool full) {
     World world;
     world.set_up(1, 4000);
@@ -41,7 +41,7 @@ std::string recorded(const std::string& path, bool full) {
     return text;
 }
 
-/// Without the times of a VCD file at which nothing changes: one may be left where the file would have ended.
+/// Removes times of a VCD file without changes: one may remain where the file would have ended.
 std::string without_empty_times(const std::string& vcd) {
     std::string out;
     std::istringstream lines(vcd);

@@ -1,4 +1,4 @@
-// Recordings of HDF5 over the C interface, read back by the C++ reader.
+// HDF5 recordings over the C interface, read back by the C++ reader.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using Changes = std::vector<std::pair<std::int64_t, std::int64_t>>;  // instant in ticks, value
 
-/// What the recording has of a signal, its value at the beginning left out.
+/// Changes of a signal in the recording, without its initial value.
 Changes read(const trace::RecordingReader& recording, const std::string& name) {
     const trace::RecordedSeries* series = recording.find(name);
     EXPECT_NE(series, nullptr) << name;
@@ -31,7 +31,7 @@ Changes read(const trace::RecordingReader& recording, const std::string& name) {
     return out;
 }
 
-/// The same of a table of changes.
+/// As above for a table of changes.
 Changes of_csv(const std::string& text, const std::string& name, double unit = 1) {
     std::istringstream lines(text);
     Changes out;
@@ -48,7 +48,7 @@ Changes of_csv(const std::string& text, const std::string& name, double unit = 1
     return out;
 }
 
-/// A second of a drive of X.
+/// Records one second of a drive of X.
 void record(const std::string& path, const char* signals) {
     World world;
     world.set_up(1, 4000);
@@ -130,7 +130,7 @@ TEST(CHdf5, AnEndThatHasNoRoomIsToldAndTheFileDoesNotTakeItsName) {
     World world;
     world.set_up(1, 4000);
     const std::string h5 = temporary("end.h5"), part = h5 + ".new";
-    for (const rlim_t beyond : {0, 1, 500, 2'000}) {  // what is written until then fits
+    for (const rlim_t beyond : {0, 1, 500, 2'000}) {  // data written up to that point fits
         SCOPED_TRACE(beyond);
         ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
         world.command(1, 0x06, 500);

@@ -1,5 +1,5 @@
-// Random calls of motionrack/c.h with good and bad arguments: each returns a code, an error has its sentence and
-// changes nothing, and what is copied stays the same.
+// Random calls of motionrack/c.h with valid and invalid arguments: each returns a code, an error has its sentence and
+// changes nothing, and a copy stays the same.
 #include <gtest/gtest.h>
 #include <motionrack/c.h>
 
@@ -155,7 +155,7 @@ TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
     }
 }
 
-/// Any output at any input: the rack is refused, or runs whatever is written to the card.
+/// Any output connected to any input: the rack is rejected, or runs with any data written to the card.
 TEST(CHostile, RacksWithRandomWiresRunOrAreRefused) {
     const std::uint64_t seed = seed_given();
     std::mt19937_64 random(seed);

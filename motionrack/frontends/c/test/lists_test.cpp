@@ -1,4 +1,4 @@
-// mr_quantities and mr_faults: all that the rack itself knows, with ranges that are true.
+// mr_quantities and mr_faults: everything known to the rack, with correct ranges.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -55,7 +55,7 @@ std::vector<Fault> faults(mr_rack* rack) {
     return out;
 }
 
-/// A rack of each type of card alone, and the examples' with everything that parts have.
+/// A rack of each card type alone, and those of the examples with all parts.
 std::vector<std::string> racks() {
     std::vector<std::string> out = {with_switches};
     for (const rack::CardKind& kind : rack::card_kinds()) out.push_back(fmt::format("card.c1 = \"{}\"", kind.type));
@@ -64,7 +64,7 @@ std::vector<std::string> racks() {
                                 "15_panel/demonstration.toml", "16_probe/machine.toml", "grating_bus/crate.toml"})
         if (std::filesystem::exists(source_root / "examples" / example))
             out.push_back((source_root / "examples" / example).string());
-    // The encoder of an axis as wires, to another card.
+    // Encoder lines of an axis, wired to another card.
     out.emplace_back(
         "[card.c1]\ntype = \"mcx314\"\n[card.i1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n"
         "encoder_counts_per_rev = 4000\n[wires]\n\"i1.a0\" = \"X.enc_a\"\n\"i1.b0\" = \"X.enc_b\"\n");
@@ -127,7 +127,7 @@ TEST_P(CLists, HaveEveryFaultThatTheRackCanHaveWithItsRange) {
         };
         for (const double good : {one.min, one.max, std::clamp(1.0, one.min, one.max)})
             EXPECT_EQ(inject(good), MR_OK) << one.target << " " << one.name << " " << good << mr_last_error();
-        if (one.min == 0 && one.max == 1 && one.unit.empty()) continue;  // whatever is not 0 breaks it
+        if (one.min == 0 && one.max == 1 && one.unit.empty()) continue;  // any nonzero value is the fault
         const double beyond = 1e-3 * std::max(1.0, one.max) + 1;
         EXPECT_EQ(inject(one.max + beyond), MR_REFUSED) << one.target << " " << one.name;
         EXPECT_EQ(inject(one.min - beyond), MR_REFUSED) << one.target << " " << one.name;

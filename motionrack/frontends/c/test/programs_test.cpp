@@ -1,4 +1,4 @@
-// Programs one after the other in a rack: each begins where the axes stand.
+// Programs in sequence on one rack: each starts at the current axis positions.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -83,7 +83,7 @@ TEST(CPrograms, WhatTheHostMovedByRegistersIsKnown) {
     run(world, to_15_10, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("Axis X moves at"));
     world.pass(1'000'000'000);
-    world.command(1, 0x09, 12'345);  // the card's counter is the host's
+    world.command(1, 0x09, 12'345);  // the host owns the card's counter
     const mr_run_result result = run(world, to_15_10);
     EXPECT_NEAR(result.path_mm, 9 + 10, 1e-9) << "from 5 mm + 640 pulses";
     EXPECT_LT(result.deviation_mm, 0.02);
@@ -206,7 +206,7 @@ TEST(CPrograms, AfterAnEmergencyStopAxesAreHomedAndProgramsRunAgain) {
     stands_at(world, 15, 10);
 }
 
-// ---- an axis that positions by itself
+// ---- a self-positioning axis
 
 constexpr const char* carriage = R"(
 [card.board]

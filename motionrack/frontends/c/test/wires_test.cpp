@@ -60,7 +60,7 @@ TEST(CWires, PulsesCanBeSeenAtTheirPin) {
     world.write(0x00, 0x010F);
     world.command(1, 0x00, 8'000'000);
     world.command(1, 0x04, 1000);
-    world.command(1, 0x05, 1000);  // a pulse each ms, half of it high
+    world.command(1, 0x05, 1000);  // one pulse per ms, with 50 % duty cycle
     world.command(1, 0x06, 3);
     world.write(0x00, 0x0120);
     int rises = 0;
@@ -82,7 +82,7 @@ TEST(CWires, EncoderInputsCountWhatTheyAreDrivenWithAndThenTheEncoderAgain) {
     EXPECT_EQ(world.peek("x.EP"), 1000);
     EXPECT_EQ(world.wire("c1.xeca"), 0);  // count 1000: lines 00
     EXPECT_EQ(world.wire("X.enc_a"), 0);
-    // Four counts forward by hand: A, then B, then A and B back.
+    // Four counts forward by forced lines: A, then B, then A and B back.
     const std::pair<const char*, int> edges[] = {
         {"c1.xeca", 1}, {"c1.xecb", 1}, {"c1.xeca", 0}, {"c1.xecb", 0}, {"c1.xeca", 1}};
     std::int64_t count = 1000;
@@ -107,7 +107,7 @@ TEST(CWires, EncoderInputsCountWhatTheyAreDrivenWithAndThenTheEncoderAgain) {
     EXPECT_EQ(world.part("X.position_counts"), 3000);
 }
 
-/// With COMP+ on EP: a count by hand crosses it.
+/// With COMP+ on EP: a manual count crosses it.
 TEST(CWires, EncoderInputsByHandAreComparedToo) {
     World world;
     world.write(0x00, 0x010F);
@@ -121,7 +121,7 @@ TEST(CWires, EncoderInputsByHandAreComparedToo) {
     EXPECT_EQ(world.peek("x.RR1") & 1, 1);
 }
 
-/// By hand at an encoder that is connected, and at inputs that are open.
+/// Manually, at a connected encoder and at open inputs.
 TEST(CWires, UpAndDownPulsesAreCountedWhereTheCardIsToldSo) {
     const std::string open = std::string(with_switches) + "[wires]\nc1.xeca = \"open\"\nc1.xecb = \"open\"\n";
     for (const char* text : {one_card, open.c_str()}) {

@@ -1,4 +1,4 @@
-// Whole worlds over the C interface: copies, hashes, registers by name, recordings; and the same world over C++.
+// Complete racks over the C interface: copies, hashes, registers by name, recordings; and the same rack over C++.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Some life on all axes: an arc of X and Y, a drive of U with its index followed.
+/// Motion on several axes: an arc of X and Y, a drive of U with its index input monitored.
 void begin_motion(World& world) {
     world.set_up(0xF, 2000);
     world.command(1, 0x06, 0);
@@ -77,7 +77,7 @@ TEST(CWorld, ACopyIsIndependentAndGoesTheSameWay) {
     EXPECT_EQ(third.peek("u.LP"), -5000);
 }
 
-/// The same motion over C, over the Session below it and over a plain rack: the same history of wires, the same place.
+/// The same motion over C, over the Session below it and over a plain rack: the same event trace and the same position.
 TEST(CWorld, IsTheWorldOfTheCppRack) {
     World world;
     begin_motion(world);

@@ -1,4 +1,4 @@
-/* A C99 program against mcx314lib.h: every function has the type that its source tells, and a line is driven. */
+/* A C99 program against mcx314lib.h: every function has the type of its source, and a line is driven. */
 #include <mcx314lib.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,7 +24,7 @@ typedef void (*set_counter)(int, unsigned);
 typedef unsigned (*read_counter)(int);
 typedef void (*nothing)(void);
 
-/* The argument lists of the source; what differs does not compile. */
+/* Argument lists of the source; a mismatch does not compile. */
 const one_int one[] = {SetRange, SetMaxSpeed, SLMTP, SLMTM, SLMTSig, EnableALM, EnableInPos};
 const two_ints two[] = {SetPulseMode, SetMultiple, SetSV,       SetV,         SetA,   SetD,     SetAA,    SetAO,
                         Pulse,        ManualDec,   ManDec,      SetC,         SetCP,  SetP,     SetFP,    HLMTP,

@@ -1,5 +1,4 @@
-// Chips, errors, time, homing, manual operation, contours and bit patterns over the C library; what it shows to the
-// linker.
+// Chips, errors, time, homing, manual operation, contours and bit patterns over the C library; exported names.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -29,7 +28,7 @@ limit_minus_mm = -2
 limit_plus_mm = 302
 home_mm = 1
 )";
-constexpr int home_input = 0x0002;  // IN0 enabled, acts at Low
+constexpr int home_input = 0x0002;  // IN0 enabled, active low
 
 // ---- chips
 
@@ -228,7 +227,7 @@ TEST(Mcx314libHome, EveryTypeEndsAtHome) {
         const Open chip(with_home);
         SetRange(800'000);
         EXPECT_EQ(mcx314_home_axes(x), 0);
-        home(home_input | 0x10, 50, 600, 100);  // IN2, the index, acts at High
+        home(home_input | 0x10, 50, 600, 100);  // IN2, the index, active high
         EXPECT_STREQ(mcx314_last_error(), "");
         EXPECT_EQ(mcx314_moving(all), 0);
         EXPECT_EQ(ReadLPS(x), 0u);

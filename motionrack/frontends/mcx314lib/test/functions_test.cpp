@@ -1,4 +1,4 @@
-// Every function of the source once, with what it writes.
+// Every function of the source once, with the values it writes.
 #include <gtest/gtest.h>
 
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
@@ -13,7 +13,7 @@ struct Seen {
     std::int64_t value;
 };
 
-/// A call, on a chip that is set up and stands, and what is seen after it.
+/// A call on an initialised, stationary chip, and the expected state afterwards.
 struct Row {
     const char* function;
     void (*call)();

@@ -1,5 +1,4 @@
-/* Moves axis X of a real card and says where it stands: live_program PORT, as in port:/dev/port,offset=0x300,width=8.
- */
+/* Moves axis X of a real card and prints its position: live_program PORT, e.g. port:/dev/port,offset=0x300,width=8. */
 #include <mcx314lib.h>
 #include <stdio.h>
 

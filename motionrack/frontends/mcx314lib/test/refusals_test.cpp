@@ -1,4 +1,4 @@
-// Every function of the source with an argument that it refuses.
+// Every function of the source with an argument that it rejects.
 #include <gmock/gmock.h>
 
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A call that is refused, and what its sentence tells.
+/// A rejected call and the text of its sentence.
 struct Refused {
     const char* function;
     void (*call)();
@@ -182,7 +182,7 @@ const Refused refusals[] = {
     {"mcx314_set_wire", [] { EXPECT_EQ(mcx314_set_wire("c1.xlmtp", 2), -1); }, "2"},
 };
 
-/// All that the library could have written, and whether an axis drives.
+/// Registers that the library could have written, and whether an axis is driving.
 std::vector<std::int64_t> written() {
     std::vector<std::int64_t> out = {peek("WR4"), peek("WR5"), peek("RR0")};
     for (const char* axis : {"x.", "y.", "z.", "u."})
@@ -207,7 +207,7 @@ TEST(Mcx314lib, WhatIsRefusedTellsTheRangeAndWritesNothing) {
     }
 }
 
-/// Of the functions of the header, those that take nothing wrong, and those that bench_test.cpp refuses.
+/// Functions of the header without invalid arguments, and those rejected in bench_test.cpp.
 TEST(Mcx314lib, EveryFunctionThatCanBeRefusedIsAmongThese) {
     std::set<std::string> left = declared_functions();
     for (const Refused& row : refusals) left.erase(row.function);

@@ -1,4 +1,4 @@
-// What the source says of drives, arcs and stops, with its functions alone.
+// Statements of the source about drives, arcs and stops, checked with its functions only.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -75,7 +75,7 @@ TEST(Mcx314libDrives, SetDDecidesTheDecelerationUntilItIsTurnedOff) {
     const double alike = seconds();
     SetD(x, 100);
     const double slow_end = seconds();
-    // The fall takes 312 ms instead of 78; half of the 234 ms more were driven at speed before.
+    // The deceleration takes 312 ms instead of 78; half of the extra 234 ms were driven at full speed before.
     EXPECT_NEAR(slow_end - alike, 0.117, 0.01);
     EXPECT_EQ(mcx314_asymmetric(x, 0), 0);
     EXPECT_NEAR(seconds(), alike, 1e-4);
@@ -103,7 +103,7 @@ TEST(Mcx314libArcs, OfAnyTwoAxesGoTheirWayRound) {
                 SCOPED_TRACE(std::string(arc.name) + " " + std::to_string(first) + std::to_string(second));
                 const int right = masks[first], up = masks[second];
                 LPS(all, 0);
-                // A full circle from its leftmost point: clockwise it rises first.
+                // A full circle from its leftmost point: clockwise, Y rises first.
                 CIRCLEDATA circle = {100, 1000, 400, 0, {}, {}};
                 circle.C[first] = 500;
                 arc.draw(&circle, right + up);
@@ -123,7 +123,7 @@ TEST(Mcx314libArcs, WithATCurveDecelerateAtThePointOfManualDec) {
     for (const ArcFunction& arc : arcs) {
         if (!arc.trapezoid) continue;
         for (const bool early : {true, false}) {
-            // 8 arcs of 45 degrees, each as long as its side: 8 * 354 basic pulses.
+            // 8 arcs of 45 degrees, each with the length of its side: 8 * 354 basic pulses.
             ManualDec(x, early ? 1'000 : 2'800);
             CIRCLEDATA circle = {100, 2000, 400, 0, {0, 0, 0, 0}, {500, 0, 0, 0}};
             arc.draw(&circle, x + y);

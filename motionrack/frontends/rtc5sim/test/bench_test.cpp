@@ -1,4 +1,4 @@
-// Cards, time, errors, files, what comes to a card, and the names over the C library.
+// Cards, time, errors, files, inputs of a card, and the exported names of the C library.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -76,7 +76,7 @@ TEST(Rtc5simCards, AWrongNumberOfCardsIsRefused) {
 
 TEST(Rtc5simTime, ALoopThatAsksForTheStatusComesToAnEnd) {
     const Session session;
-    load_line(10'000);  // 10 bits a tick
+    load_line(10'000);  // 10 bits per tick
     execute_list(1);
     UINT busy = 0, position = 0;
     int questions = 0;
@@ -280,7 +280,7 @@ TEST_F(Rtc5simFiles, ACompensationTableIsUsed) {
     EXPECT_EQ(output_x(), 100);
 }
 
-// ---- what comes to a card
+// ---- inputs of a card
 
 TEST(Rtc5simInputs, TheBeltMovesTheOutput) {
     const Session session;
@@ -288,7 +288,7 @@ TEST(Rtc5simInputs, TheBeltMovesTheOutput) {
     execute_list(1);
     rtc5sim_run(1000);
     const int begin = output_x();
-    EXPECT_EQ(rtc5sim_encoder_speed(1, 0, 200'000), 0);  // 2 counts a tick
+    EXPECT_EQ(rtc5sim_encoder_speed(1, 0, 200'000), 0);  // 2 counts per tick
     rtc5sim_advance_us(10'010);
     EXPECT_EQ(output_x() - begin, 5000);
     EXPECT_EQ(rtc5sim_encoder_speed(1, 0, 0), 0);

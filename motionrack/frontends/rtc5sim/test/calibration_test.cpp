@@ -1,5 +1,5 @@
-// The scale of the correction by position words, found as the manual prints it (1.10 d, page 198): read_mcbsp, move,
-// read_mcbsp, i = (end - start) / distance, scale = K / i; and the mark is then where it should be on the part.
+// Scale of the correction by position words, determined as in the manual (1.10 d, page 198): read_mcbsp, move,
+// read_mcbsp, i = (end - start) / distance, scale = K / i. The mark is then at its intended position on the part.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 constexpr double k = 5184;  // bits/mm
 
-/// A belt that stands at first; its sender gives one axis, or X and Y in one word.
+/// A belt that is stationary at first; its source sends one axis, or X and Y in one word.
 std::string standing_belt(double direction_deg, bool two_axes) {
     return fmt::format(
         "[card.scan]\ntype = \"rtc5\"\nlist_memory = 16000\n"
@@ -37,7 +37,7 @@ struct Mm {
     double x = 0, y = 0;
 };
 
-/// How far the part has gone: what is measured with a rule.
+/// Distance moved by the part, as measured with a ruler.
 Mm gone(double direction_deg) {
     const double way = true_of("line.position_mm"), angle = direction_deg * std::acos(-1.0) / 180;
     return {way * std::cos(angle), way * std::sin(angle)};
@@ -50,14 +50,14 @@ void run_list() {
     while (status & 1) get_status(&status, &position);
 }
 
-/// A word of two axes, taken apart as rtc5sim.h says.
+/// Splits a word of two axes as described in rtc5sim.h.
 Mm halves(long word) {
     return {static_cast<double>(static_cast<std::int16_t>(word & 0xFFFF)),
             static_cast<double>(static_cast<std::int16_t>(word >> 16))};
 }
 
-/// A line of 10 mm from (0, 0) in the direction of X while the part goes by, its correction switched on by `correct`;
-/// how far from that line the laser was at most, in the part's coordinates, mm.
+/// Marks a line of 10 mm from (0, 0) along X while the part passes, with the correction enabled by `correct`. Returns
+/// the maximum distance of the laser from that line in part coordinates, mm.
 template <class Correct>
 double worst_of_a_mark(double direction_deg, Correct correct) {
     drive(100);
@@ -151,7 +151,7 @@ TEST(Rtc5simCalibration, AsPrintedForOneAxisAlongXAndAlongY) {
     }
 }
 
-/// Both increments from location 0, bits/mm.
+/// Both increments from position 0, bits/mm.
 Mm increments(double direction_deg) {
     const Mm start = halves(read_mcbsp(0)), from = gone(direction_deg);
     drive(100), rtc5sim_advance_us(300'000), drive(0), rtc5sim_advance_us(1000);

@@ -1,4 +1,4 @@
-// The card's table of control commands beside rtc5sim.h: the same names, the same parameters, the same ranges.
+// The card's table of control commands matches rtc5sim.h: the same names, parameters and ranges.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -19,9 +19,9 @@ using rtc5::ControlParam;
 using rtc5::Engine;
 
 struct Declared {
-    bool answers = false;                 ///< no void
+    bool answers = false;                 ///< not void
     std::vector<std::string> parameters;  ///< by value
-    std::size_t places = 0;               ///< pointers, for answers
+    std::size_t places = 0;               ///< number of pointers to results
 };
 
 std::map<std::string, Declared> declared_commands() {

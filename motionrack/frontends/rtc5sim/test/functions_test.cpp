@@ -1,4 +1,4 @@
-// Every command once: over the library and on the card itself it does the same.
+// Every command once: the library and the card itself give the same result.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -326,7 +326,7 @@ TEST(Rtc5simCommands, EveryControlCommandDoesWhatTheCardDoes) {
 }
 
 TEST(Rtc5simCommands, TheCommandsOfTheseTestsShowInWhatTheCardDoes) {
-    // The comparison is worth something only if it would see an exchanged or lost parameter.
+    // The comparison must detect an exchanged or missing parameter.
     const Did without = by_card(nullptr, nullptr);
     for (const Row& row : list_rows)
         for (const std::string_view name : {"arc_abs", "micro_vector_rel", "set_fly_rot", "set_matrix_list"})

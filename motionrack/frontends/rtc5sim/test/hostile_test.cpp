@@ -1,5 +1,5 @@
-// What the C library makes of wrong numbers, places, words and files: a sentence, the board's bits, and the state as it
-// was.
+// Invalid numbers, positions, words and files in the C library: each gives a sentence and the board's error bits and
+// leaves the state unchanged.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
 
-/// The call before was refused with this bit and a sentence that has `words`.
+/// Checks that the previous call was rejected with this bit and a sentence that contains `words`.
 void refused(UINT bit, const char* words) {
     EXPECT_EQ(get_last_error(), bit) << rtc5sim_last_error();
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr(words));

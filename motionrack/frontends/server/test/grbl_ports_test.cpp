@@ -1,4 +1,4 @@
-// Senders at the TCP port and at the pseudo-terminal of a machine that runs as fast as it can.
+// Senders at the TCP port and at the pseudo-terminal of an unthrottled machine.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ using testing::StartsWith;
 
 const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
-/// A client's end: what it says, and what it hears until a text comes (10 s at most).
+/// Client end: sends text and reads until an expected text arrives (10 s at most).
 class Client {
   public:
     static Client tcp(std::uint16_t port) {
@@ -46,7 +46,7 @@ class Client {
     void say(const std::string& text) {
         ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
     }
-    /// Up to and with `end`; what comes behind it is kept.
+    /// Reads up to and including `end`; keeps the rest.
     std::string hear(const std::string& end) {
         const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         while (heard_.find(end) == std::string::npos) {
@@ -67,7 +67,7 @@ class Client {
         say(text);
         return hear(end);
     }
-    /// Asks for the status until it has `state`.
+    /// Queries the status until it contains `state`.
     std::string until(const std::string& state) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         std::string report;
@@ -113,7 +113,7 @@ class SenderPorts : public testing::Test {
         ports_ = std::move(*opened);
         thread_ = std::thread([this] { machine_->run(); });
     }
-    /// The last setting that a sender changed; the ports say so on a thread of their own.
+    /// Last setting changed by a sender; the ports report it on their own thread.
     std::string told() {
         const std::lock_guard lock(told_mutex_);
         return told_;
@@ -154,7 +154,7 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
         Client client = terminal();
         EXPECT_EQ(client.hear(banner), banner);
         EXPECT_EQ(ports_->sender(), "pty");
-        client.say("G0 X1");  // never ended: the next client's line must not begin with it
+        client.say("G0 X1");  // unterminated: the next client's line must not begin with it
         client.say("?");
         EXPECT_THAT(client.hear(">\r\n"), StartsWith("<Idle|"));
         client.say("?");  // never read

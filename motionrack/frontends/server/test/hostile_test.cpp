@@ -1,4 +1,4 @@
-// What no good client does: malformed, too much, too many; and the motion that must not notice.
+// Misbehaving clients: malformed, too large and too many requests; the motion must be unaffected.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -188,7 +188,7 @@ TEST(AHostileStream, ThatReadsNoAnswersIsLetGo) {
     EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
 }
 
-/// Holds `count` connections, each of which says something else.
+/// Holds `count` connections, each with different input.
 std::list<WebClient> crowd(const Running& running, int count) {
     std::list<WebClient> out;
     for (int i = 0; i < count; ++i) {
@@ -217,7 +217,7 @@ std::vector<std::array<std::int64_t, 3>> path_of_the_job(int connections, int& r
         EXPECT_NE(answer.message(), "");
         ++refused;
     }
-    // All open_connections are taken by connections that keep them: STOP is heard all the same.
+    // All seats are occupied by connections that keep them: STOP is executed nevertheless.
     if (connections > 0) {
         EXPECT_EQ(running.client().ask("GET", "/api/status").status, 503);
         EXPECT_EQ(running.client().ask("POST", "/api/stop").status, 200);

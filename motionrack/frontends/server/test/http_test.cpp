@@ -1,4 +1,4 @@
-// What is asked by HTTP: the page, pairing, queries, orders, STOP, and who may.
+// HTTP requests: the page, pairing, queries, commands, STOP, and permissions.
 #include <gmock/gmock.h>
 
 #include "running.hpp"

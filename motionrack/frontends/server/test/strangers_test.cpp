@@ -1,4 +1,4 @@
-// Those who have no token: what they may take and write, and that STOP is heard beside all of it.
+// Unauthenticated clients: limits of their connections and audit entries; STOP is executed in spite of them.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <fmt/format.h>

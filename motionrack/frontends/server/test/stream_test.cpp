@@ -1,4 +1,4 @@
-// WebSocket clients: pictures, orders, control, reloads.
+// WebSocket clients: snapshots, commands, control, reloads.
 #include <gmock/gmock.h>
 
 #include "running.hpp"
@@ -119,7 +119,7 @@ TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
         WebClient anna = running.master("anna");
         ASSERT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 1}, {"sequence", 1}}).value("done", false));
         anna.receive_until([](const json& message) { return state_is(message, "jogging"); });
-        { WebClient bert = running.stream(running.token("bert")); }  // another one that closes ends nothing
+        { WebClient bert = running.stream(running.token("bert")); }  // closing another connection has no effect
         EXPECT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 2}, {"sequence", 2}, {"renews", true}})
                         .value("done", false));
     }
@@ -146,7 +146,7 @@ TEST(AStream, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
     EXPECT_TRUE(anna.order({{"order", "jog_stop"}, {"sequence", 3}}).value("done", false)) << "a stop is never too old";
 }
 
-/// What clients do wrong, while the machine drives a job and while it stands.
+/// Client errors, while the machine runs a job and while it is stationary.
 class AStreamWhile : public testing::TestWithParam<bool> {
   protected:
     static bool moving() { return GetParam(); }
@@ -155,7 +155,7 @@ class AStreamWhile : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(),
                          [](const auto& each) { return each.param ? "moving" : "standing"; });
 
-/// The path of a job that nobody disturbs.
+/// Path of an undisturbed job.
 std::vector<std::array<std::int64_t, 3>> quiet_path() {
     Running running;
     WebClient anna = running.master("anna");
@@ -194,7 +194,7 @@ TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});
     WebClient quick = running.stream("");
     ASSERT_TRUE(quick.order({{"subscribe", {{"rate_hz", 100}}}}).value("done", false));
-    // Until the slow one's buffers are full beyond doubt, everybody else gets his.
+    // Until the slow client's buffers are certainly full, all others receive their snapshots.
     for (int i = 0; i < 400; ++i) ASSERT_TRUE(quick.receive_until(is_picture).is_object());
     std::int64_t lost = 0, before = 0;
     while (lost == 0) {

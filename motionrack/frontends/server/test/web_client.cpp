@@ -1,4 +1,4 @@
-// Sockets as they are.
+// Plain sockets.
 #include "web_client.hpp"
 
 #include <arpa/inet.h>
@@ -61,7 +61,7 @@ void WebClient::send(std::string_view bytes) {
     while (!bytes.empty() && socket_ >= 0) {
         const ssize_t some = tls_ != nullptr ? ::SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size()))
                                              : ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (some <= 0) return;  // what was said is seen from the answer
+        if (some <= 0) return;  // the answer shows how much was sent
         bytes.remove_prefix(static_cast<std::size_t>(some));
     }
 }
