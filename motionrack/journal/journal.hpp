@@ -135,7 +135,7 @@ class Journal {
     std::int64_t run_ = 0;
     std::int64_t last_number_ = 0;  ///< number of the newest entry, with its chain link
     std::string last_link_;
-    std::map<std::string, std::string> seals_;  ///< of all kept values
+    std::map<std::string, std::string> seals_;  ///< seals of all kept values
     std::optional<LastRun> before_;
     mutable std::mutex reading_;
     mutable std::mutex alone_;

@@ -16,7 +16,7 @@ struct ScaleData {
     double reading1 = 0, reading2 = 0;  ///< counts or bits of the source (get_encoder, read_mcbsp)
     double distance_mm = 0;             ///< signed distance of the part between both readings
     double bits_per_mm = 0;             ///< K of the field
-    double reading_uncertainty = 0.5;   ///< of each reading, counts or bits
+    double reading_uncertainty = 0.5;   ///< counts or bits, for each reading
     double distance_uncertainty_mm = 0;
 };
 struct ScaleResult {
@@ -43,7 +43,7 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
                                       double count_uncertainty = 0.5);
 
 struct LagData {
-    std::array<double, 2> speed_mm_s{};  ///< of the part
+    std::array<double, 2> speed_mm_s{};  ///< velocities of the part
     std::array<double, 2> shift_mm{};  ///< offset of the cross from its nominal position, positive against the movement
     double shift_uncertainty_mm = 0;
 };

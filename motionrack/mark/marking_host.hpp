@@ -21,7 +21,7 @@ struct Watch {
     std::function<bool()> stop;                 ///< polled; true cancels
 };
 
-inline constexpr double max_seconds = 1000;  ///< of simulated time
+inline constexpr double max_seconds = 1000;  ///< simulated time
 
 /// Loads list 1 or 2 of a card from its start. Errors: refused if the list is too short; nothing is loaded then.
 Result<void> put_all(rtc5::Engine& card, int list, const std::vector<rtc5::Command>& commands);
@@ -31,7 +31,7 @@ struct PartRun {
     std::size_t part = 0;    ///< from 0 on
     std::size_t marked = 0;  ///< index of the drawing if it started: Prepared::of
     rtc5::StartFate fate = rtc5::StartFate::begun;
-    std::int64_t begin = 0, end = 0;  ///< of the list; of a lost start its instant
+    std::int64_t begin = 0, end = 0;  ///< list execution; a lost start: its instant
 };
 
 /// Movement of the part at the card's inputs.

@@ -77,7 +77,7 @@ struct PartsSettings {
     std::vector<double> at;  ///< replaces count and spacing: belt distance until each part reaches the sensor
     double track_delay = 0;  ///< from the sensor to the intended marking position
     PartStart start = PartStart::sensor;
-    std::int64_t first_number = 1, number_step = 1;  ///< of {n} in texts
+    std::int64_t first_number = 1, number_step = 1;  ///< values of {n} in texts
 
     std::size_t size() const { return at.empty() ? static_cast<std::size_t>(count) : at.size(); }
     std::int64_t number(std::size_t marked) const {

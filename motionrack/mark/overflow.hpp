@@ -17,7 +17,7 @@ using sim::Spot;
 
 /// Interval in which a bit of get_marking_info would have been set in each tick.
 struct Overflow {
-    std::string name, meaning;  ///< of the bit: "FLY_X_OVERFLOW"
+    std::string name, meaning;  ///< name and meaning of the bit: "FLY_X_OVERFLOW"
     double from_s = 0, to_s = 0;
     Spot field;               ///< commanded spot at from_s, mm; outside the field
     Spot part;                ///< the same spot in part coordinates, to locate it on the drawing

@@ -43,9 +43,9 @@ constexpr const char* name_of(PartOutcome fate) {
 /// Result of one part.
 struct PartMarked {
     PartOutcome fate = PartOutcome::marked;
-    std::int64_t number = 0;        ///< of {n}, if marked
+    std::int64_t number = 0;        ///< value of {n}, if marked
     std::size_t drawing = 0;        ///< Prepared::of; of a lost part the drawing it would have got
-    double begin_s = 0, end_s = 0;  ///< of its list; of a lost part the instant
+    double begin_s = 0, end_s = 0;  ///< list execution; a lost part: the instant
     parts::Deviation deviation;     ///< in part coordinates
     double marked_mm = 0;
     std::size_t first_point = 0, points = 0;  ///< in Marked::points
@@ -55,7 +55,7 @@ struct PartMarked {
 
 /// Result of one run.
 struct Marked {
-    parts::Deviation deviation;              ///< of all parts
+    parts::Deviation deviation;              ///< over all parts
     std::vector<parts::MarkedPoint> points;  ///< each in the coordinates of its part
     std::vector<PartMarked> parts;           ///< in the order of arrival; one if the job has no [parts]
     std::uint64_t lost_points = 0;

@@ -52,7 +52,7 @@ int numbers_of(char upper) {
 }
 
 struct PathState {
-    Spot control;     ///< of the last curve
+    Spot control;     ///< control point of the last curve
     char last = 'M';  ///< last command, upper case
 };
 

@@ -25,7 +25,7 @@ struct Varied {
     std::size_t at = 0;  ///< index in the parameters
     std::string name;
     bool number = false;
-    std::vector<std::string> names;  ///< of a non-numeric one, in file order
+    std::vector<std::string> names;  ///< values of a non-numeric parameter, in file order
 };
 
 struct Measure {

@@ -66,7 +66,7 @@ inline constexpr Type type_of<double> = Type::float64;
 /// Settings of a new column.
 struct ColumnSettings {
     Type type = Type::int64;
-    std::size_t text_bytes = 0;   ///< of each element, if it is text; bytes
+    std::size_t text_bytes = 0;   ///< bytes per element of text
     std::size_t chunk = 1 << 14;  ///< elements compressed and written together
     std::string unit;             ///< "s", "mm", "count"; empty: no unit
     double scale = 1;             ///< value in `unit` = stored number times this
@@ -76,7 +76,7 @@ struct ColumnSettings {
 struct Written {
     Type type = Type::int64;
     std::uint64_t size = 0;      ///< elements; bytes of an attribute
-    std::size_t text_bytes = 0;  ///< of each element, if it is text; bytes
+    std::size_t text_bytes = 0;  ///< bytes per element of text
     unsigned long checksum = 0;  ///< CRC-32 of its bytes
 
     void add(const void* data, std::size_t bytes);

@@ -40,7 +40,7 @@ struct RecordedSignal {
     std::string name;  ///< display name: "X.steps", "X.limit_plus", "motion.lp_x"
     std::string path;  ///< group in the file: "axes/x/steps"
     SignalKind kind = SignalKind::levels;
-    std::string unit;          ///< of the values: "step", "count"; empty: a level
+    std::string unit;          ///< unit of the values: "step", "count"; empty: a level
     std::int64_t initial = 0;  ///< value at the start of the recording
     double scale = 1;          ///< value in `unit` = stored value times this
     friend bool operator==(const RecordedSignal&, const RecordedSignal&) = default;
@@ -58,7 +58,7 @@ struct RecordedAxis {
 
 /// Data known before the run.
 struct RecordingHead {
-    std::string version;  ///< of the recording program
+    std::string version;  ///< version of the recording program
     std::string program_name, program;
     std::string rack_name, rack_file, rack;  ///< name of the rack, file name and text
     bool block_delete = false, stream = false;
@@ -73,11 +73,11 @@ struct RecordingHead {
 
 /// State of one axis at a sample.
 struct AxisSample {
-    double position = 0;   ///< of the rotor, mm or degrees
+    double position = 0;   ///< rotor position, mm or degrees
     double commanded = 0;  ///< by the card's pulses
     double speed = 0;      ///< mm/s or deg/s
     float accel = 0;       ///< mm/s2 or deg/s2; NaN: velocity step
-    float volts = 0;       ///< of a servo, V
+    float volts = 0;       ///< servo command, V
 };
 
 /// Named number or text of an outcome.
@@ -92,7 +92,7 @@ struct RecordingEnd {
     Instant at{};
     std::vector<OutcomeField> outcome;
     ReportData report;                  ///< without its series, which are rebuilt from the samples
-    std::size_t max_samples = 200'000;  ///< of the report, see DecimatingBuffer
+    std::size_t max_samples = 200'000;  ///< limit of the report, see DecimatingBuffer
 };
 
 class RecordingWriter {
@@ -137,7 +137,7 @@ class RecordingWriter {
 /// Times and values of one signal or sampled quantity.
 struct RecordedSeries {
     std::string name;         ///< "X.steps", "X.position"
-    std::string unit;         ///< of the values
+    std::string unit;         ///< unit of the values
     bool number = true;       ///< integer values; else double
     std::string time, value;  ///< paths of the columns
 };

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t all_chart_points = 90'000;  ///< of all charts together: about 10 bytes each
+constexpr std::size_t all_chart_points = 90'000;  ///< total of all charts: about 10 bytes each
 constexpr std::size_t max_driven = 16'000;        ///< points of the actual path: about 25 bytes each
 constexpr std::size_t max_planned = 30'000;       ///< points of the planned path: about 18 bytes each
 

@@ -12,7 +12,7 @@ namespace motionrack::trace {
 inline constexpr std::size_t max_blocks = 2000;      ///< rows of the table of blocks
 inline constexpr std::size_t max_warnings = 500;     ///< rows of the table of warnings
 inline constexpr std::size_t max_axes = 16;          ///< axes with charts
-inline constexpr std::size_t max_rows = 2000;        ///< of every other table
+inline constexpr std::size_t max_rows = 2000;        ///< rows of every other table
 inline constexpr std::size_t max_text_bytes = 2000;  ///< displayed bytes of any text of the run
 inline constexpr std::size_t max_source_bytes = 200'000;
 

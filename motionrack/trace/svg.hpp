@@ -30,9 +30,8 @@ struct Extent {
     double diagonal() const;
 };
 
-Extent extent_of_path(const ReportData& data);  ///< of the planned and the actual path
-Extent extent_of_travel(
-    const ReportData& data);  ///< of the limits of X, Y, Z; of an axis without limits that of the path
+Extent extent_of_path(const ReportData& data);    ///< planned and actual path
+Extent extent_of_travel(const ReportData& data);  ///< travel limits; path if unlimited
 /// Visible region of a path picture: includes the travel, unless the path would be too small in it.
 Extent frame_of(const ReportData& data);
 
@@ -43,14 +42,13 @@ struct SvgShade {
     std::string unit;  ///< "mm/s"
 };
 
-/// The planned and the driven path (of which at most 4,000 points each are drawn), travel, start, end, worst place,
-/// stop.
+/// Planned and actual path (at most 4,000 points each), travel, start, end, point of maximum deviation, stop.
 std::string svg_path(const ReportData& data, PathView view, const SvgLook& look = {}, const SvgShade& shade = {});
 
 struct SvgSeries {
-    std::string name;                 ///< empty: not named in the picture
+    std::string name;                 ///< empty: not labelled
     std::string look;                 ///< class of the line: "x", "y", "z", "a", "b", "c" or "d"
-    std::span<const double> seconds;  ///< what it points to must outlive the picture
+    std::span<const double> seconds;  ///< the data must outlive the picture
     std::span<const float> values;    ///< as long as seconds
 };
 

@@ -18,7 +18,7 @@ struct SvgWave {
     bool band = false;  ///< several bits: bands with values
     std::vector<std::pair<double, std::uint32_t>>
         changes;  ///< seconds in order, with the value from then on; the first at or before the start
-    std::string (*text)(std::uint32_t value) = nullptr;  ///< of a band; nullptr: hexadecimal
+    std::string (*text)(std::uint32_t value) = nullptr;  ///< band labels; nullptr: hexadecimal
     std::uint32_t rest = 0;                              ///< value of a band that is drawn pale: undriven
 };
 

@@ -17,7 +17,6 @@ namespace py = pybind11;
 
 /// Lock of the rack or card for the current thread. Throws refused if another thread holds it, or if this thread is
 /// inside a run (a progress call), which may only read.
-/// one is in the middle of a run (a progress call); there it may only look.
 class RackLock {
   public:
     /// stop: waits for the call of another thread, which the stop ends; not from within a call of this thread.

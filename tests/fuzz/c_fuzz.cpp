@@ -309,7 +309,7 @@ class Caller {
 
     Bytes& bytes_;
     mr_rack* rack_ = nullptr;
-    std::uint64_t hash_ = 0;  ///< of the rack state
+    std::uint64_t hash_ = 0;  ///< hash of the rack state
     flex2pos* flex_ = nullptr;
     std::array<std::string, 4> texts_;
     std::size_t next_ = 0;

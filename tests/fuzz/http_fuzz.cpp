@@ -21,7 +21,7 @@ using motionrack::fuzz::WebAnswer;
 
 struct Sent {
     std::vector<bool> is_head;  ///< for each complete request
-    bool is_rest_head = false;  ///< of the bytes after them
+    bool is_rest_head = false;  ///< for the bytes after them
     bool has_rest = false, is_rest_wrong = false;
 };
 

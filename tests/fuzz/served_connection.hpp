@@ -167,7 +167,7 @@ class ServedConnection {
     std::shared_ptr<server::ConnectionPool> hall_;
     std::function<bool()> step_;
     std::chrono::steady_clock::time_point until_;
-    std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< of the clocks visible to the server
+    std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< time on the clocks seen by the server
     std::string token_, unsent_, received_;
     std::size_t users_ = 0;
     std::uint64_t history_ = 0;

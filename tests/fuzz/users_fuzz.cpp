@@ -51,7 +51,7 @@ void check_user(const Authenticator& door, const Identity& user) {
     require(door.role_of(user.id, user.expires) == Role::none, "a token that has expired gives no role", user.user);
 }
 
-/// No known token matches another hash, or a hash used as a token.
+/// Unissued tokens and hashes used as tokens are rejected; a known token is accepted only if its hash is in the file.
 void check_tokens(const Authenticator& door, std::string_view text) {
     for (const std::string& wrong :
          {std::string(), std::string("TOKEN"), std::string(64, 'b'), hash_of(known_token()), std::string(64, '\0')})

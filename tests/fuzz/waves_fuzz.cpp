@@ -47,7 +47,7 @@ struct Reading {
     std::vector<std::string> signals;
     double tick_s = 0;
     std::vector<std::int64_t> times;
-    std::vector<std::uint32_t> levels;  ///< of each sample, one bit per signal
+    std::vector<std::uint32_t> levels;  ///< one word per sample, one bit per signal
     std::vector<std::string> facts;
     bool operator==(const Reading&) const = default;
 };

@@ -43,7 +43,7 @@ std::string_view name_of(Rule rule);
 struct AxisSight {
     bool enabled = true, position_valid = false;
     std::int64_t sent = 0;                    ///< pulses on the wires since the start; of a servo the motor rotation
-    std::int64_t counter = 0;                 ///< of the card
+    std::int64_t counter = 0;                 ///< pulse counter of the card
     bool driven = false;                      ///< the card generates pulses, at any rate; of a servo: false
     double commanded = 0, true_position = 0;  ///< by the counter; of the table
 };
@@ -55,7 +55,7 @@ struct Sight {
     bool latched = false;
     bool abrupt = false;  ///< ends pulses without a ramp
     int lasers_on = 0;
-    double belt_speed = 0;  ///< of all belts and tables
+    double belt_speed = 0;  ///< sum over all belts and tables
     std::vector<AxisSight> axes;
     const std::vector<operate::Alarm>* alarms = nullptr;
 };
@@ -102,7 +102,7 @@ class Invariants {
         double offset = 0;    ///< true position minus commanded when the position became valid
         Instant off_since{};  ///< start of the position error
         bool off = false;
-        double velocity = 0;    ///< of the previous interval
+        double velocity = 0;    ///< in the previous interval
         std::int64_t base = 0;  ///< pulses at the start of the interval
         std::string jumped;     ///< velocity change during the current stop
     };

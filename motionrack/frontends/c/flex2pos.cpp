@@ -24,7 +24,7 @@ struct flex2pos {
     flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)
         : session(of), config(of.rack().config()), library(port, port) {}
     const motionrack::rack::Session& session;    ///< outlives this
-    const motionrack::rack::RackConfig& config;  ///< of its rack
+    const motionrack::rack::RackConfig& config;  ///< configuration of its rack
     io::Flex2Pos library;
 };
 

@@ -215,7 +215,7 @@ Result<void> checked(rtc5::Op op, double parameter) {
     if (made) return {};
     const rtc5::ListCommandInfo& command = rtc5::info(op);
     std::string sentence = made.error().message;
-    // Removes the list's name and its consequence.
+    // Removes the command name and the list command's consequence.
     sentence.erase(0, std::min(sentence.size(), command.name.size() + 2));
     return fail(ErrorKind::refused, sentence.substr(0, sentence.rfind(';')) + "; nothing was changed");
 }

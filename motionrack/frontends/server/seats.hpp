@@ -39,7 +39,7 @@ class Seats {
     void leave(OpenConnection* open);
 
     /// Among the older quarter of the callers, closes the oldest of the network with the most callers. Returns false if
-    /// there is no such caller.
+    /// none qualifies.
     bool end_a_caller();
     void end_all(std::string_view why);
     bool empty() const { return seats_.empty() && callers_.empty(); }

@@ -40,7 +40,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     auth::ControlLease& lease_;
     const bool resets_stop_all_;
     std::unique_ptr<grbl::GrblSession> session_;
-    std::string user_ = "a sender", address_, id_ = "grbl";  ///< of the writer
+    std::string user_ = "a sender", address_, id_ = "grbl";  ///< the current writer
     bool had_control_ = false;                               ///< and no other client has taken it since
 };
 

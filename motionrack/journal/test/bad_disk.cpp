@@ -15,7 +15,7 @@ enum class Kind : std::uint8_t { write, truncate, sync, remove };
 struct Call {
     Kind kind;
     std::string path;
-    std::int64_t offset;  ///< of a truncate: the size; of a removal: whether it is synced on return
+    std::int64_t offset;  ///< truncate: the size; removal: whether it is synced on return
     std::string bytes;
 };
 

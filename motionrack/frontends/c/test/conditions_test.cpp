@@ -35,7 +35,7 @@ struct Ear {
     std::vector<Heard> heard;
     std::vector<std::uint64_t> now_ns;
     void (*also)(Ear& ear) = nullptr;
-    std::vector<std::pair<int, std::string>> answers;  ///< of calls inside the callback
+    std::vector<std::pair<int, std::string>> answers;  ///< results of calls inside the callback
 
     static void call(void* user, std::uint64_t number, std::int64_t at, const char* card, int code,
                      const char* sentence) {

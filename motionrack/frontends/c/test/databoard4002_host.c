@@ -2,7 +2,7 @@
  * port by port with their results checked. */
 #include "databoard4002_host.h"
 
-/* ---- what is to be expected
+/* ---- expected values
  * ----------------------------------------------------------------------------------------------- */
 
 /* Duration of `counts` according to the description. Each count uses the lowest speed of three: by the distance
@@ -135,7 +135,7 @@ static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listin
 /* "Uppstart av 4002": items 2 to 8. */
 static void the_functional_test_passes(void) {
     host h = host_open();
-    CHECK(in(&h, STAT) == 0xff); /* nobody is chosen yet */
+    CHECK(in(&h, STAT) == 0xff); /* no card is selected yet */
     out(&h, CS, CARD);
     CHECK(in(&h, STAT) == READY);
     out_strobe(&h, &assembler, C4, 0);

@@ -30,7 +30,7 @@ typedef struct {
     uint64_t at_ns;
     const char* wire;
     double level;
-} happening; /* something that somebody does to the machine while the program runs */
+} happening; /* external event during the program run */
 
 typedef struct {
     mr_rack* rack;

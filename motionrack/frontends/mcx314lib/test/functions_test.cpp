@@ -8,7 +8,7 @@ namespace motionrack::mcx314lib_test {
 namespace {
 
 struct Seen {
-    const char* name;  ///< of a register
+    const char* name;  ///< register name
     std::int64_t mask;
     std::int64_t value;
 };

@@ -25,7 +25,7 @@ struct WebAnswer {
 struct WebFrame {
     int kind = -1;  ///< opcode: 1 text, 2 binary, 8 close, 9 ping, 10 pong; -1: the connection has ended
     std::string text;
-    int code = 0;  ///< of a close frame
+    int code = 0;  ///< close frames only
 };
 
 class WebClient {
