@@ -1,4 +1,4 @@
-// One drive of one axis of the MCX314: the virtual chip, which computes it in closed form, against the clocked
+// One drive of one axis of the MCX314. Compares the virtual chip, which computes it in closed form, with the clocked
 // simulation that verilator makes of tests/verilog/mcx314_axis.v, if installed. Before the measurement, both are
 // checked to give the same pulses in the same ticks.
 //

@@ -9,7 +9,7 @@
 //
 // Each subject holds one message and rejects further ones. A point is therefore queued once however often it is
 // offered, and each key has one row however many workers computed it. (Message ids would do so only for some minutes,
-// and would reject a point that is offered again on purpose.) A worker answers before it acknowledges the point: if it
+// and would reject a point that is offered again on purpose.) A worker answers before it acknowledges the point. If it
 // fails in between, the point runs again and the duplicate row is rejected.
 #pragma once
 

@@ -8,9 +8,9 @@
 
 namespace motionrack::trace {
 
-/// Returns the indices to keep of a series over increasing `seconds`: the first, last, minimum and maximum of each of
-/// `buckets` equal parts, so that every extreme stays. Samples with a non-finite value or instant are dropped. Returns
-/// at most 4 * buckets indices; all valid samples if they are fewer.
+/// Returns the indices to keep of a series over increasing `seconds`. Keeps the first, last, minimum and maximum of
+/// each of `buckets` equal parts, so that every extreme stays. Samples with a non-finite value or instant are dropped.
+/// Returns at most 4 * buckets indices; all valid samples if they are fewer.
 std::vector<std::size_t> thin_series(std::span<const double> seconds, std::span<const float> values,
                                      std::size_t buckets);
 

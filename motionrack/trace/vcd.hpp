@@ -23,8 +23,8 @@ namespace motionrack::trace {
 struct VcdSettings {
     /// Time unit of the file: 1, 10 or 100 of ps (from 100 ps), ns, us, ms, or 1 s. Changes within one unit keep their
     /// order and share its time. sigrok and PulseView sample at the timescale: 1 s of 100 ps is 1e10 samples. Read such
-    /// a file with `sigrok-cli -I vcd:downsample=1000` (100 ns per sample; without it reading takes more than a
-    /// minute), or write 100 ns at once. 125 ns is not a VCD timescale; 1 ns represents its edges exactly.
+    /// a file with `sigrok-cli -I vcd:downsample=1000` (100 ns per sample), or write 100 ns at once. Otherwise
+    /// reading takes more than a minute. 125 ns is not a VCD timescale; 1 ns represents its edges exactly.
     Duration timescale{1};
     /// Writes "x_step" instead of "step" for a wire of scope x: sigrok and PulseView show the last name only.
     bool full_names = false;

@@ -47,8 +47,8 @@ struct Fault {
     std::string state;                   ///< state of a served machine afterwards; empty: see state_when_served()
     Setup setup;                         ///< settings of the group, overridden by those of the fault
 
-    /// Returns true if the fault is also tested in a served machine: faults of parts, cards and wires in a program, in
-    /// a homing, or of a stage.
+    /// Returns true if the fault is also tested in a served machine. These are faults of parts, cards and wires in a
+    /// program or a homing, and stage faults.
     bool is_served() const;
     /// Returns "error stop" if motion must stop, "standstill" if the program runs to its end.
     std::string state_when_served() const;

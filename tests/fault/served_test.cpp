@@ -1,5 +1,5 @@
-// Faults of a program run, of homing and of stages in a served machine: it ends in the state given by the catalogue,
-// with one alarm in the words of a run, and position validity as after the run.
+// Faults of a program run, of homing and of stages in a served machine. It ends in the state given by the catalogue,
+// with one alarm in the words of a run. Positions are valid as after the run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

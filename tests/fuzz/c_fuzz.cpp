@@ -1,7 +1,7 @@
 // libFuzzer: any bytes as calls of motionrack/c.h and motionrack/flex2pos.h with valid and invalid arguments, including
 // null pointers. Each call returns one of its codes. A failed call has a sentence and changes nothing: the state hash
-// and the output value stay, unless the machine stopped a program or a homing after motion. Read-only calls change
-// nothing either; a copy of a rack equals the rack; callbacks do not advance time.
+// and the output value stay. The exception is a program or a homing that the machine stopped after motion. Read-only
+// calls change nothing either; a copy of a rack equals the rack; callbacks do not advance time.
 #include <motionrack/c.h>
 #include <motionrack/flex2pos.h>
 

@@ -1,5 +1,6 @@
-// libFuzzer: any bytes patched over a complete correction file of an RTC5. Either it is rejected with a sentence, or
-// its numbers are in range, it is written back with the same bytes, and at a node a card outputs the value in the file.
+// libFuzzer: any bytes patched over a complete correction file of an RTC5. It is rejected with a sentence or accepted.
+// Accepted numbers are in range and are written back with the same bytes. At a node, a card outputs the value in the
+// file.
 //
 //  input: choice (1 byte), then patches: index of a word (3 bytes), its value (4 bytes); remaining bytes are appended
 //  choice 1: over the file of a lens   2: with a correct checksum   4: words of the planes only   8: truncated there

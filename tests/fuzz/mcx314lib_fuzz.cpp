@@ -1,5 +1,5 @@
 // libFuzzer: any bytes as calls of mcx314lib.h with valid and invalid arguments. A rejected call has a sentence that
-// begins with its name, passes it to the handler once, returns -1 and writes no register; an accepted call has no
+// begins with its name, passes it to the handler once, returns -1 and writes no register. An accepted call has no
 // sentence.
 #include <mcx314lib.h>
 

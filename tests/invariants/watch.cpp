@@ -22,7 +22,7 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
     return out;
 }
 
-/// Sections of a jerk-limited path are submitted to the card two at a time, each of at most 30 ms, and the deceleration
+/// Sections of a jerk-limited path are submitted to the card two at a time, each of at most 30 ms. The deceleration
 /// changes within the jerk limit.
 Invariants::Settings settings_of(const rack::RackConfig& config, Duration slice) {
     Invariants::Settings out;

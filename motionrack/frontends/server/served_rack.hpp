@@ -1,7 +1,7 @@
 // A rack paced by a clock, with all its clients; the members are in the order of their dependencies.
 //   clock ──► pacer ──► machine ◄──── panel ◄──── server ◄── browsers, programs
 //                         ▲ ▲           │ journal    │
-//                         │ └── lease ──┴──── door ──┘
+//                         │ └── lease ──┴──── auth ──┘
 //                         └──── Grbl ports ◄── senders
 #pragma once
 

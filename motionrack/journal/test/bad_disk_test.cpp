@@ -1,4 +1,4 @@
-// Journal on a disk whose nth writing call fails, is torn or is lost, and after a power loss at that call: acknowledged
+// Journal on a disk whose nth writing call fails, is torn or is lost, and after a power loss at that call. Acknowledged
 // entries exist, and no wrong value is accepted.
 #include "bad_disk.hpp"
 
