@@ -16,26 +16,26 @@ class FramesPage : public InFolder {};
 TEST_F(FramesPage, ShowsWhatItsCommandsPrint) {
     std::map<std::string, int> codes = run_page("docs/howto/grating_bus/frames.md");
     ASSERT_GE(codes.size(), 4u);
-    EXPECT_EQ(codes["frames examples/grating_bus/crate.toml --for 0.05 --picture frame.svg"], 0);
+    EXPECT_EQ(codes["frames examples/grating_bus/crate.toml --duration 0.05 --picture frame.svg"], 0);
     EXPECT_EQ(text_of(folder / "frame.svg"), text_of(source_root / "docs/pictures/grating_frame.svg"))
-        << "make it anew: motionrack frames examples/grating_bus/crate.toml --for 0.05 --picture "
+        << "make it anew: motionrack frames examples/grating_bus/crate.toml --duration 0.05 --picture "
            "docs/pictures/grating_frame.svg";
     EXPECT_EQ(text_of(folder / "three.svg"), text_of(source_root / "docs/pictures/grating_three_hosts.svg"))
-        << "make it anew: motionrack frames examples/grating_bus/three_hosts.toml --for 0.05 --picture "
+        << "make it anew: motionrack frames examples/grating_bus/three_hosts.toml --duration 0.05 --picture "
            "docs/pictures/grating_three_hosts.svg";
 }
 
 TEST_F(FramesPage, HostAndSlavesAgreeAndThreeHostsDoNot) {
-    const Ran crate = motionrack("frames examples/grating_bus/crate.toml --for 0.05 --json");
+    const Ran crate = motionrack("frames examples/grating_bus/crate.toml --duration 0.05 --json");
     EXPECT_EQ(crate.code, 0);
     EXPECT_THAT(crate.out, HasSubstr("\"conflicts\":0,\"agree\":true"));
-    const Ran three = motionrack("frames examples/grating_bus/three_hosts.toml --for 0.05 --json");
+    const Ran three = motionrack("frames examples/grating_bus/three_hosts.toml --duration 0.05 --json");
     EXPECT_EQ(three.code, 4);
     EXPECT_THAT(three.out, HasSubstr("\"agree\":false"));
 }
 
 TEST_F(FramesPage, WavesHaveStatesAndLinesOfEveryBit) {
-    ASSERT_EQ(motionrack("frames examples/grating_bus/crate.toml --for 0.001 -q --vcd f.vcd").code, 0);
+    ASSERT_EQ(motionrack("frames examples/grating_bus/crate.toml --duration 0.001 -q --vcd f.vcd").code, 0);
     const std::string vcd = text_of(folder / "f.vcd");
     for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31", "real 64 ",
                                "c1_state", "bus_data", "\nr12 "})
@@ -44,11 +44,11 @@ TEST_F(FramesPage, WavesHaveStatesAndLinesOfEveryBit) {
 
 TEST_F(FramesPage, WrongOptionsAndRacksAreRefused) {
     EXPECT_THAT(motionrack("frames examples/racks/carriage.toml").out, HasSubstr("grating_bus"));
-    const Ran negative = motionrack("frames examples/grating_bus/crate.toml --for -1");
+    const Ran negative = motionrack("frames examples/grating_bus/crate.toml --duration -1");
     EXPECT_NE(negative.code, 0);
-    EXPECT_THAT(negative.out, HasSubstr("--for is -1 s"));
+    EXPECT_THAT(negative.out, HasSubstr("--duration is -1 s"));
     EXPECT_THAT(motionrack("frames examples/grating_bus/crate.toml --fault bus.nix=1@0.1s").out, HasSubstr("bus.nix"));
-    const Ran refused = motionrack("frames examples/grating_bus/crate.toml --for 0.02 --fault c2.late=-5@0.01s");
+    const Ran refused = motionrack("frames examples/grating_bus/crate.toml --duration 0.02 --fault c2.late=-5@0.01s");
     EXPECT_EQ(refused.code, 0) << "the run goes on without it";
     EXPECT_THAT(refused.out,
                 HasSubstr("the fault c2.late=-5@0.01s was refused: c2 cannot have the fault late with the value -5"));

@@ -44,7 +44,7 @@ class AServedMachine : public InFolder {
 
 TEST_F(AServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
     Served served(
-        {(folder / "one.toml").string(), "--port", "0", "--no-pairing", "--users", (folder / "users.json").string()});
+        {(folder / "one.toml").string(), "--port", "0", "--no-auth", "--users", (folder / "users.json").string()});
     EXPECT_TRUE(served.post("take_control").contains("done"));
     EXPECT_TRUE(served.post("enable", {{"on", true}}).contains("done"));
     const auto refused = [&](const char* order, const json& fields, const char* sentence) {

@@ -24,7 +24,7 @@ class AServedRack : public InFolder {
               "= 1000\n");
     }
     std::vector<std::string> arguments() const {
-        return {(folder / "table.toml").string(), "--port", "0", "--no-pairing", "--journal", journal(), "--users",
+        return {(folder / "table.toml").string(), "--port", "0", "--no-auth", "--journal", journal(), "--users",
                 (folder / "users.json").string()};
     }
     std::string journal() const { return (folder / "table.journal").string(); }

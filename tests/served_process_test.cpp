@@ -83,10 +83,10 @@ TEST_F(AServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
         const char* says;
     };
     for (const auto& [options, code, says] :
-         {Bad{"--free --live bench=port:/dev/zero", 3,
+         {Bad{"--unthrottled --live bench=port:/dev/zero", 3,
               "the rack's clock is 'free' with factor 1. Nothing was started."},
           Bad{"--paused --live bench=port:/dev/zero", 3, "the rack's clock is 'paused'"},
-          Bad{"--speed 2 --live bench=port:/dev/zero", 3, "the rack's clock is 'real' with factor 2"},
+          Bad{"--time-scale 2 --live bench=port:/dev/zero", 3, "the rack's clock is 'real' with factor 2"},
           Bad{"--live m=port:/dev/zero", 3, "Card m moves X of the machine"},
           Bad{"--live other=port:/dev/zero", 2, "its cards are: m, bench"},
           Bad{"--live bench", 2, "does not say which card is where"}}) {

@@ -147,7 +147,7 @@ TEST_F(NatsSweep, AWorkerThatStandsStillIsReplacedAndItsLateRowChangesNothing) {
     const std::string whole = local_table();
     EXPECT_EQ(text_of(folder / "out.csv"), whole);
     two->signal(SIGCONT);
-    EXPECT_EQ(motionrack("sweep sweep.toml -o out.csv --fresh --nats " + url_).code, 0);
+    EXPECT_EQ(motionrack("sweep sweep.toml -o out.csv --restart --nats " + url_).code, 0);
     EXPECT_EQ(text_of(folder / "out.csv"), whole);
     EXPECT_EQ(two->end(SIGINT), 130) << said("two");
 }
@@ -185,7 +185,7 @@ TEST_F(NatsSweep, RunsAnewWithFresh) {
     auto one = worker("one");
     EXPECT_EQ(motionrack("sweep sweep.toml -o out.csv --nats " + url_).code, 0);
     const std::string whole = text_of(folder / "out.csv");
-    const Ran again = motionrack("sweep sweep.toml -o out.csv --fresh --nats " + url_);
+    const Ran again = motionrack("sweep sweep.toml -o out.csv --restart --nats " + url_);
     EXPECT_EQ(again.code, 0) << again.out;
     EXPECT_EQ(text_of(folder / "out.csv"), whole);
     EXPECT_EQ(one->end(SIGINT), 130);

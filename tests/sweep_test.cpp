@@ -84,7 +84,7 @@ TEST_F(SweepCommand, PageShowsWhatItPrintsAndDraws) {
 TEST_F(SweepCommand, GivesTheSameTableWhateverTheThreadsAndTheKills) {
     const std::string whole = table("sweep.toml -o out.csv --jobs 1");
     ASSERT_EQ(lines_of(whole).size(), 65u);
-    EXPECT_EQ(table("sweep.toml -o out.csv --jobs 2 --fresh"), whole);
+    EXPECT_EQ(table("sweep.toml -o out.csv --jobs 2 --restart"), whole);
     std::filesystem::remove(folder / "out.csv");
     for (const std::size_t rows : {3, 20, 21, 40})
         EXPECT_EQ(signal_after(SIGKILL, "sweep.toml -o out.csv --jobs 2", rows), -SIGKILL);
@@ -136,7 +136,7 @@ TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, Not(HasSubstr("before")));
     shell("sed -i 's/X120/X121/' part.ngc");
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, Not(HasSubstr("before")));
-    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv --fresh").out, Not(HasSubstr("before")));
+    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv --restart").out, Not(HasSubstr("before")));
 }
 
 TEST_F(SweepCommand, EndsOnRequestAndSaysHowToGoOn) {

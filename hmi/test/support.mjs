@@ -35,7 +35,7 @@ export async function startServer(rack = RACKS.axes, { pairing = false, live = '
     join(BUILD, 'share/motionrack/page'),
     '--users',
     join(folder, 'users.json'),
-    ...(pairing ? [] : ['--no-pairing']),
+    ...(pairing ? [] : ['--no-auth']),
   ];
   const served = ['port', '--real-time', '/bin/sh', '-c', `exec "$0" "$@" --live "${live}=$MOTIONRACK_LIVE_PORT"`];
   const program = live === '' ? spawn(command[0], command.slice(1)) : spawn(LIVE_SERVER, [...served, ...command]);

@@ -46,8 +46,8 @@ class Network : public testing::Test {
     }
     /// Listens with its frames in `name`.csv.
     Child subscribe(int machine, const std::string& name, int count = 0) {
-        Command command = {MOTIONRACK_PROGRAM, "frames",  "subscribe", "--bus", "stage",
-                           "--json",           "--every", "0.02",      "--csv", file(name)};
+        Command command = {MOTIONRACK_PROGRAM, "frames",     "subscribe", "--bus", "stage",
+                           "--json",           "--interval", "0.02",      "--csv", file(name)};
         if (count > 0) command.insert(command.end(), {"--count", std::to_string(count)});
         return network_->start(machine, command);
     }
@@ -258,10 +258,10 @@ TEST_P(NetworkAt, AFrozenSubscriberHoldsNobodyUp) {
 TEST_F(Network, ARackOnOneMachineIsReadOnAnother) {
     const std::string rack = (folder_ / "rack.toml").string();
     std::ofstream(rack) << "[card.host]\ntype = \"grating_bus\"\nscales = 6\nperiod_us = 2000\n";
-    Child subscriber = network_->start(
-        1, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--scales", "6"});
+    Child subscriber = network_->start(1, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json",
+                                           "--interval", "0.02", "--scales", "6"});
     Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json",
-                                          "--fault", "host.off=1@1s", "--fault", "host.off=0@2s", "--for", "3"});
+                                          "--fault", "host.off=1@1s", "--fault", "host.off=0@2s", "--duration", "3"});
     ASSERT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "joined"); })) << subscriber.said();
     EXPECT_EQ(subscriber.last()["source"]["host"], "machine0");
     EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "stale"); }))
@@ -283,10 +283,10 @@ TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
         return [state](const json& line) { return line.contains("cards") && line["cards"][0]["state"] == state; };
     };
     Child feed = network_->start(
-        1, {MOTIONRACK_PROGRAM, "frames", "feed", listeners, "--bus", "stage", "--json", "--every", "0.02"});
+        1, {MOTIONRACK_PROGRAM, "frames", "feed", listeners, "--bus", "stage", "--json", "--interval", "0.02"});
     ASSERT_TRUE(feed.wait_for(state_is("no frame"))) << feed.said();
-    Child publisher =
-        network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--for", "1"});
+    Child publisher = network_->start(
+        0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--duration", "1"});
     ASSERT_TRUE(feed.wait_for([&](const json& line) {
         return state_is("agrees")(line) && line["cards"][0]["frames"] > 100;
     })) << feed.said();
@@ -297,8 +297,8 @@ TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
 }
 
 TEST_F(Network, SaysThatNoFrameCame) {
-    Child subscriber =
-        network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
+    Child subscriber = network_->start(
+        0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--duration", "0.1"});
     EXPECT_EQ(subscriber.finish(), 4);
     EXPECT_EQ(subscriber.last()["joined"], false);
 }

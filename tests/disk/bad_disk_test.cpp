@@ -35,15 +35,15 @@ const Scenario scenarios[] = {
     {"trace", "trace part.ngc a.vcd -q --signals X.step", {"a.vcd"}},
     {"page_of_a_recording", "report given.h5 --report a.html --csv a.csv --events b.csv", {"a.html", "a.csv", "b.csv"}},
     {"replay", "replay given.h5 -q --record a.h5", {"a.h5"}},
-    {"sweep_to_csv", "sweep sweep.toml -q --jobs 1 --fresh -o a.csv", {"a.csv"}},
-    {"sweep_to_hdf5", "sweep sweep.toml -q --jobs 1 --fresh -o a.h5", {"a.h5"}},
-    {"sweep_with_a_picture", "sweep sweep.toml -q --jobs 1 --fresh -o a.csv --picture a.svg", {"a.csv", "a.svg"}},
+    {"sweep_to_csv", "sweep sweep.toml -q --jobs 1 --restart -o a.csv", {"a.csv"}},
+    {"sweep_to_hdf5", "sweep sweep.toml -q --jobs 1 --restart -o a.h5", {"a.h5"}},
+    {"sweep_with_a_picture", "sweep sweep.toml -q --jobs 1 --restart -o a.csv --picture a.svg", {"a.csv", "a.svg"}},
     {"plan", "plan part.ngc --picture a.svg", {"a.svg"}},
     {"homing", "home X --picture a.svg -q", {"a.svg"}},
     {"mark", "mark job.toml -q --picture a.svg --report a.html", {"a.svg", "a.html"}},
     {"mark_as_png", "mark job.toml -q --picture a.png", {"a.png"}},
     {"rack_file", "new router a.toml --force", {"a.toml"}},
-    {"frames", "frames stage.toml -q --for 0.002 --vcd a.vcd --picture a.svg", {"a.vcd", "a.svg"}},
+    {"frames", "frames stage.toml -q --duration 0.002 --vcd a.vcd --picture a.svg", {"a.vcd", "a.svg"}},
 };
 
 class ABadDisk : public InFolder, public testing::WithParamInterface<Scenario> {

@@ -47,7 +47,7 @@ class AServedRackOnABadDisk : public InFolder {
     }
     std::string at(const char* name) const { return (folder / name).string(); }
     std::vector<std::string> arguments() const {
-        return {at("table.toml"), "--port",        "0", "--no-pairing", "--journal", at("data/table.journal"),
+        return {at("table.toml"), "--port",        "0", "--no-auth", "--journal", at("data/table.journal"),
                 "--users",        at("users.json")};
     }
     std::vector<std::string> with_pairing() const {

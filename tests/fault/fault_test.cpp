@@ -148,7 +148,7 @@ void AFault::home() const {
 // ---- frames: cards of a grating bus, and stages
 
 void AFault::show_frames() const {
-    const std::string arguments = "frames " + rack_file() + " -q --for " + one().text("{for}") + options();
+    const std::string arguments = "frames " + rack_file() + " -q --duration " + one().text("{for}") + options();
     SCOPED_TRACE("motionrack " + arguments);
     const Ran ran = motionrack(arguments);
     EXPECT_EQ(ran.code, fault().exit) << ran.out;

@@ -69,7 +69,7 @@ class ThePanelOnARealCard : public testing::Test {
     void serve() {
         served.reset();  // its predecessor has released the journal
         served = std::make_unique<Served>(
-            std::vector<std::string>{(folder_ / "rack.toml").string(), "--port", "0", "--no-pairing", "--users",
+            std::vector<std::string>{(folder_ / "rack.toml").string(), "--port", "0", "--no-auth", "--users",
                                      (folder_ / "users.json").string(), "--live", "bench=" + card.place});
         ASSERT_NE(served->port(), 0) << served->said;
     }

@@ -68,7 +68,7 @@ class Served:
                 "0",
                 "--grbl-pty",
                 self.link,
-                "--no-pairing",
+                "--no-auth",
                 "--users",
                 os.path.join(self.folder, "users.json"),
             ],

@@ -70,9 +70,10 @@ std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack:
 
 int feed_rack(const FeedOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e8) || !(options.every > 0 && options.every <= 1e6)) {
-        print_error(fmt::format(
-            "--for is {:g} s and --every {:g} s; they must be 0 to 1e8, and more than 0 up to 1e6. Nothing was opened.",
-            options.seconds, options.every));
+        print_error(
+            fmt::format("--duration is {:g} s and --interval {:g} s; they must be 0 to 1e8, and more than 0 up to 1e6. "
+                        "Nothing was opened.",
+                        options.seconds, options.every));
         return exit_usage;
     }
     int code = exit_done;
@@ -115,8 +116,8 @@ void add_frames_feed(CLI::App& frames, Action& chosen) {
         "feed", "Run a rack whose remote cards hold the frames that another computer publishes, in real time");
     command->add_option("RACK", options->rack, "rack file with a card whose role is \"remote\"")->required();
     add_bus_options(*command, options->bus);
-    command->add_option("--for", options->seconds, "end after so many seconds");
-    command->add_option("--every", options->every, "seconds between two tables")->capture_default_str();
+    command->add_option("--duration", options->seconds, "end after so many seconds");
+    command->add_option("--interval", options->every, "seconds between two tables")->capture_default_str();
     command->add_flag("--json", options->json, "print the tables as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print no tables");
     command->footer(

@@ -66,7 +66,7 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
     if (done.slips != 0)
         print_warning(
             fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer "
-                        "is too slow for --speed {:g}.",
+                        "is too slow for --time-scale {:g}.",
                         done.slips, options.speed));
     if (publisher.refused() != 0)
         print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
@@ -160,9 +160,10 @@ int publish_rack(Run& run) {
 
 int publish(const PublishOptions& options) {
     if (!(options.speed >= 1e-6 && options.speed <= 1e3) || !(options.seconds >= 0 && options.seconds <= 1e8)) {
-        print_error(fmt::format(
-            "--speed is {:g} and --for {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing was published.",
-            options.speed, options.seconds));
+        print_error(
+            fmt::format("--time-scale is {:g} and --duration {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing "
+                        "was published.",
+                        options.speed, options.seconds));
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -198,17 +199,17 @@ void add_frames_publish(CLI::App& frames, Action& chosen) {
                         "part program that the rack's axes drive meanwhile; its end is the end");
     add_bus_options(*command, options->bus);
     command->add_option("--card", options->card, "the card whose frames are published (default: the bus' host)");
-    command->add_option("--speed", options->speed, "virtual seconds a second: 0.1 is ten times slower")
+    command->add_option("--time-scale", options->speed, "virtual seconds a second: 0.1 is ten times slower")
         ->capture_default_str();
     command->add_option("--count", options->count, "end after so many frames");
-    command->add_option("--for", options->seconds, "end after so many virtual seconds");
+    command->add_option("--duration", options->seconds, "end after so many virtual seconds");
     command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: host.off=1@2s")
         ->allow_extra_args(false);
     command->add_flag("--json", options->json, "print what is noticed, and the end, as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print only what is wrong");
     command->footer(
         "Example: motionrack frames publish stage.toml --bus stage\n"
-        "Example: motionrack frames publish stage.toml scan.ngc --bus stage --speed 0.1\n"
+        "Example: motionrack frames publish stage.toml scan.ngc --bus stage --time-scale 0.1\n"
         "Ctrl-C ends it. Exit code 4: another publisher was on the bus.");
     command->callback([options, &chosen] { chosen = [options] { return publish(*options); }; });
 }

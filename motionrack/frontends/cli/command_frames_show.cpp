@@ -153,9 +153,10 @@ int finish(Show& show, const rack::FrameMonitor& watch, const ShowOptions& optio
 
 int show_frames(const ShowOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e5) || !(options.every > 0 && options.every <= 1e3)) {
-        print_error(fmt::format(
-            "--for is {:g} s and --every {:g} s; they must be 0 to 1e5, and more than 0 up to 1000. Nothing was run.",
-            options.seconds, options.every));
+        print_error(
+            fmt::format("--duration is {:g} s and --interval {:g} s; they must be 0 to 1e5, and more than 0 up to "
+                        "1000. Nothing was run.",
+                        options.seconds, options.every));
         return exit_usage;
     }
     int code = exit_done;
@@ -209,20 +210,22 @@ void add_frames_show(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<ShowOptions>();
     frames.add_option("RACK", options->rack, "rack file with cards of a grating bus");
     frames.add_option("PROGRAM", options->program, "part program that the rack's axes drive meanwhile");
-    frames.add_option("--for", options->seconds, "virtual seconds to run, without a program")->capture_default_str();
-    frames.add_option("--every", options->every, "virtual seconds between two tables")->capture_default_str();
+    frames.add_option("--duration", options->seconds, "virtual seconds to run, without a program")
+        ->capture_default_str();
+    frames.add_option("--interval", options->every, "virtual seconds between two tables")->capture_default_str();
     frames.add_flag("--real-time", options->real_time, "not faster than the clock");
     frames
         .add_option("--fault", options->faults,
                     "break something on the way, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")
         ->allow_extra_args(false);
-    frames.add_option("--vcd", options->vcd, "write states and lines of all frames as a VCD file; keep --for short");
+    frames.add_option("--vcd", options->vcd,
+                      "write states and lines of all frames as a VCD file; keep --duration short");
     frames.add_option("--picture", options->picture, "draw one frame as an SVG file");
     frames.add_flag("--json", options->json, "print the last table as JSON");
     frames.add_flag("-q,--quiet", options->quiet, "only the last table");
     frames.footer(
         "Example: motionrack frames stage.toml\n"
-        "Example: motionrack frames stage.toml --for 0.002 --vcd frames.vcd --picture frame.svg\n"
+        "Example: motionrack frames stage.toml --duration 0.002 --vcd frames.vcd --picture frame.svg\n"
         "Example: motionrack frames stage.toml --fault c1.off@0.05s\n"
         "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
     frames.callback([options, &chosen, &frames] {

@@ -177,9 +177,9 @@ int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile
 
 int subscribe(const SubscribeOptions& options) {
     if (!(options.seconds >= 0 && options.seconds <= 1e8) || !(options.every >= 0 && options.every <= 1e6)) {
-        print_error(
-            fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e8 and 0 to 1e6. Nothing was opened.",
-                        options.seconds, options.every));
+        print_error(fmt::format(
+            "--duration is {:g} s and --interval {:g} s; they must be 0 to 1e8 and 0 to 1e6. Nothing was opened.",
+            options.seconds, options.every));
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -208,8 +208,9 @@ void add_frames_subscribe(CLI::App& frames, Action& chosen) {
         ->check(CLI::Range(1, grating_bus::max_scales))
         ->option_text("1 .. 128");
     command->add_option("--count", options->count, "end after so many frames");
-    command->add_option("--for", options->seconds, "end after so many seconds");
-    command->add_option("--every", options->every, "seconds between two states (default: 0.2 on a terminal, 1 else)");
+    command->add_option("--duration", options->seconds, "end after so many seconds");
+    command->add_option("--interval", options->every,
+                        "seconds between two states (default: 0.2 on a terminal, 1 else)");
     command->add_option("--csv", options->csv, "write every frame as a row");
     command->add_flag("--json", options->json, "print states and events as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print no states, only what is wrong");

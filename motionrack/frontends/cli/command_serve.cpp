@@ -240,10 +240,10 @@ void add_serve(CLI::App& app, Action& chosen) {
         ->add_option("--address", options->address,
                      "address to serve; other than this computer's loopback only with TLS")
         ->capture_default_str();
-    command->add_option("--speed", options->speed, "seconds of the rack for a second")
+    command->add_option("--time-scale", options->speed, "seconds of the rack for a second")
         ->check(CLI::Range(operate::ClockPacer::min_factor, operate::ClockPacer::max_factor))
         ->capture_default_str();
-    command->add_flag("--free", options->free, "as fast as the computer can");
+    command->add_flag("--unthrottled", options->free, "run without real-time pacing");
     command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");
     command->add_option("--journal", options->journal,
                         "file that keeps what happened (SQLite); the next start reads where the axes stood");
@@ -254,7 +254,7 @@ void add_serve(CLI::App& app, Action& chosen) {
         ->capture_default_str();
     command->add_option("--users", options->users,
                         "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
-    command->add_flag("--no-pairing", options->no_pairing,
+    command->add_flag("--no-auth", options->no_pairing,
                       "whoever works on this computer may do everything, without a code");
     command->add_option("--page", options->page, "folder of the page (default: the one that came with the program)");
     command

@@ -165,7 +165,7 @@ void add_sweep(CLI::App& app, Action& chosen) {
     command->add_option("--nats", options->nats,
                         "let workers on any machines run the points, through this server with JetStream: "
                         "nats://HOST:4222; see sweep-worker");
-    command->add_flag("--fresh", options->fresh, "run all points anew, whatever was done before");
+    command->add_flag("--restart", options->fresh, "run all points anew, whatever was done before");
     command->add_flag("-q,--quiet", options->quiet, "no progress, no summary");
     command->footer(
         "Example: motionrack sweep feeds.toml -o feeds.csv --picture feeds.svg\n"
