@@ -85,13 +85,13 @@ void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
     if (fly.waits == WaitMode::none) return;
     const double quarter = job.belt.direction_deg / 90;
     if (job.belt.rotary)
-        wrong("waits", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
+        wrong("wait_mode", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
     else if (fly.mode == FlyMode::off)
-        wrong("waits", "Waits need a correction that carries the marks along; choose a mode.");
+        wrong("wait_mode", "Waits need a correction that carries the marks along; choose a mode.");
     else if (stands(job) || turns_back(job))
-        wrong("waits", "Waits need a belt that moves, and never backwards.");
+        wrong("wait_mode", "Waits need a belt that moves, and never backwards.");
     else if (fly.mode == FlyMode::mcbsp && quarter != std::floor(quarter))
-        wrong("waits",
+        wrong("wait_mode",
               "The words of a belt that goes neither along X nor Y have two values of 16 bits, and wait_for_mcbsp sees "
               "them only while the correction is on; take mode encoder.");
 }

@@ -214,9 +214,9 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
     for (const RackCard& other : before)
         if (other.type == card.type && other.databoard4002.select == own.select)
             return CardFlaw{
-                "select",
+                "card_number",
                 fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
-                            "`select` (0 .. 31).",
+                            "`card_number` (0 .. 31).",
                             other.name, card.name, own.select)};
     if (const auto trim = databoard4002::trim_from_text(own.trim); !trim)
         return CardFlaw{"trim", fmt::format("Card {}: {}", card.name, trim.error().message)};

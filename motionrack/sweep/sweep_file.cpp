@@ -68,7 +68,7 @@ class Reader {
         random_ = settings.order == Order::random;
         if (!refused.empty()) return;
         if (random_ && !settings.points)
-            problems_.error(node.place_of("order"), "A random sweep needs points = NUMBER: how many are drawn.");
+            problems_.error(node.place_of("sampling"), "A random sweep needs points = NUMBER: how many are drawn.");
         if (!random_ && settings.points)
             problems_.error(node.place_of("points"),
                             "points says how many are drawn by chance, but this sweep takes all combinations; write "

@@ -111,7 +111,7 @@ TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
                 HasSubstr("two values of 16 bits"));
     EXPECT_THAT(
         errors_of("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 10\n[fly]\nmode = 'encoder'\nwait_mode = 'auto'\n"),
-        HasSubstr("j.toml:7:9: Waits are for drawings along a belt"));
+        HasSubstr("j.toml:7:13: Waits are for drawings along a belt"));
 }
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {
