@@ -29,6 +29,10 @@ class Reserve {
     std::vector<int> files_;
 };
 
+/// A socket that takes connections there and does not block. Errors: io, with what to do.
+Result<boost::asio::ip::tcp::acceptor> take_port(boost::asio::io_context& io, const boost::asio::ip::address& address,
+                                                 std::uint16_t port);
+
 class Listener {
   public:
     /// Requires a non-blocking `acceptor`.

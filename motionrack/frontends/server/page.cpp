@@ -50,8 +50,10 @@ or name its folder with <code>--page FOLDER</code>.</p>
 
 }  // namespace
 
-Page::Page() {
-    files_["/"] = {type_of(".html"), "no-store", std::make_shared<const std::string>(no_page)};
+Page::Page() : Page(no_page) {}
+
+Page::Page(std::string_view html) {
+    files_["/"] = {type_of(".html"), "no-store", std::make_shared<const std::string>(html)};
 }
 
 Result<Page> Page::read(const fs::path& folder) {
@@ -92,9 +94,31 @@ Result<Page> Page::read(const fs::path& folder) {
     return page;
 }
 
+void Page::mount(std::string_view folder, const Page& other) {
+    for (const auto& [name, file] : other.files_) {
+        files_[fmt::format("{}{}", folder, name)] = file;
+        if (name == "/") files_[fmt::format("{}/index.html", folder)] = file;
+    }
+}
+
 const PageFile* Page::find(std::string_view path) const {
     const auto found = files_.find(path);
     return found == files_.end() ? nullptr : &found->second;
+}
+
+HttpAnswer file_answer(const Page& page, const std::string& method, std::string_view path) {
+    if (method != "GET" && method != "HEAD") {
+        HttpAnswer answer = http_error(405, "invalid_input", "The page is read with GET.");
+        answer.more.emplace_back("Allow", "GET, HEAD");
+        return answer;
+    }
+    const PageFile* file = page.find(path);
+    if (file == nullptr) return http_error(404, "invalid_input", "The page has no such file.");
+    HttpAnswer answer;
+    answer.type = file->type;
+    answer.cache = file->cache;
+    answer.body = file->text;
+    return answer;
 }
 
 }  // namespace motionrack::server

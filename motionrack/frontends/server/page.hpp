@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <motionrack/base/result.hpp>
+#include <motionrack/frontends/server/http.hpp>
 #include <string>
 #include <string_view>
 
@@ -20,9 +21,14 @@ class Page {
   public:
     /// A placeholder page that explains how to build the real one.
     Page();
+    /// A page of one text, its index.html.
+    explicit Page(std::string_view html);
     /// Reads the regular files of a folder and its subfolders, without links; index.html is "/". Errors: io,
     /// invalid_input (no index.html, more than 64 MiB or 2000 files).
     static Result<Page> read(const std::filesystem::path& folder);
+
+    /// Adds the files of another page below a folder, "/docs"; its index.html is "/docs/" and "/docs/index.html".
+    void mount(std::string_view folder, const Page& other);
 
     /// "/", "/assets/index-1a2b.js"; nullptr if not found.
     const PageFile* find(std::string_view path) const;
@@ -30,5 +36,8 @@ class Page {
   private:
     std::map<std::string, PageFile, std::less<>> files_;
 };
+
+/// The file for a request with this method; 404 and 405 with a sentence.
+HttpAnswer file_answer(const Page& page, const std::string& method, std::string_view path);
 
 }  // namespace motionrack::server

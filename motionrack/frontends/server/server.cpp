@@ -46,29 +46,6 @@ Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
     return tls;
 }
 
-Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& address, std::uint16_t port) {
-    tcp::acceptor acceptor(io);
-    error_code error;
-    const tcp::endpoint endpoint(address, port);
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (!error) acceptor.non_blocking(true, error);
-    if (error == asio::error::address_in_use)
-        return fail(ErrorKind::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
-                                               "another with --port, or 0 for any free one.",
-                                               port, address.to_string()));
-    if (error == asio::error::access_denied)
-        return fail(ErrorKind::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. "
-                                               "Nothing was started; choose another with --port.",
-                                               port));
-    if (error)
-        return fail(ErrorKind::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.",
-                                               address.to_string(), port, error.message()));
-    return acceptor;
-}
-
 }  // namespace
 
 class Server::Inside {

@@ -112,19 +112,7 @@ Admission Service::admit(const RequestHead& head) {
     }
     if (auto refused = refuse(head)) return answer(std::move(*refused));
     if (target->path.rfind("/api/", 0) == 0) return admit_api(head, *target);
-    return answer(page_answer(head, target->path));
-}
-
-HttpAnswer Service::page_answer(const RequestHead& head, const std::string& path) const {
-    if (head.method != "GET" && head.method != "HEAD")
-        return with(http_error(405, "invalid_input", "The page is read with GET."), "Allow", "GET, HEAD");
-    const PageFile* file = page_.find(path);
-    if (file == nullptr) return http_error(404, "invalid_input", "There is no such file of the page.");
-    HttpAnswer answer;
-    answer.type = file->type;
-    answer.cache = file->cache;
-    answer.body = file->text;
-    return answer;
+    return answer(file_answer(page_, head.method, target->path));
 }
 
 Admission Service::admit_api(const RequestHead& head, const Target& target) {

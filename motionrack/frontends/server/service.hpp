@@ -95,7 +95,6 @@ class Service {
   private:
     std::optional<HttpAnswer> refuse(const RequestHead& head);
     Admission admit_api(const RequestHead& head, const Target& target);
-    HttpAnswer page_answer(const RequestHead& head, const std::string& path) const;
     HttpAnswer pair(const RequestHead& head, const std::string& body);
     HttpAnswer forget(const RequestHead& head);
 

@@ -1,6 +1,9 @@
 // HTTP requests: the page, pairing, queries, commands, STOP, and permissions.
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <motionrack/frontends/server/site_server.hpp>
+
 #include "running.hpp"
 
 namespace motionrack::server {
@@ -217,6 +220,40 @@ TEST_F(APageFolder, IsServedFromMemoryByWholeNames) {
          {"/../secret.txt", "/assets/../../secret.txt", "/%2e%2e/secret.txt", "/assets/..%2f..%2fsecret.txt",
           "//etc/passwd", "/assets/link.txt", "/assets/", "/index.html/", "/assets\\a.js", "/secret.txt"})
         EXPECT_EQ(other.ask("GET", path).status, 404) << path;
+}
+
+TEST_F(APageFolder, IsServedBelowAFolderOfAnotherPage) {
+    Page page;
+    page.mount("/docs", *Page::read(folder / "page"));
+    Running running({}, page);
+    WebClient client = running.client();
+    EXPECT_THAT(client.ask("GET", "/").body, HasSubstr("its page has not been built"));
+    EXPECT_EQ(client.ask("GET", "/docs/").body, "<!doctype html>");
+    EXPECT_EQ(client.ask("GET", "/docs/index.html").body, "<!doctype html>");
+    EXPECT_EQ(client.ask("GET", "/docs/assets/a.js").body, "1");
+    EXPECT_THAT(client.ask("GET", "/docs/").fields.at("content-security-policy"), HasSubstr("default-src 'self'"));
+    for (const char* path : {"/docs", "/assets/a.js", "/docs/../secret.txt", "/docs/assets/link.txt", "/docs/assets"})
+        EXPECT_EQ(client.ask("GET", path).status, 404) << path;
+}
+
+TEST_F(APageFolder, IsServedWithoutARackToThisComputerAlone) {
+    auto site = *SiteServer::open(*Page::read(folder / "page"), 0);
+    std::atomic<bool> done{false};
+    std::thread thread([&] {
+        while (!done) site->serve_for(std::chrono::milliseconds(1));
+    });
+    const std::string url = site->url();
+    WebClient client(static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1))));
+    EXPECT_EQ(client.ask("GET", "/").body, "<!doctype html>");
+    EXPECT_EQ(client.ask("GET", "/index.html?q=1").body, "<!doctype html>");
+    EXPECT_EQ(client.ask("GET", "/assets/a.js").body, "1");
+    EXPECT_THAT(client.ask("GET", "/").fields.at("content-security-policy"), HasSubstr("default-src 'self'"));
+    EXPECT_EQ(client.ask("GET", "/../secret.txt").status, 404);
+    EXPECT_EQ(client.ask("DELETE", "/").status, 405);
+    client.host = "elsewhere.example";
+    EXPECT_EQ(client.ask("GET", "/").status, 403);
+    done = true;
+    thread.join();
 }
 
 TEST_F(APageFolder, WithoutAnIndexIsNoPage) {
