@@ -123,6 +123,7 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
                                 "plan",
                                 "sweep",
                                 "sweep-worker",
+                                "docs",
                                 "bench",
                                 "completion",
                                 "manual",

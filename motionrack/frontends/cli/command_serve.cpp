@@ -12,6 +12,7 @@
 #include <motionrack/frontends/cli/interrupt_signal.hpp>
 #include <motionrack/frontends/cli/line_output.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/share_folder.hpp>
 #include <motionrack/frontends/cli/system_service.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/frontends/server/served_rack.hpp>
@@ -38,17 +39,10 @@ struct ServeOptions {
     bool free = false, paused = false, no_pairing = false;
 };
 
-/// Page that was installed or built with this program.
-fs::path page_beside_the_program() {
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    return error ? fs::path() : program.parent_path().parent_path() / "share/motionrack/page";
-}
-
 Result<server::Page> load_page(const std::string& folder) {
     if (!folder.empty()) return server::Page::read(folder);
     std::error_code error;
-    const fs::path beside = page_beside_the_program();
+    const fs::path beside = share_folder() / "page";
     if (!fs::exists(beside / "index.html", error)) return server::Page();
     return server::Page::read(beside);
 }
@@ -96,6 +90,7 @@ class Serving {
         settings.server = server_settings();
         settings.grbl = grbl_settings();
         MOTIONRACK_TRY(settings.page, load_page(options_.page));
+        settings.page.mount("/docs", docs_for_panel());
         MOTIONRACK_TRY(settings.panel.rack_text, options_.rack.empty() ? Result<std::string>(demonstration_rack())
                                                                        : read_text(options_.rack, read_limits::toml));
         if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));

@@ -28,6 +28,7 @@ void add_frames(CLI::App& app, Action& chosen);
 void add_mark(CLI::App& app, Action& chosen);
 void add_calibrate(CLI::App& app, Action& chosen);
 void add_serve(CLI::App& app, Action& chosen);
+void add_docs(CLI::App& app, Action& chosen);
 void add_image(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);

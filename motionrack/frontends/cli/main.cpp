@@ -25,6 +25,7 @@ constexpr const char* footer = R"(Examples:
   motionrack serve router.toml                   operate a rack in a browser
   motionrack decode run.vcd                      count the encoders in a logic capture
   motionrack describe mcx314                     the card's registers, commands and states
+  motionrack docs                                the documentation in a browser
 
 Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
 4 the machine stopped the job, 5 a file could not be read or written, 6 the two differ (diff, replay),
@@ -93,6 +94,7 @@ int run_command(int argc, char** argv) {
     add_calibrate(app, chosen);
     add_image(app, chosen);
     add_serve(app, chosen);
+    add_docs(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
     add_manual(app, chosen);

@@ -1,0 +1,18 @@
+// Folders that were installed or built with this program.
+#pragma once
+
+#include <filesystem>
+#include <motionrack/frontends/server/page.hpp>
+
+namespace motionrack::cli {
+
+/// PREFIX/share/motionrack of a program that is PREFIX/bin/motionrack; empty where the program's own path is unknown.
+std::filesystem::path share_folder();
+
+/// Whether the site of the documentation is in a folder.
+bool has_docs(const std::filesystem::path& folder);
+
+/// Documentation for the panel's help: the installed site, or one page that says how to get it.
+server::Page docs_for_panel();
+
+}  // namespace motionrack::cli
