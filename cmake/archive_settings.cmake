@@ -4,3 +4,7 @@ if(CPACK_GENERATOR STREQUAL "TGZ")
   set(CPACK_PACKAGING_INSTALL_PREFIX "/")
   set(CPACK_PRE_BUILD_SCRIPTS ${CPACK_MOTIONRACK_SOURCE}/cmake/archive.cmake)
 endif()
+# A build without the site makes no package of it.
+if(NOT EXISTS ${CPACK_MOTIONRACK_SITE}/index.html)
+  list(REMOVE_ITEM CPACK_COMPONENTS_ALL docs)
+endif()

@@ -5,6 +5,7 @@
 #   libmotionrack0        the shared C libraries                  ◄── libmotionrack-dev: headers, archives, CMake
 #                                                                   and pkg-config files, Pascal unit
 #   python3-motionrack    the Python package, where it was built
+#   motionrack-doc        the documentation as a site, where it was built (cmake/docs.cmake)
 #
 # and an archive of all of it that runs from any folder: cpack -G TGZ. packaging/test tries both in a clean Debian.
 set(CPACK_GENERATOR DEB)
@@ -19,9 +20,10 @@ set(CPACK_THREADS 0)
 set(CPACK_PACKAGE_FILE_NAME motionrack-${PROJECT_VERSION}-${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR})
 set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/archive_settings.cmake)
 set(CPACK_MOTIONRACK_SOURCE ${PROJECT_SOURCE_DIR})
+set(CPACK_MOTIONRACK_SITE ${PROJECT_BINARY_DIR}/share/motionrack/docs)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL program library dev)
+set(CPACK_COMPONENTS_ALL program library dev docs)
 if(TARGET motionrack_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -61,6 +63,9 @@ motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, 
                    "libddsc0debian, libpugixml-dev")
 motionrack_package(python python3-motionrack python "the Python package"
                    "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, ${loaded}" "python3-matplotlib")
+motionrack_package(docs motionrack-doc doc "the documentation as a searchable site; motionrack docs serves it")
+set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS motionrack-doc)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst
     ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
 include(CPack)

@@ -96,6 +96,8 @@ run_packages=(g++ cmake ninja-build ccache
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libhdf5-dev libboost1.81-dev libssl-dev libnats-dev)
 python_packages=(pybind11-dev python3-dev python3-numpy python3-venv python3-pip)
 release_packages=(dpkg-dev file)
+# shellcheck disable=SC2034  # packaging/docs, packaging/release and ./test --all site have them installed
+docs_packages=(mkdocs-material doxygen)
 # shellcheck disable=SC2034  # packaging/windows has them installed
 windows_packages=(cmake ninja-build ccache g++-mingw-w64-x86-64-posix g++-mingw-w64-i686-posix
     libfmt-dev libexpected-dev libfast-float-dev)

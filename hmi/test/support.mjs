@@ -9,7 +9,7 @@ import { chromium } from 'playwright-core';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/release');
-const PROGRAM = join(BUILD, 'bin/motionrack');
+export const PROGRAM = join(BUILD, 'bin/motionrack');
 /** Serves a virtual card to a program in the place of a real one; there where the tests of the tree are built. */
 export const LIVE_SERVER = join(BUILD, 'tests/live/live_server');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
