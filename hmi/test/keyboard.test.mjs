@@ -154,12 +154,14 @@ test('i is the next jog increment, c continuous', async () => {
   await rest(tab);
 });
 
-test('? shows the table of keys, made from the same declaration', async () => {
+test('? shows the table of keys, made from the same declaration, and a link to the documentation', async () => {
   const tab = await fresh();
   await tab.page.keyboard.press('?');
-  const help = tab.page.getByRole('dialog', { name: 'Keyboard' });
+  const help = tab.page.getByRole('dialog', { name: 'Help' });
   for (const text of ['Esc', 'Space', 'F1', 'F2', 'Ctrl + Home', 'End', 'r or ~', 'p or !', '1 … 9', 'PgDn PgUp'])
     await help.getByText(text, { exact: true }).waitFor();
+  const docs = await help.getByRole('link', { name: 'Documentation' }).getAttribute('href');
+  assert.equal((await tab.page.request.get(new URL(docs, tab.page.url()).href)).status(), 200);
   await tab.page.keyboard.press('?');
   await help.waitFor({ state: 'detached' });
   await rest(tab);
@@ -199,9 +201,9 @@ test('without control a key says why it does nothing', async () => {
 test('Esc closes a dialog and stops all the same', async () => {
   const tab = await fresh();
   await tab.page.keyboard.press('?');
-  await tab.page.getByRole('dialog', { name: 'Keyboard' }).waitFor();
+  await tab.page.getByRole('dialog', { name: 'Help' }).waitFor();
   await tab.page.keyboard.press('Escape');
-  await tab.page.getByRole('dialog', { name: 'Keyboard' }).waitFor({ state: 'detached' });
+  await tab.page.getByRole('dialog', { name: 'Help' }).waitFor({ state: 'detached' });
   await until(() => named(tab, 'stop').length === 1, 'a stop');
   await rest(tab);
 });

@@ -6,7 +6,14 @@ import { JOG_KEYS, KEYS } from './table';
 
 export function Help(): JSX.Element {
   return (
-    <Dialog title="Keyboard" open={helpOpen.value} onClose={() => (helpOpen.value = false)} class="help">
+    <Dialog title="Help" open={helpOpen.value} onClose={() => (helpOpen.value = false)} class="help">
+      <p>
+        <a href="docs/index.html" target="_blank" rel="noopener">
+          Documentation
+        </a>
+        : how to operate, explanations, reference, with search. It opens in a tab of its own.
+      </p>
+      <h3>Keyboard</h3>
       <table>
         <thead>
           <tr>

@@ -74,7 +74,7 @@ export const KEYS: readonly Key[] = [
   },
   { keys: ['0'], shown: '0', text: 'Feed override 100 %', press: () => setFeed(1) },
   { keys: ['`'], shown: '`', text: 'Feed override 0 %', press: () => setFeed(0) },
-  { keys: ['?'], shown: '?', text: 'This table', press: () => (helpOpen.value = !helpOpen.peek()) },
+  { keys: ['?'], shown: '?', text: 'This help', press: () => (helpOpen.value = !helpOpen.peek()) },
 ];
 
 const named = (letter: string) => (letters: readonly string[]) => letters.find((one) => one === letter);

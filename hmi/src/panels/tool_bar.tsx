@@ -96,7 +96,7 @@ export function ToolBar(): JSX.Element {
             onClick={() => setTheme(dark.value ? 'light' : 'dark')}>
             {''}
           </Button>
-          <Button kind="quiet" icon="keys" label="Keyboard (?)" onClick={() => (helpOpen.value = true)}>
+          <Button kind="quiet" icon="keys" label="Help (?)" onClick={() => (helpOpen.value = true)}>
             {''}
           </Button>
         </div>
