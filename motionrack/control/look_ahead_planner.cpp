@@ -47,7 +47,7 @@ Result<void> LookAheadPlanner::push(const Move& move) {
     const AlongPathLimits along = along_of(path, move);
     double joint = 0;
     if (tail_ != ready_) {
-        joint = join_corner(last_, path, along);
+        joint = junction_velocity2(last_, path, along);
         if (joint == 0) flush();
     }
     append(move, path, along, joint);
@@ -66,7 +66,8 @@ AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& mov
 }
 
 /// Returns the square of the junction velocity.
-double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const {
+double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& path,
+                                            const AlongPathLimits& along) const {
     const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
                                                         before.control, before.tolerance_mm);
     if (joint <= 0 || drive_ == nullptr) return joint;
@@ -74,21 +75,20 @@ double LookAheadPlanner::join_corner(const Last& before, const Geometry& path, c
     return std::min(joint, speed * speed);
 }
 
-/// Returns the factor on velocity2 at a junction. On a curve of short lines the hardware's pulse rate corresponds to a
-/// velocity that changes from line to line, and deceleration must make up for that. At corners the velocity is low
-/// enough.
-double LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
+/// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
+/// it: from line to line of a curve, and at a corner where more axes move on. Part of the deceleration of the move
+/// before makes up for that. At a corner the hardware is asked for the lesser rate, so that the plan need not show it.
+LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double min_cosine = 0.98;
-    if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return 1;
+    if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return {};
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
-    if (cosine < min_cosine) return 1;
     const double ratio = drive_->speed_ratio(before.path, path);
-    return std::max(1.0, ratio * ratio);
+    return {std::max(1.0, ratio * ratio), cosine < min_cosine};
 }
 
 LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
-                                                 double gain) const {
+                                                 const Gain& gain) const {
     const double usable = path.length - (drive_ != nullptr ? drive_->constant_velocity_length(path) : 0);
     return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
 }
@@ -161,7 +161,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     PlannedMove& last = slot(index);
     if (!are_alike(last.move, move) || (index == ready_ ? committed_ != 0 : index <= settled_)) return false;
     if (last_.path.length >= min_length(last_.path, last.move)) return false;
-    if (join_corner(last_, path, along_of(path, move)) <= 0) return false;
+    if (junction_velocity2(last_, path, along_of(path, move)) <= 0) return false;
     Move whole = last.move;
     whole.end = move.end;
     const Geometry line = geometry_of(whole, last.start);
@@ -169,7 +169,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
     if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
     const AlongPathLimits along = along_of(line, whole);
-    const double joint = index == ready_ ? node(index).joint : join_corner(before_last_, line, along);
+    const double joint = index == ready_ ? node(index).joint : junction_velocity2(before_last_, line, along);
     if (index != ready_ && joint <= 0) return false;
     between_[between_size_++] = position_;
     last.move = whole;
@@ -178,7 +178,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     last.jerk = along.jerk;
     ++last.moves;
     ++pushed_;
-    const double gain = index == ready_ ? 1 : gain_of(before_last_, line);
+    const Gain gain = index == ready_ ? Gain{} : gain_of(before_last_, line);
     node(index) = node_of(line, along, joint, gain);
     position_ = move.end;
     last_.path = line;
@@ -194,7 +194,7 @@ void LookAheadPlanner::append_dwell(const Move& move) {
     planned.move.end = position_;
     planned.start = position_;
     planned.number = pushed_++;
-    node(tail_) = {0, 0, 0, 0, 1, 0};
+    node(tail_) = {0, 0, 0, 0, {}, 0};
     ready_ = settled_ = ++tail_;
 }
 
@@ -207,7 +207,7 @@ void LookAheadPlanner::append(const Move& move, const Geometry& path, const Alon
     planned.length = path.length;
     planned.accel = along.accel;
     planned.jerk = along.jerk;
-    const double gain = tail_ == ready_ ? 1 : gain_of(last_, path);
+    const Gain gain = tail_ == ready_ ? Gain{} : gain_of(last_, path);
     node(tail_) = node_of(path, along, joint, gain);
     ++tail_;
     position_ = move.end;
@@ -230,7 +230,7 @@ void LookAheadPlanner::backward() {
         const double from = braked(here, entry);
         if (here.joint <= from && settled_ == last_settled) settled_ = i;
         here.entry = std::min(here.joint, from);
-        entry = here.entry / here.gain;
+        entry = here.entry / here.gain.square;
     }
 }
 
@@ -239,7 +239,8 @@ void LookAheadPlanner::forward(std::uint64_t until) {
     for (; ready_ < until; ++ready_) {
         const Node& here = node(ready_);
         const bool last = ready_ + 1 == tail_;
-        const double gain = last ? 1 : node(ready_ + 1).gain, after = last ? 0 : node(ready_ + 1).entry / gain;
+        const double gain = last ? 1 : node(ready_ + 1).gain.planned();
+        const double after = last ? 0 : node(ready_ + 1).entry / gain;
         const double entry = committed_ * committed_;
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
@@ -284,7 +285,7 @@ void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& cha
         const AlongPathLimits along = along_of(path, planned.move);
         planned.accel = along.accel;
         planned.jerk = along.jerk;
-        const double joint = i != head_ && node(i).joint > 0 ? join_corner(before, path, along) : 0;
+        const double joint = i != head_ && node(i).joint > 0 ? junction_velocity2(before, path, along) : 0;
         node(i) = node_of(path, along, joint, node(i).gain);
         before_last_ = std::exchange(before, {path, along, planned.move.path, planned.move.tolerance_mm});
     }

@@ -62,14 +62,21 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     const Point& position() const { return position_; }
 
   private:
+    /// Factor on velocity2 at the start of a move, from the pulse rate at the junction.
+    struct Gain {
+        double square = 1;    ///< 1 or more
+        bool corner = false;  ///< the plan ends the move before with the velocity of this one nevertheless
+        double planned() const { return corner ? 1 : square; }
+    };
+
     /// Data of a move for the two passes, kept apart from the rest so that it stays in the cache.
     struct Node {
         double joint;   ///< max_junction_velocity2 at the start
         double reach;   ///< change of velocity2 over the move: 2 accel length
         double cruise;  ///< highest velocity2 on the move
         double entry;   ///< velocity2 at the start from which the end of the window can be reached
-        double gain;    ///< factor on velocity2 at the start, from the pulse rate at the junction; 1 or more
-        double lag;     ///< velocity that deceleration could remove before a new one applies: accel late_seconds
+        Gain gain;
+        double lag;  ///< velocity that deceleration could remove before a new one applies: accel late_seconds
     };
 
     /// Data of the last move for the next junction.
@@ -88,9 +95,9 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     double min_length(const Geometry& path, const Move& move) const;
     bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
     AlongPathLimits along_of(const Geometry& path, const Move& move) const;
-    double join_corner(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
-    double gain_of(const Last& before, const Geometry& path) const;
-    Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, double gain) const;
+    double junction_velocity2(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
+    Gain gain_of(const Last& before, const Geometry& path) const;
+    Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, const Gain& gain) const;
     static double braked(const Node& node, double exit);
     static double min_exit(const Node& node, double entry);
     void backward();

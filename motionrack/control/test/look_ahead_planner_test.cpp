@@ -35,8 +35,9 @@ Move path_line_to(double x, double y, double z = 0, double feed = 50, PathContro
     return move;
 }
 
-std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vector<Move>& moves, int window = 1024) {
-    LookAheadPlanner planner(limits, Point{}, {window});
+std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vector<Move>& moves, int window = 1024,
+                                   const DriveConstraints* drive = nullptr) {
+    LookAheadPlanner planner(limits, Point{}, {window, drive});
     std::vector<PlannedMove> out;
     PlannedMove planned;
     for (const Move& move : moves) {
@@ -296,6 +297,31 @@ TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
     EXPECT_GT(planned.cruise_velocity, 0);
     EXPECT_LE(planned.cruise_velocity * planned.cruise_velocity, planned.accel * planned.length * (1 + 1e-12));
     EXPECT_LT(seconds_of(planned), 0.1);
+}
+
+/// A pulse rate that stands for a higher velocity where Z moves too.
+class QuickerBehindTheCorner : public DriveConstraints {
+  public:
+    static constexpr double ratio = 1.5;
+    double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }
+    double constant_velocity_length(const Geometry&) const override { return 0; }
+    double speed_ratio(const Geometry& before, const Geometry& after) const override {
+        return before.tangent_out[2] == 0 && after.tangent_in[2] != 0 ? ratio : 1;
+    }
+};
+
+TEST(LookAheadPlanner, SlowsDownToTheRateThatTheHardwareHasBehindACorner) {
+    const QuickerBehindTheCorner rule;
+    Move before = path_line_to(20.2, 0, 0, 50, PathControl::continuous);
+    before.tolerance_mm = 100;
+    const auto out = plan_path(path_machine(), {path_line_to(20, 0), before, path_line_to(40, 0, 6)}, 1024, &rule);
+    ASSERT_EQ(out.size(), 3u);
+    EXPECT_GT(out[2].entry_velocity, 3);
+    EXPECT_DOUBLE_EQ(out[1].exit_velocity, out[2].entry_velocity)
+        << "as told to the hardware, which takes the lesser rate";
+    const double slowest = out[2].entry_velocity / QuickerBehindTheCorner::ratio;
+    EXPECT_NEAR(out[1].entry_velocity, std::sqrt(slowest * slowest + 2 * out[1].accel * out[1].length), 1e-9);
+    EXPECT_LT(out[1].entry_velocity, 50);
 }
 
 TEST(LookAheadPlanner, HandsMovesOutBeforeTheEndOfTheProgram) {

@@ -124,6 +124,27 @@ TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
     }
 }
 
+/// Short chords, of which the last one slows down for a corner behind which Z moves too, and a short line behind it for
+/// the next corner: there a pulse of the chip is more of the path than in front of it.
+TEST_P(Lossless, ShortLinesSlowDownInTimeForACornerAtWhichZMovesOn) {
+    RackConfig config = router(GetParam());
+    set_microsteps(config, 64);
+    Path path{"G21 G90 G64 P0.01\nG0 X150 Y100 Z75\nG1 F1247\n", 150, 100};
+    double z = 75;
+    const auto go = [&](double x, double y, double up) {
+        path.x += x;
+        path.y += y;
+        z += up;
+        path.text += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", path.x, path.y, z);
+    };
+    for (int i = 0; i < 12; ++i) go(0.029, 0.038, 0);
+    path.text += "F4000\n";
+    go(0.0219, 0.0292, -0.0087);
+    go(0.0365, 0, 0.0102);
+    for (int i = 0; i < 12; ++i) go(0.0365, 0, 0.002);
+    expect_undisturbed(config, path, 2);
+}
+
 /// Moves from standstill to standstill, in each of which X has less than half a pulse.
 TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     RackConfig config = router(GetParam());
