@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <tests/invariants/watch.hpp>
+#include <tests/source_root.hpp>
 #include <vector>
 
 namespace motionrack::operate {
@@ -28,6 +29,11 @@ inline rack::RackConfig two_axes(const std::string& more = "") {
 
 inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
+}
+
+/// A servo behind a card that positions it by itself.
+inline rack::RackConfig carriage() {
+    return *rack::read_rack_file((source_root / "examples/11_carriage/machine.toml").string()).config;
 }
 
 /// A machine, and commands that are given at their instants.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/faults.hpp>
-#include <tests/source_root.hpp>
 
 #include "operated.hpp"
 
@@ -11,10 +10,6 @@ namespace motionrack::operate {
 namespace {
 
 using testing::HasSubstr;
-
-rack::RackConfig carriage() {
-    return *rack::read_rack_file((source_root / "examples/11_carriage/machine.toml").string()).config;
-}
 
 struct BrokenJog {
     const char* name;
@@ -248,117 +243,6 @@ TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
     EXPECT_FALSE(status.axes[0].position_valid);
     ASSERT_THAT(status.alarms, testing::SizeIs(1));
     EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
-}
-
-TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
-    o.at(3, [&](Machine& m) {
-        EXPECT_NEAR(o.x(), 105, 0.3);
-        EXPECT_TRUE(m.jog_by('X', 20, 50));
-    });
-    o.at(6, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 2)); });
-    o.run(9);
-    EXPECT_NEAR(o.x(), 130, 0.3);
-}
-
-TEST(AServoAxis, DrivesALongLineInOneGo) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
-    o.run(3);
-    EXPECT_NEAR(o.x(), 600, 0.3);
-    EXPECT_GT(o.top_speed, 480) << "of 500";
-}
-
-TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
-    o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.hold()); });
-    o.at(3, [&](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::hold);
-        EXPECT_LT(o.x(), 500);
-        EXPECT_TRUE(m.resume());
-    });
-    o.run(12);
-    EXPECT_NEAR(o.x(), 600, 0.3);
-}
-
-TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
-    o.at(0.8, [](Machine& m) { m.stop(); });
-    double rest = 0;
-    o.at(3, [&](Machine& m) {
-        rest = o.x();
-        EXPECT_LT(rest, 500);
-        m.reset();
-    });
-    o.at(3.2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 2)); });
-    o.at(5, [&](Machine& m) {
-        EXPECT_NEAR(o.x(), rest + 5, 0.5);
-        EXPECT_TRUE(m.line("G90 G0 X600", 3));
-    });
-    o.run(14);
-    EXPECT_NEAR(o.x(), 600, 0.3);
-}
-
-TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
-    o.at(4, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
-    o.at(4.5, [](Machine& m) { m.stop(); });
-    o.at(6, [](Machine& m) {
-        EXPECT_FALSE(m.status().axes[0].position_valid);
-        m.reset();
-    });
-    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 150)); });
-    o.at(6.3, [](Machine& m) {
-        EXPECT_TRUE(m.status().axes[0].position_valid) << m.status().reason;
-        EXPECT_TRUE(m.line("G91 G0 X5", 1));
-    });
-    o.run(9);
-    EXPECT_NEAR(o.x(), 155, 0.3);
-}
-
-TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
-    for (const bool homes : {true, false}) {
-        Operated o(carriage());
-        const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.set_position('X', 200)); };
-        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
-        o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
-        o.at(0.6, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
-        o.at(5, [](Machine& m) {
-            EXPECT_EQ(m.state(), MachineState::error_stop);
-            EXPECT_FALSE(m.status().axes[0].position_valid);
-        });
-        o.at(5.1, [](Machine& m) { m.reset(); });
-        o.at(5.2, recover);
-        o.at(20, [](Machine& m) {
-            EXPECT_TRUE(m.status().axes[0].position_valid) << m.status().reason;
-            EXPECT_TRUE(m.line("G90 G0 X300", 2));
-        });
-        o.run(25);
-        EXPECT_NEAR(o.x(), 300, 0.3) << (homes ? "homed" : "declared") << ": " << o.machine->status().reason;
-    }
-}
-
-TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
-    Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    double told = 0;
-    o.at(0.2, [&](Machine& m) {
-        told = m.status().axes[0].commanded;
-        EXPECT_NEAR(m.status().axes[0].actual, 100, 0.011);
-        EXPECT_TRUE(m.jog_by('X', 20, 50));
-    });
-    o.run(3);
-    EXPECT_NEAR(told, 100, 0.011);
-    EXPECT_NEAR(o.x(), 120, 0.3);
 }
 
 }  // namespace
