@@ -11,6 +11,8 @@ namespace {
 
 /// Delay after which the effect of an immediate stop on a fast motor shows.
 constexpr Duration look_every = milliseconds(20);
+/// More would not help a servo that is pushed each time.
+constexpr int max_takes = 3;
 
 }  // namespace
 
@@ -30,8 +32,14 @@ void Trust::begin(char letter, const rack::TrustWatch::Mark& from) {
     watch_.begin(number(letter), from);
 }
 
+/// A servo may be pushed before its card has taken the position over, which takes it some milliseconds.
 Result<void> Trust::take(control::Axis& axis, const Declared& declared) {
-    MOTIONRACK_CHECK(axis.set_position(declared.position));
+    const auto moved = [&] { return watch_.moved_since(number(declared.letter), declared.stood); };
+    double before = moved();
+    for (int i = 0; i < max_takes; ++i) {
+        MOTIONRACK_CHECK(axis.set_position(declared.position + before));
+        if (std::exchange(before, moved()) == before) break;
+    }
     begin(declared.letter, declared.stood);
     return {};
 }

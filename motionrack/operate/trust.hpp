@@ -27,7 +27,8 @@ class Trust {
     bool of(char letter) const { return trusted_[index(letter)]; }
     void lose(char letter) { trusted_[index(letter)] = false; }
     Declared declared(char letter, double position) const { return {letter, position, watch_.mark(number(letter))}; }
-    /// Makes a set position valid, less any loss since the command. Errors: as Axis::set_position.
+    /// Makes a set position valid, less any loss since the command, plus the motion of a pushed servo. Errors: as
+    /// Axis::set_position.
     Result<void> take(control::Axis& axis, const Declared& declared);
     /// Makes the position of a homed axis valid from `since`.
     void begin_at_home(char letter, Instant since);

@@ -116,6 +116,16 @@ std::int64_t TrustWatch::lost_pulses(std::size_t axis) const {
     return running.turned_by().count(now) - running.machine->rotor().count(now);
 }
 
+std::int64_t TrustWatch::turned(std::size_t axis) const {
+    const RunningAxis& running = rack_.axes()[axis];
+    return running.servo ? running.machine->encoder().count(rack_.kernel().now()) : 0;
+}
+
+double TrustWatch::moved_since(std::size_t axis, const Mark& mark) const {
+    const RunningAxis& running = rack_.axes()[axis];
+    return running.servo ? static_cast<double>(turned(axis) - mark.turned) / running.config.counts_per_unit() : 0;
+}
+
 /// Counts of the card minus rotation of the motor.
 std::int64_t TrustWatch::counted_wrongly(std::size_t axis) const {
     if (!watched_[axis].counted) return 0;

@@ -34,8 +34,11 @@ class TrustWatch {
     struct Mark {
         Instant at{};  ///< earlier events are ignored
         std::int64_t lost_pulses = 0;
+        std::int64_t turned = 0;  ///< of a servo: counts of its encoder
     };
-    Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis)}; }
+    Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis), turned(axis)}; }
+    /// Returns the way of a servo since `mark`, mm or degrees. It is 0 for other axes, which have pulses to lose.
+    double moved_since(std::size_t axis, const Mark& mark) const;
     /// Takes the position of an axis as correct at `from`, after homing or setting it. The next look reports any loss
     /// since then.
     void begin(std::size_t axis, const Mark& from);
@@ -55,6 +58,7 @@ class TrustWatch {
     };
     bool is_counted(std::size_t axis) const;
     std::int64_t lost_pulses(std::size_t axis) const;
+    std::int64_t turned(std::size_t axis) const;
     std::int64_t counted_wrongly(std::size_t axis) const;
     void lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out);
     void look_at_conditions(std::vector<TrustFinding>& out);

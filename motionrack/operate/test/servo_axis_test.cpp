@@ -120,5 +120,18 @@ TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     EXPECT_NEAR(o.x(), 120, 0.3);
 }
 
+TEST(AServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) {
+        EXPECT_TRUE(m.set_position('X', 100));
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=59", "X"));  // counts of 0.01 mm
+    });
+    o.run(0.5);
+    const AxisStatus& axis = o.machine->status().axes[0];
+    EXPECT_TRUE(axis.position_valid);
+    EXPECT_NEAR(axis.true_position, 0.59, 0.001);
+    EXPECT_NEAR(axis.commanded, 100.59, 0.011);
+}
+
 }  // namespace
 }  // namespace motionrack::operate
