@@ -133,5 +133,37 @@ TEST(AServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
     EXPECT_NEAR(axis.commanded, 100.59, 0.011);
 }
 
+/// Its watchdog does not reset it then, so that it drives on by its last commands.
+TEST(AServoAxis, StandsWhenItsCardHasHungForLessThanASecond) {
+    struct Motion {
+        const char* name;
+        void (*begin)(Machine& m);
+    };
+    for (const Motion& motion : {Motion{"jog", [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 500, 20)); }},
+                                 Motion{"home", [](Machine& m) { EXPECT_TRUE(m.home("X")); }},
+                                 Motion{"line", [](Machine& m) { EXPECT_TRUE(m.line("G0 X1500", 1)); }}}) {
+        SCOPED_TRACE(motion.name);
+        Operated o(carriage());
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+        o.at(0.2, motion.begin);
+        o.at(0.4, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
+        o.at(1.1, [](Machine& m) {
+            EXPECT_NE(m.status().axes[0].speed, 0) << "it cannot be stopped yet";
+            m.stop();
+            EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang=0", "board"));
+        });
+        o.at(3, [](Machine& m) {
+            EXPECT_EQ(m.status().axes[0].speed, 0);
+            EXPECT_EQ(m.state(), MachineState::error_stop);
+            EXPECT_FALSE(m.status().axes[0].position_valid);
+            m.reset();
+        });
+        o.at(3.1, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)) << m.status().reason; });
+        o.at(3.3, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X120", 2)); });
+        o.run(6);
+        EXPECT_NEAR(o.x(), 120, 0.3);
+    }
+}
+
 }  // namespace
 }  // namespace motionrack::operate

@@ -52,14 +52,16 @@ void PositionAxis::look_at_stop() {
 
 void PositionAxis::settle(Instant now) {
     const std::int64_t before = last_counts_;
-    if (const auto here = counts(); !here) {
+    const auto here = counts();
+    // It hung for less than its watchdog allows, and drives on by its last commands.
+    const bool drives_on = here && driver_.quit_due();
+    if (!here || (drives_on && !driver_.quit())) {
         trusted_ = false, unanswered_ = true;
-        if (!error_) error_ = here.error();
+        if (!here && !error_) error_ = here.error();
         if (now - still_since_ > watchdog_rest) doing_ = Doing::nothing;  // until then it may still drive
         return;
-    } else if (*here != before) {
-        still_since_ = now;
     }
+    if (drives_on || *here != before) still_since_ = now;
     if (now - still_since_ < settings_.settle) return;
     doing_ = Doing::nothing;
     if (next_jog_ != 0) {

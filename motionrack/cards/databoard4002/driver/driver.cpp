@@ -96,6 +96,7 @@ void Driver::reset() {
     port_.out(ports::CS, settings_.select);
     port_.out(ports::C3, 0);
     enables_ = 0;
+    quit_due_ = false;
 }
 
 // ---- commands
@@ -119,7 +120,9 @@ Result<void> Driver::on_regulation() {
     return send(command("O"));
 }
 Result<void> Driver::quit() {
-    return send(command("Q"));
+    Result<void> sent = send(command("Q"));
+    quit_due_ = !sent;
+    return sent;
 }
 Result<void> Driver::clear_watch_out() {
     return send(command("W"));

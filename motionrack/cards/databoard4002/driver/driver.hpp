@@ -79,6 +79,8 @@ class Driver {
     Result<void> set_target(std::int64_t counts);     ///< P out, -8,388,608 .. 8,388,607
     Result<std::int64_t> position();                  ///< P in
     Result<void> quit();                              ///< Q
+    /// The last quit() did not reach the card, which may drive on.
+    bool quit_due() const { return quit_due_; }
     Result<void> set_rate(int rate);                  ///< R out, 0 .. 16383; 0 switches the relay off
     Result<int> rate();                               ///< R in, negative backwards, 0 at standstill
     Result<void> set_slope(const SlopeTable& table);  ///< S
@@ -126,7 +128,7 @@ class Driver {
     Interrupt& interrupt_;
     DriverSettings settings_;
     std::uint8_t enables_ = 0;
-    bool met_reset_ = false;
+    bool met_reset_ = false, quit_due_ = false;
 };
 
 }  // namespace motionrack::databoard4002
