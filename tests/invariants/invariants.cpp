@@ -161,7 +161,10 @@ void Invariants::see_positions(const Sight& now) {
         // A set position is the one the operator entered, also if a motion starts with the next command. A homed one is
         // the true position from the switch edge on, also while other axes are still homing or a stop occurs.
         const auto by_pulses = static_cast<std::int32_t>(axis.sent - before.sent);  // counters have 32 bits
-        const bool counts_anew = static_cast<std::int32_t>(axis.counter - before.counter) != by_pulses;
+        // The counter of a servo goes on where it is declared: it is the place of its 0 that changes.
+        const double by_card = facts_[i].servo ? (axis.commanded - before.commanded) * facts_[i].pulses_per_unit
+                                               : static_cast<std::int32_t>(axis.counter - before.counter);
+        const bool counts_anew = std::fabs(by_card - by_pulses) > (facts_[i].servo ? 1.5 : 0);
         const bool becomes_trusted = axis.position_valid && !before.position_valid;
         const bool homed = (searches_ || searched_) && (counts_anew || becomes_trusted);
         const bool declared = becomes_trusted && !homed;

@@ -13,7 +13,7 @@ using operate::MachineState;
 /// One axis with 100 pulses per mm, 100 mm/s, 1000 mm/s2, checked every 2 ms.
 class History {
   public:
-    History() : invariants_({{'X', false, 100, 100, 1000, 2, 0, 300, 1}}, {}, {}) {
+    explicit History(bool servo = false) : invariants_({{'X', servo, 100, 100, 1000, 2, 0, 300, 1}}, {}, {}) {
         invariants_.ordered(Invariants::Order::enable);
         now_.axes.resize(1);
         now_.axes[0].position_valid = true;
@@ -60,6 +60,7 @@ class History {
     std::vector<operate::Alarm> alarms;
     std::int64_t counter_off = 0;  ///< error of the card's counter
     double place_off = 0;          ///< error of the table position
+    double origin = 0;             ///< position where the counter is 0
 
   private:
     void see() {
@@ -68,7 +69,7 @@ class History {
         AxisSight& axis = now_.axes[0];
         axis.sent = std::llround(place_ * 100);
         axis.counter = axis.sent + counter_off;
-        axis.commanded = static_cast<double>(axis.counter) / 100;
+        axis.commanded = origin + static_cast<double>(axis.counter) / 100;
         axis.true_position = static_cast<double>(axis.sent) / 100 + place_off;
         invariants_.see(now_);
     }
@@ -305,6 +306,16 @@ TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
     h.begin();
     h.end();
     h.pass(0.2);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(AGoodHistory, MayDeclareAServoWhoseCounterStays) {
+    History h(true);
+    for (const double origin : {0.59, 0.0}) {
+        h.order(Invariants::Order::position);
+        h.origin = origin;
+        h.pass(0.2);
+    }
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
