@@ -13,7 +13,6 @@
 #include <motionrack/operate/journal_writer.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/template.hpp>
-#include <tests/environment.hpp>
 #include <tests/invariants/watch.hpp>
 #include <tests/swarm/life.hpp>
 #include <tests/swarm/order.hpp>
@@ -44,8 +43,7 @@ constexpr double stepper_tolerance = 0.05, servo_tolerance = 0.35;
 constexpr Duration found_within = milliseconds(100);
 
 rack::RackConfig draw_rack(Draws& draws, std::string& what) {
-    // MOTIONRACK_CARRIAGES=1 also draws servos, which still violate some invariants.
-    const int kind = draws.pick(from_environment("MOTIONRACK_CARRIAGES", 0) != 0 ? 5 : 4);
+    const int kind = draws.pick(5);
     const char* name = std::array{"two axes", "single", "router", "router", "carriage"}[static_cast<std::size_t>(kind)];
     const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
     rack::RackConfig out;
