@@ -49,7 +49,7 @@ export default defineConfig(
   { linterOptions: { reportUnusedDisableDirectives: 'error' } },
   js.configs.recommended,
   { rules: house },
-  { files: ['test/*.mjs'], languageOptions: { globals: { ...node, ...page } } },
+  { files: ['test/**/*.mjs'], languageOptions: { globals: { ...node, ...page } } },
   { files: ['vite.config.ts'], extends: [ts.configs.strict], languageOptions: { globals: node } },
   {
     files: ['src/**/*.{ts,tsx}', 'test/unit/**/*.ts'],
