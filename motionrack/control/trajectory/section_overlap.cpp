@@ -76,9 +76,9 @@ double max_length_within(std::span<const ProfileSegment> in, std::span<const Pro
 }
 
 /// A ramp, segment by segment.
-class ProgramFlow {
+class RampCursor {
   public:
-    ProgramFlow(std::span<const ProfileSegment> feed, double seconds) : feed_(feed), time_(seconds) {
+    RampCursor(std::span<const ProfileSegment> feed, double seconds) : feed_(feed), time_(seconds) {
         while (piece_ + 1 < feed_.size() && time_ >= feed_[piece_].seconds) time_ -= feed_[piece_++].seconds;
     }
     const ProfileSegment& piece() const { return feed_[piece_]; }
@@ -148,7 +148,7 @@ bool keeps_along(const PathMotion& in, const Point& a, const PathMotion& out, co
 bool is_within(const SectionRamp& in, const SectionRamp& out, double seconds, const MachineLimits& limits) {
     const Point &a = in.curve.tangent, &b = out.curve.tangent;
     const double feed = std::max(in.curve.feed, out.curve.feed), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    ProgramFlow ending(in.feed, in.seconds() - seconds), beginning(out.feed, 0);
+    RampCursor ending(in.feed, in.seconds() - seconds), beginning(out.feed, 0);
     for (double left = seconds; left > 0;) {
         const double step = std::min({ending.left(), beginning.left(), left});
         if (!(step > 0)) break;

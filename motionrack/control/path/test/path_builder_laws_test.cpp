@@ -31,8 +31,8 @@ struct Case {
     std::vector<PathElement> items;
 };
 
-template <class ProgramCheck>
-void for_programs(std::uint64_t everyday, ProgramCheck check) {
+template <class Check>
+void for_programs(std::uint64_t everyday, Check check) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
@@ -44,8 +44,8 @@ void for_programs(std::uint64_t everyday, ProgramCheck check) {
     }
 }
 
-template <class ProgramCheck>
-void for_random_programs(ProgramCheck check) {
+template <class Check>
+void for_random_programs(Check check) {
     for_programs(1000, check);
 }
 
