@@ -11,13 +11,14 @@ constexpr double no_corner_limit = 1e300;
 /// Number of bisections for velocities: durations are compared, not executed.
 constexpr int corner_halvings = 12;
 
-/// Returns the largest velocity in least .. most for which way(speed), an increasing function, is at most `length`.
-template <class Candidate>
-double fastest(double least, double most, double length, Candidate way) {
-    if (way(most) <= length) return most;
+/// Returns the largest velocity in least .. most for which distance(speed), an increasing function, is at most
+/// `length`.
+template <class Distance>
+double fastest(double least, double most, double length, Distance distance) {
+    if (distance(most) <= length) return most;
     for (int i = 0; i < corner_halvings; ++i) {
         const double middle = 0.5 * (least + most);
-        (way(middle) < length ? least : most) = middle;
+        (distance(middle) < length ? least : most) = middle;
     }
     return least;
 }

@@ -76,11 +76,11 @@ class GrblPorts::Inside {
         return port;
     }
     /// Resumes reading after the motion thread has processed the input.
-    template <class MessageSink>
-    std::function<void()> reading_on(const std::shared_ptr<MessageSink>& wire) {
-        return [io = io_, wire = std::weak_ptr<MessageSink>(wire)] {
-            asio::post(*io, [wire] {
-                if (const auto there = wire.lock(); there && there->on_bytes) there->read_on();
+    template <class Connection>
+    std::function<void()> reading_on(const std::shared_ptr<Connection>& connection) {
+        return [io = io_, connection = std::weak_ptr<Connection>(connection)] {
+            asio::post(*io, [connection] {
+                if (const auto there = connection.lock(); there && there->on_bytes) there->read_on();
             });
         };
     }
