@@ -35,10 +35,10 @@ void Trust::begin(char letter, const rack::TrustWatch::Mark& from) {
 /// A servo may be pushed before its card has taken the position over, which takes it some milliseconds.
 Result<void> Trust::take(control::Axis& axis, const Declared& declared) {
     const auto moved = [&] { return watch_.moved_since(number(declared.letter), declared.stood); };
-    double before = moved();
     for (int i = 0; i < max_takes; ++i) {
+        const double before = moved();
         MOTIONRACK_CHECK(axis.set_position(declared.position + before));
-        if (std::exchange(before, moved()) == before) break;
+        if (moved() == before) break;
     }
     begin(declared.letter, declared.stood);
     return {};
