@@ -42,11 +42,12 @@ def part_name(words: str) -> str:
 def navigation(pages: Pages, cpp: list[str], python: list[str]) -> Nav:
     """What mkdocs takes as `nav`; titles are those of the pages."""
     groups: dict[str, Nav] = {}
-    for name, words, names in sections_of(pages):
+    sections = sections_of(pages)
+    for name, words, names in sections:
         part = part_name(words) if name == "How to" else ""
         inside: Nav = [{part: names}] if part else [*names]
         groups.setdefault(name, []).extend(inside)
-    named = {page for _, _, names in sections_of(pages) for page in names}
+    named = {page for _, _, names in sections for page in names}
     rest = [page for page in pages.names.values() if page not in named and page != "index.md"]
     examples = [page for page in rest if page.startswith("examples/")]
     others = [page for page in rest if not page.startswith("examples/")]

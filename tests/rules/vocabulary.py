@@ -6,6 +6,7 @@ vocabulary.py SOURCE --write    lowers the limits to what the tree has
 
 import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 import tree
@@ -47,25 +48,22 @@ COUNTS = {
 TYPE = re.compile(r"(?:struct|class|enum class) ([A-Z][A-Za-z]+)(?: final)?(?: :[^{]*)? \{")
 
 
-def texts(where: str) -> list[str]:
-    """Texts of the files, without their tests."""
-    pattern = re.compile(where)
-    return [tree.text(path) or "" for path in tree.files() if pattern.match(path) and "/test/" not in path]
-
-
-def count(name: str) -> int:
-    """How often the tree has what the count forbids."""
+def count(name: str, files: dict[str, str]) -> int:
+    """How often the files have the words of a count."""
     where, what, _ = COUNTS[name]
+    texts = [text for path, text in files.items() if re.match(where, path)]
     if name == "types-of-one-name":
-        names = [found for text in texts(where) for found in TYPE.findall(text)]
-        return len({one for one in names if names.count(one) > 1})
+        names = Counter(found for text in texts for found in TYPE.findall(text))
+        return sum(number > 1 for number in names.values())
     pattern = re.compile(what, re.IGNORECASE | re.MULTILINE)
-    return sum(len(pattern.findall(text)) for text in texts(where))
+    return sum(len(pattern.findall(text)) for text in texts)
 
 
 def main() -> int:
     limits = {name: int(number) for number, name in (line.split() for line in LIMITS.read_text().splitlines())}
-    found = {name: count(name) for name in COUNTS}
+    # Without the tests.
+    files = {path: tree.text(path) or "" for path in tree.files() if "/test/" not in path}
+    found = {name: count(name, files) for name in COUNTS}
     if "--write" in sys.argv:
         lines = [f"{min(found[name], limits.get(name, found[name]))} {name}" for name in COUNTS]
         LIMITS.write_text("\n".join(lines) + "\n")
