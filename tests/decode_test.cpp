@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <tests/fenced_blocks.hpp>
 #include <tests/ran.hpp>
 #include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
@@ -112,25 +113,14 @@ TEST_F(Decode, EndsWithACodeAndASentence) {
     EXPECT_NE(cut.out.find("encoder"), std::string::npos) << "what is before that is told";
 }
 
-/// Returns the texts between ```LANGUAGE and ``` of a page.
-std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {
-    std::vector<std::string> out;
-    const std::string begin = "```" + language + "\n";
-    for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
-        at += begin.size();
-        out.push_back(page.substr(at, page.find("```", at) - at));
-    }
-    return out;
-}
-
 TEST_F(Decode, PageShowsWhatItsCommandsPrint) {
     const std::string page = text_of(source_root / "docs/howto/decode.md");
-    ASSERT_EQ(blocks_of(page, "gcode").size(), 1u);
-    ASSERT_EQ(blocks_of(page, "csv").size(), 1u);
-    write("move.ngc", blocks_of(page, "gcode")[0]);
-    write("bench.csv", blocks_of(page, "csv")[0]);
+    ASSERT_EQ(code_in_page(page, "gcode").size(), 1u);
+    ASSERT_EQ(code_in_page(page, "csv").size(), 1u);
+    write("move.ngc", code_in_page(page, "gcode")[0]);
+    write("bench.csv", code_in_page(page, "csv")[0]);
     int commands = 0;
-    for (const std::string& block : blocks_of(page, "console")) {
+    for (const std::string& block : code_in_page(page, "console")) {
         std::istringstream lines(block);
         std::string shown, printed;
         for (std::string line; std::getline(lines, line);) {

@@ -11,6 +11,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <tests/fenced_blocks.hpp>
 #include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 #include <vector>
@@ -28,21 +29,6 @@ std::vector<std::string> lines_in(const std::string& text) {
     std::istringstream in(text);
     std::vector<std::string> out;
     for (std::string line; std::getline(in, line);) out.push_back(line);
-    return out;
-}
-
-/// Returns the texts between ```LANGUAGE and ``` of a page.
-std::vector<std::string> code_in_page(const fs::path& page, const std::string& language) {
-    std::vector<std::string> out;
-    bool inside = false;
-    for (const std::string& line : lines_in(text_of(page))) {
-        if (inside && line == "```")
-            inside = false;
-        else if (inside)
-            out.back() += line + "\n";
-        else if (line == "```" + language)
-            inside = true, out.emplace_back();
-    }
     return out;
 }
 
@@ -113,7 +99,7 @@ TEST(Docs, LinksLeadSomewhere) {
 
 TEST(Docs, TheCppOfTheReadmeIsTheLibraryExample) {
     const std::string example = text_of(source_root / "examples/06_library/main.cpp");
-    const auto shown = code_in_page(source_root / "README.md", "cpp");
+    const auto shown = code_in_page(text_of(source_root / "README.md"), "cpp");
     ASSERT_EQ(shown.size(), 1u);
     for (const std::string& line : lines_in(shown[0]))
         EXPECT_NE(example.find("\n    " + trimmed(line) + "\n"), std::string::npos) << line;
@@ -123,7 +109,7 @@ TEST(Docs, GcodeOfThePagesRuns) {
     const rack::RackConfig config = *rack::read_rack_text(*rack::rack_template("router")).config;
     int programs = 0;
     for (const fs::path& page : pages())
-        for (const std::string& program : code_in_page(page, "gcode")) {
+        for (const std::string& program : code_in_page(text_of(page), "gcode")) {
             rack::Rack rack(config);
             rack::JobSettings settings;
             settings.program = program;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <tests/fenced_blocks.hpp>
 #include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
 
@@ -32,8 +33,7 @@ std::string indented(const std::string& text, const std::string& indent) {
 
 /// Returns the first block of code in a language on the page.
 std::string code_of(const std::string& page, const std::string& language = "cpp") {
-    const std::size_t begin = page.find("```" + language + "\n") + 4 + language.size();
-    return page.substr(begin, page.find("```", begin) - begin);
+    return code_in_page(page, language).at(0);
 }
 
 class HowTo : public testing::TestWithParam<const char*> {};
@@ -142,12 +142,9 @@ void shows_program_in_c(const std::string& name, const std::string& command, con
     shows(name, MOTIONRACK_DATABOARD4002_EXAMPLE " " + name + " '" + csv.string() + "'", printer);
     fs::remove(csv);
     const std::string page = databoard_page(name), program = text_of(source_root / source);
-    int blocks = 0;
-    for (std::size_t at = page.find("```c\n"); at != std::string::npos; at = page.find("```c\n", at + 5), ++blocks) {
-        const std::string code = page.substr(at + 5, page.find("```", at + 5) - at - 5);
-        EXPECT_NE(program.find(code), std::string::npos) << code;
-    }
-    EXPECT_EQ(blocks, parts);
+    const std::vector<std::string> blocks = code_in_page(page, "c");
+    for (const std::string& code : blocks) EXPECT_NE(program.find(code), std::string::npos) << code;
+    EXPECT_EQ(static_cast<int>(blocks.size()), parts);
 }
 
 TEST(Databoard4002HowToHost, ShowsThePartsOfTheProgramInCItsOutputAndThePictureOfItsRun) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tests/fenced_blocks.hpp>
 #include <tests/ran.hpp>
 #include <tests/source_root.hpp>
 #include <tests/text_of.hpp>
@@ -25,24 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int max_lines = 120, min_commands = 3;
-
-/// A fenced block of a page: ```INFO, its lines, ```.
-struct Fenced {
-    std::string info, text;
-};
-
-std::vector<Fenced> fenced_blocks(const std::string& page) {
-    std::vector<Fenced> out;
-    std::istringstream in(page);
-    bool inside = false;
-    for (std::string line; std::getline(in, line);) {
-        const bool fence = line.rfind("```", 0) == 0;
-        if (fence && !inside) out.push_back({line.substr(3), ""});
-        if (!fence && inside) out.back().text += line + "\n";
-        if (fence) inside = !inside;
-    }
-    return out;
-}
 
 /// Commands of a block, and the text that bash -v prints: each command as it is read, without "$ ", then its output.
 /// A command goes on after a backslash at the end of a line.
@@ -65,9 +48,9 @@ Transcript transcript_of(const std::string& block) {
     return out;
 }
 
-/// Links to the files of the source tree, not to what was made there; copies of the examples, as their scripts go up
-/// from where they lie; the programs of this build; and in the place of the scripts that install and build, functions
-/// that do neither.
+/// Links to the files of the source tree, without the products of builds; copies of the examples, as their scripts go
+/// up from where they lie; the programs of this build; and in the place of the scripts that install and build,
+/// functions that do neither.
 class StartPage : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
@@ -88,7 +71,7 @@ class StartPage : public testing::TestWithParam<const char*> {
     void TearDown() override { fs::remove_all(clone); }
 
     /// A block with the name of a file behind its language is that file, or a part of the tree's file of that name.
-    void expect_file(const Fenced& block, const std::string& name) const {
+    void expect_file(const FencedBlock& block, const std::string& name) const {
         if (fs::exists(source_root / name))
             EXPECT_NE(text_of(source_root / name).find(block.text), std::string::npos) << name << "\n" << block.text;
         else
@@ -107,7 +90,7 @@ TEST_P(StartPage, PrintsWhatItShows) {
         GTEST_SKIP() << "Programs of other compilers cannot be linked with libraries that have a sanitizer.";
 #endif
     int commands = 0;
-    for (const Fenced& block : fenced_blocks(page)) {
+    for (const FencedBlock& block : fenced_blocks(page)) {
         const std::size_t blank = block.info.find(' ');
         if (blank != std::string::npos) expect_file(block, block.info.substr(blank + 1));
         if (!block.info.empty()) continue;
