@@ -23,7 +23,7 @@ struct DocsOptions {
 int serve_docs(const DocsOptions& options) {
     const std::filesystem::path folder =
         options.folder.empty() ? share_folder() / "docs" : std::filesystem::path(options.folder);
-    if (!has_docs(folder)) {
+    if (!has_index(folder)) {
         print_error(fmt::format(
             "The documentation was not found in {}. Nothing was served. Install the package motionrack-doc, build the "
             "site with packaging/docs, or name its folder with --folder.",

@@ -41,10 +41,8 @@ struct ServeOptions {
 
 Result<server::Page> load_page(const std::string& folder) {
     if (!folder.empty()) return server::Page::read(folder);
-    std::error_code error;
     const fs::path beside = share_folder() / "page";
-    if (!fs::exists(beside / "index.html", error)) return server::Page();
-    return server::Page::read(beside);
+    return has_index(beside) ? server::Page::read(beside) : server::Page();
 }
 
 /// A rack, its clock, its journal and its clients; the members are in the order of their dependencies.

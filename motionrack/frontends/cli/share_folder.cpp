@@ -25,14 +25,14 @@ fs::path share_folder() {
     return error ? fs::path() : program.parent_path().parent_path() / "share/motionrack";
 }
 
-bool has_docs(const fs::path& folder) {
+bool has_index(const fs::path& folder) {
     std::error_code error;
     return !folder.empty() && fs::exists(folder / "index.html", error);
 }
 
 server::Page docs_for_panel() {
     const fs::path folder = share_folder() / "docs";
-    if (!has_docs(folder)) return server::Page(no_docs);
+    if (!has_index(folder)) return server::Page(no_docs);
     Result<server::Page> site = server::Page::read(folder);
     if (site) return *site;
     print_warning(site.error().text() + " The panel's help has no documentation.");

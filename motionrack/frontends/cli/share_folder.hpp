@@ -9,8 +9,8 @@ namespace motionrack::cli {
 /// PREFIX/share/motionrack of a program that is PREFIX/bin/motionrack; empty where the program's own path is unknown.
 std::filesystem::path share_folder();
 
-/// Whether the site of the documentation is in a folder.
-bool has_docs(const std::filesystem::path& folder);
+/// Whether a folder has an index.html: a page of the panel, or the site of the documentation.
+bool has_index(const std::filesystem::path& folder);
 
 /// Documentation for the panel's help: the installed site, or one page that says how to get it.
 server::Page docs_for_panel();
