@@ -113,7 +113,8 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
 Result<std::string> Authenticator::invite(Role role, Timestamps now) {
     const std::lock_guard<std::mutex> alone(lock_);
     if (role == Role::none)
-        return fail(ErrorKind::invalid_input, "Nobody was invited: the roles are observe, operate and maintain.");
+        return fail(ErrorKind::invalid_input,
+                    "No invitation was created: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     if (invitations_.size() >= settings_.max_invitations)
         return fail(
@@ -129,7 +130,7 @@ Result<void> Authenticator::revoke(std::string_view name) {
     const std::lock_guard<std::mutex> alone(lock_);
     std::vector<Token> before = tokens_;
     if (std::erase_if(tokens_, [&](const Token& token) { return token.identity.user == name; }) == 0)
-        return fail(ErrorKind::refused, fmt::format("Nobody of the name {} is paired. Nothing was changed.", name));
+        return fail(ErrorKind::refused, fmt::format("The user {} is not paired. Nothing was changed.", name));
     const Result<void> written = write();
     if (!written) tokens_ = std::move(before);
     return written;

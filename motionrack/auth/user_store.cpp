@@ -32,7 +32,7 @@ Result<void> Authenticator::read() {
     MOTIONRACK_CHECK(check_writers(path, "The users file"));
     if (::stat(path.c_str(), &about) != 0) return {};
     if (!S_ISREG(about.st_mode))
-        return fail(ErrorKind::invalid_input, "This is no file: users are kept in one.", {}, path);
+        return fail(ErrorKind::invalid_input, "The users path is not a regular file.", {}, path);
     MOTIONRACK_TRY(const std::string text, read_whole_file(path, read_limits::users));
     const auto damaged = [&](const std::string& why) {
         return fail(ErrorKind::invalid_input,

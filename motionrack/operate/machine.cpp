@@ -290,7 +290,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(ErrorKind::invalid_input,
-                    fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+                    fmt::format("Not jogged: {} by {} a second is not a motion.", distance, speed));
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     const double travel = found->max_position - found->min_position;
     if (position_valid(*found) && std::fabs(distance) > travel)
@@ -306,9 +306,9 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
-    if (!stream_->has_room()) return not_now("Not jogged: there is no room for another jog until others are driven.");
+    if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full until others are driven.");
     if (!std::isfinite(speed) || !(speed > 0))
-        return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
+        return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is not a motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;

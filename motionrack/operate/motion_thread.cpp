@@ -71,7 +71,7 @@ Result<control::Axis*> Machine::take_axis(char letter) {
         hands_over_ = false;
         return taken;
     }
-    return fail(ErrorKind::invalid_input, fmt::format("There is no axis {}.", letter));
+    return fail(ErrorKind::invalid_input, fmt::format("The machine has no axis {}.", letter));
 }
 
 // ---- the loop

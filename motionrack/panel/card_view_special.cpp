@@ -52,7 +52,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
     const db::Card* card = rack::databoard4002_card_of(rack, name);
     if (card == nullptr)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
+                    fmt::format("Card {} has no slope table: it is not a DataBoard 4002.", name));
     return json{{"name", name},
                 {"slopes",
                  {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half),

@@ -68,7 +68,7 @@ Result<json> set_clock(PanelContext& desk, const json& fields) {
          {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
             return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
-    return fail(ErrorKind::invalid_input, "There is no such mode of the clock.");
+    return fail(ErrorKind::invalid_input, "The clock has no such mode.");
 }
 
 Result<json> step_clock(PanelContext& desk, const json& fields) {

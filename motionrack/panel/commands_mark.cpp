@@ -118,7 +118,8 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
 Result<void> check_card(PanelContext& desk, const std::string& card) {
     MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
     if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
-    return fail(ErrorKind::invalid_input, fmt::format("Card {} marks nothing: it is no RTC5. Nothing was done.", card));
+    return fail(ErrorKind::invalid_input,
+                fmt::format("Card {} marks nothing: it is not an RTC5. Nothing was done.", card));
 }
 
 void mark(PanelContext& desk, const json& fields, Ready ready) {

@@ -92,7 +92,7 @@ constexpr std::array program = {
                          if (desk.machine.acknowledge(number)) return json::object();
                          return fail(
                              ErrorKind::invalid_input,
-                             fmt::format("There is no alarm {} that is still there. Nothing was changed.", number));
+                             fmt::format("The machine has no alarm {} that is active. Nothing was changed.", number));
                      }},
 };
 

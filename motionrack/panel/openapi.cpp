@@ -57,7 +57,7 @@ json schema_of(const FieldSpec& field) {
 }
 
 std::string who_may(const OperationSpec& row) {
-    if (row.role == auth::Role::none) return "Anybody, without a token.";
+    if (row.role == auth::Role::none) return "Every caller, without a token.";
     return fmt::format("Needs the role {}{}.", auth::name_of(row.role), row.lease ? " and the control lease" : "");
 }
 

@@ -197,8 +197,7 @@ constexpr std::array order_rows = {
                   "Ends what a laser card marks, and takes no further starts.", ""},
     OperationSpec{"start_part", Role::operate, true, start_part_fields,
                   "Lets a belt, a table or a stage go on that a stop has brought to rest, after the reset.", ""},
-    OperationSpec{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.",
-                  "code", true},
+    OperationSpec{"invite", Role::maintain, false, invite_fields, "Makes a code that pairs a user.", "code", true},
     OperationSpec{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},
 };
 
@@ -254,7 +253,7 @@ constexpr std::array query_rows = {
     OperationSpec{
         "homing", Role::observe, false, {}, "How the last homing went.", "homing: the report of each axis, or null"},
     OperationSpec{"control", Role::observe, false, {}, "Who controls the machine.", "holder, since, holder_session"},
-    OperationSpec{"users", Role::maintain, false, {}, "Who is paired.", "users", true},
+    OperationSpec{"users", Role::maintain, false, {}, "Lists the paired users.", "users", true},
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down where the stage goes up"),
     formerly("zero_mm", field<&RackScale::zero_mm>("zero_offset_mm", -1e4, 1e4, "mm", "where its count is 0")),
     formerly("fastest_mhz", field<&RackScale::max_count_rate_mhz>("max_count_rate_mhz", 0.001, 1'000, "MHz",
-                                                                  "million counts a second; what is quicker is lost")),
+                                                                  "million counts a second; faster counts are lost")),
     absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "where the reference mark is"),
                  "no such mark"),
     formerly("dirt_at_mm", field<&RackScale::dirt_at_mm>("dirt_position_mm", -1e4, 1e4, "mm",

@@ -89,7 +89,7 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
     found.name = fault.substr(0, equals);
     const auto names = names_of(found);
     if (std::find(names.begin(), names.end(), found.name) == names.end())
-        return fail(ErrorKind::invalid_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
+        return fail(ErrorKind::invalid_input, fmt::format("The rack has no fault {}; known are: {}. Nothing was done.",
                                                           in_quotes(found.name), fmt::join(names, ", ")));
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);

@@ -112,10 +112,9 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
                 if (!orders.holds())
                     stream.resume();
                 else if (!orders.pending())
-                    return fail(
-                        ErrorKind::stopped,
-                        fmt::format("The job was held in line {}, and nobody resumed it.", stream.current_line()),
-                        {stream.current_line(), 0}, file);
+                    return fail(ErrorKind::stopped,
+                                fmt::format("The job was held in line {}, and not resumed.", stream.current_line()),
+                                {stream.current_line(), 0}, file);
                 else
                     host.pass(look);
                 break;

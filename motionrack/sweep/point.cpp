@@ -57,7 +57,7 @@ std::string text_of(const PointText& point) {
 
 Result<PointText> read_point(std::string_view text) {
     const auto damaged = [] {
-        return fail(ErrorKind::invalid_input, "This is no point of a sweep, or it is damaged. Nothing was run.");
+        return fail(ErrorKind::invalid_input, "This is not a point of a sweep, or it is damaged. Nothing was run.");
     };
     if (!text.starts_with(head)) return damaged();
     text.remove_prefix(head.size());

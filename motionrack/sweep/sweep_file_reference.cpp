@@ -12,7 +12,7 @@ constexpr std::string_view vary_doc =
     "What is varied, one line each. A value stands for a list of itself.\n\n"
     "| name | values | meaning |\n|---|---|---|\n"
     R"(| `"axis.X.max_limit_mm"`, any key of a [rack file](rack-file.md) | as the key takes them )"
-    R"(| put into the rack file, over what is there; `axis.X.max_limit_mm` without quotes is the same; )"
+    R"(| put into the rack file, in place of its value; `axis.X.max_limit_mm` without quotes is the same; )"
     R"(names with dots in quotes: `wires."motion.xin1"` |)"
     "\n"
     R"(| `"fault"` | texts | faults as for `run --fault`; several with blanks between, `""` is none |)"

@@ -105,7 +105,7 @@ Result<ReportData> report_from_csv(const std::string& path) {
         }
         const double seconds = number_of(row[columns.time]);
         if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
-            return fail(ErrorKind::invalid_input, "The time is no number, or lies before that of the row above.",
+            return fail(ErrorKind::invalid_input, "The time is not a number, or lies before that of the row above.",
                         {rows.line(), 0}, path);
         data.seconds.push_back(seconds);
         if (columns.driven) data.driven.push_back({});

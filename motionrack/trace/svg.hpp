@@ -99,7 +99,7 @@ std::string svg_column(const std::string& title, std::span<const SvgPart> parts,
 /// Reserves `heading` px above them for the title.
 std::string svg_row(const std::string& title, std::span<const SvgPart> parts, int width, int heading);
 
-/// Step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if there is no such step.
+/// Step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if no step does.
 double nice_step(double span, int parts);
 
 /// Writes a text (an SVG, a page) to a file and replaces an existing one. Errors: io.

@@ -83,10 +83,10 @@ def headers_of(one: str) -> list[Path]:
 
 
 def problems(one: Word) -> Iterator[str]:
-    """What is wrong with an entry, each with what to do."""
+    """Mistakes of an entry, each with its remedy."""
     word = one.get("word", "an entry without `word`")
     for key in sorted(set(one) - KEYS):
-        yield f"{word}: there is no key {key!r}; write one of {', '.join(sorted(KEYS))}"
+        yield f"{word}: the key {key!r} is unknown; write one of {', '.join(sorted(KEYS))}"
     for key, value in one.items():
         parts = value if key == "types" else [value]
         if not parts or not all(isinstance(part, str) and part.strip() for part in parts):
@@ -97,7 +97,7 @@ def problems(one: Word) -> Iterator[str]:
     if "types" not in one and "file" not in one:
         yield f"{word}: `types` and `file` are missing; say where the code has it"
     if "file" in one and Path(one["file"]) not in FILES:
-        yield f"{word}: there is no file {one['file']}; name one that shows it"
+        yield f"{word}: the file {one['file']} does not exist; name one that shows it"
     for name in one.get("types", []):
         headers = headers_of(name)
         if not headers:
@@ -154,7 +154,7 @@ def name_problems(explained: set[str]) -> Iterator[str]:
 
 
 def shrink(explained: set[str]) -> None:
-    """Removes from plain_names.txt what is explained or gone."""
+    """Removes the names from plain_names.txt that are explained or gone."""
     most, plain = plain_names()
     left = sorted(set(filter(public_headers, plain)) - explained)
     text = HEAD.format(min(most, len(left))) + "".join(f"{name}\n" for name in left)

@@ -16,7 +16,7 @@ LIMITS = Path(__file__).with_name("vocabulary.txt")
 CODE = r"(motionrack|python/src|python/motionrack|hmi/src)/"
 PAGES = r"(docs/(?!pictures/)|examples/|README\.md$|CHANGELOG\.md$|CONTRIBUTING\.md$)"
 
-# name of the count: where it is counted, what is counted, what to write instead
+# name of the count: its files, its pattern, the words to write instead
 COUNTS = {
     "extreme-prefixes": (
         CODE,

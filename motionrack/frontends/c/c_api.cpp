@@ -18,7 +18,7 @@ constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
 constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
-constexpr const char* no_location = "There is no place for the rack: it is a null pointer. Nothing was done.";
+constexpr const char* no_location = "The place for the rack is a null pointer. Nothing was done.";
 
 template <class Word>
 constexpr int bits_of = 8 * static_cast<int>(sizeof(Word));

@@ -62,9 +62,10 @@ Result<std::uint16_t> with_word(std::uint16_t mode, std::string_view word) {
 /// Parses "1=reversed,x2" into the word MODE of the axis.
 Result<void> set_axis(std::array<std::uint16_t, io::axis_count>& modes, std::string_view text) {
     if (text.size() < 3 || text[0] < '0' || text[0] > '3' || text[1] != '=')
-        return fail(ErrorKind::invalid_input, fmt::format("'{}' is no axis with its words; write for instance --axis "
-                                                          "1=reversed,x2 with an axis 0 to 3. No image was made.",
-                                                          text));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("'{}' is not an axis with its words; write for instance --axis "
+                                "1=reversed,x2 with an axis 0 to 3. No image was made.",
+                                text));
     std::uint16_t& mode = modes[static_cast<std::size_t>(text[0] - '0')];
     for (std::string_view rest = text.substr(2); !rest.empty();) {
         const std::size_t comma = rest.find(',');

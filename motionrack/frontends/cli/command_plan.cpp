@@ -182,7 +182,7 @@ int plan(const PlanOptions& options) {
     const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true),
                       by_trapezoids(moves, limits, settings.start, false),
                       jerk_limited(moves, limits, settings.start, options.json)};
-    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was whole; nothing is told of it."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was whole; nothing was reported."});
     options.json ? print_json(plans, *config) : print_plans(plans, *config);
     if (options.picture.empty()) return exit_done;
     const std::string title =

@@ -94,7 +94,7 @@ int replay(const ReplayOptions& options) {
              "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
     const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
     if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
-    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the replay was done; nothing is told of it."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the replay was done; nothing was reported."});
     return compare_with_replay(*recording, path, options);
 }
 

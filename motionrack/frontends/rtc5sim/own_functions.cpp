@@ -26,7 +26,8 @@ Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
 
 Result<void> check_encoder(UINT encoder) {
     if (encoder < rtc5::encoder_count) return {};
-    return fail(ErrorKind::refused, fmt::format("there is no encoder {}; 0 or 1. Nothing was changed.", encoder));
+    return fail(ErrorKind::refused,
+                fmt::format("encoder {} is out of range; it must be 0 or 1. Nothing was changed.", encoder));
 }
 
 /// Runs `call`, a Result<void>. Returns 0, or -1 on an error.

@@ -89,8 +89,7 @@ Result<Page> Page::read(const fs::path& folder) {
                     folder.string());
     if (page.find("/") == nullptr)
         return fail(ErrorKind::invalid_input,
-                    "There is no index.html in this folder, so it is no page. Nothing was started.", {},
-                    folder.string());
+                    "This folder has no index.html, so it is not a page. Nothing was started.", {}, folder.string());
     return page;
 }
 

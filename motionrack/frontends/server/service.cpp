@@ -153,8 +153,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     }
     out.row = panel::find_row(name);
     if (out.row == nullptr)
-        return answer(
-            http_error(404, "invalid_input", "There is no such order or query; /api/openapi.json says what there is."));
+        return answer(http_error(404, "invalid_input", "Unknown order or query. See /api/openapi.json for the list."));
     const bool query = is_query(*out.row);
     if (query ? !get : !post)
         return answer(

@@ -55,7 +55,7 @@ Result<void> ChipAxisGroup::check_probe(bool release) {
     for (const int channel : map_.channel)
         if (channel >= 0) used |= 1u << channel;
     if (probe_channels_ == 0)
-        return fail(ErrorKind::refused, "There is no probe at the inputs IN3 of this card. Nothing was moved.");
+        return fail(ErrorKind::refused, "No probe is connected to IN3 of this card. Nothing was moved.");
     if ((used & ~probe_channels_) != 0) {
         return fail(
             ErrorKind::refused,

@@ -63,8 +63,8 @@ Result<Points> points_of(std::string_view text, const std::string& section, cons
         points[{(*values)[1], (*values)[0]}] = {static_cast<double>((*values)[2]), static_cast<double>((*values)[3])};
     }
     if (!seen)
-        return fail(ErrorKind::invalid_input, fmt::format("there is no section {}; the table was not loaded", section),
-                    {}, file);
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("section {} was not found; the table was not loaded", section), {}, file);
     return points;
 }
 

@@ -112,7 +112,7 @@ Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode)
 
 Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
     if (!std::isfinite(scale_x) || !std::isfinite(scale_y) || !std::isfinite(resolution))
-        return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is no number; nothing was changed");
+        return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is not a number; nothing was changed");
     McBsp& m = state_.mcbsp;
     m.online_x = scale_x != 0, m.online_y = scale_y != 0, m.online_rot = std::abs(resolution) >= min_resolution;
     m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
