@@ -8,7 +8,7 @@
 namespace motionrack::rtc5 {
 
 void Engine::Free::operator()(void* memory) const {
-    std::free(memory);  // allocated by calloc
+    std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): allocated by calloc
 }
 
 Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::make_unique<Scratch>()) {
