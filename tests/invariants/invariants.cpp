@@ -96,6 +96,7 @@ void Invariants::see(const Sight& now) {
     braked_ = braked_ || now.latched;
     if (now.at - base_at_ >= interval) end_interval(now);
     see_jumps(now);
+    if (!searches_) search_disturbed_ = false;
     if (may_declare_ > 0) --may_declare_;
     if (hangs_ > 0) --hangs_;
     if (may_move_ > 0) --may_move_;
@@ -172,7 +173,7 @@ void Invariants::see_positions(const Sight& now) {
         const bool again = stood && (knows_orders_ ? may_declare_ : !moved(i, now)) && counts_anew;
         if (homed || declared || again || !axis.position_valid) own.offset = off;
         if (becomes_trusted) alarm_texts_.clear();  // the same cause may invalidate it again
-        if (homed && becomes_trusted && std::fabs(off) > home_tolerance)
+        if (homed && becomes_trusted && !search_disturbed_ && std::fabs(off) > home_tolerance)
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
                               axis.true_position));

@@ -90,6 +90,9 @@ class Invariants {
     void ordered(Order order);
     /// A motor or value was pushed, held or overwritten from outside, so that pulses and true positions may differ.
     void disturbed();
+    /// A switch was forced, broken or mended. An edge that it makes by that during a search cannot be told from a true
+    /// one that is as far away, so the search that runs is not held to its result.
+    void switch_disturbed() { search_disturbed_ = true; }
     /// A card hangs: its host waits for an answer, at most 2 s, and does nothing else.
     void hung() { hangs_ = pictures_of_a_hang; }
     void see(const Sight& sight);
@@ -127,6 +130,7 @@ class Invariants {
     std::vector<Finding> findings_;
     std::set<Rule> told_;
     bool first_ = true;
+    bool search_disturbed_ = false;             ///< in the search that runs, or since the last snapshot
     bool searches_ = false, searched_ = false;  ///< homing, or stopping during homing; in the previous snapshot
     Sight last_;
     std::vector<Own> own_;

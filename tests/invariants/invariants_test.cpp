@@ -34,6 +34,7 @@ class History {
     void pass(double seconds) { drive(seconds, 0); }
     void order(Invariants::Order order) { invariants_.ordered(order); }
     void to(MachineState state) { now_.state = state; }
+    void mend_switch() { invariants_.switch_disturbed(); }
     void jump(double velocity) { velocity_ = velocity; }
     /// Accelerates after a command.
     void begin() {
@@ -93,6 +94,19 @@ void stop_on_the_way(History& h) {
     h.jump(0);
     h.to(MachineState::error_stop);
     h.pass(0.1);
+}
+
+/// A search that ends 0.6 mm off.
+void search_beside(History& h, bool switch_mended) {
+    h.order(Invariants::Order::motion);
+    h.now().axes[0].position_valid = false;
+    h.to(MachineState::homing);
+    h.pass(0.1);
+    if (switch_mended) h.mend_switch();
+    h.place_off = 0.6;
+    h.now().axes[0].position_valid = true;
+    h.to(MachineState::standstill);
+    h.pass(0.2);
 }
 
 const Broken broken[] = {
@@ -200,6 +214,7 @@ const Broken broken[] = {
          h.to(MachineState::standstill);
          h.pass(0.2);
      }},
+    {"a_home_that_is_beside_its_switch", Rule::position_is_true, [](History& h) { search_beside(h, false); }},
     {"a_counter_that_jumps", Rule::counters_are_pulses,
      [](History& h) {
          h.begin();
@@ -306,6 +321,12 @@ TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
     h.begin();
     h.end();
     h.pass(0.2);
+    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(AGoodHistory, MayFindAHomeByTheEdgeOfASwitchThatIsMended) {
+    History h;
+    search_beside(h, true);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 

@@ -282,6 +282,7 @@ class Lives {
         if (fault.text.empty()) return;
         ++out_.faults;
         tell(fault.text);
+        watch_->invariants().switch_disturbed();
         if (fault.text.find(".hang") != std::string::npos) watch_->invariants().hung();
         if (!fault.disturbs) return;
         watch_->invariants().disturbed();
@@ -297,6 +298,7 @@ class Lives {
             case 0:
                 mend_all(*machine_);
                 laws.disturbed();
+                laws.switch_disturbed();
                 machine_->stop();
                 laws.ordered(Order::stop);
                 wait_until_ = now + whole_seconds(runs_out() ? 8 : 2);
