@@ -294,6 +294,10 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
 }
 
 void StreamExecutor::forget() {
+    // Reading a card's position may take time, in which lines and a hold or stop come: they are discarded, too.
+    const Point place = axes_->commanded_position();
+    wish_ = Wish::none;
+    stop_flag_ = false;
     entries_.clear();
     cutting_.reset();
     moves_ = 0;
@@ -301,7 +305,9 @@ void StreamExecutor::forget() {
     planned_ = handed_ = 0;
     state_ = ExecutionState::idle;
     interpreter_.reset_after_program();
-    resync_axes(*axes_);
+    read_to_ = place;
+    interpreter_.resync_position(place);
+    new_planner(place);
 }
 
 void StreamExecutor::resync_axes(AxisGroup& axes) {

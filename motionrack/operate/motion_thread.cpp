@@ -229,7 +229,7 @@ void Machine::feed_program() {
 
 void Machine::drive() {
     feed_program();
-    if (state_ == MachineState::error_stop) return;
+    if (state_ == MachineState::error_stop) stream_->stop();  // discards what it has, so that no step waits for it
     const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());

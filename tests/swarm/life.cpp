@@ -254,11 +254,6 @@ class Lives {
         const Result<void> taken = drawn.give(*machine_, draws_);
         out_.refused += !taken;
         tell(fmt::format("{}{}", drawn.name, taken ? "" : ": " + taken.error().message));
-        if (std::getenv("SWARM_SAY"))
-            fmt::print(stderr, "   {:.4f} {} {} [{}] x {:.4f} place {:.4f} trusted {}\n", to_seconds(machine_->now()),
-                       drawn.name, taken ? "ok" : taken.error().message, operate::name_of(machine_->status().state),
-                       machine_->status().axes[0].commanded, machine_->status().axes[0].true_position,
-                       machine_->status().axes[0].position_valid);
         if (!taken) return;
         ++out_.taken;
         if (drawn.changes) watch_->invariants().ordered(*drawn.changes);

@@ -106,6 +106,33 @@ TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
     }
 }
 
+/// The host waits for the card, then for its position, before the line has failed; lines are taken all the while.
+TEST(AServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefusedOne) {
+    for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
+        Operated o(carriage());
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+        o.at(hangs_at, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
+        int taken = 0;
+        for (int i = 0; i < 200; ++i)
+            o.at(0.2 + 0.01 * i,
+                 [&taken, i](Machine& m) { taken += m.line(i % 2 == 0 ? "G0 X5" : "G0 X0", i + 1).has_value(); });
+        for (int i = 0; i < 40; ++i) o.at(0.203 + 0.05 * i, [](Machine& m) { (void)m.hold(); });
+        o.at(4, [](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::error_stop);
+            m.reset();
+        });
+        o.at(5, [](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::standstill) << "no line of before is driven";
+            EXPECT_TRUE(m.set_position('X', 100)) << m.status().reason;
+        });
+        o.at(5.2, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X120", 1)); });
+        o.run(9);
+        EXPECT_GT(taken, 1);
+        EXPECT_EQ(o.machine->state(), MachineState::standstill);
+        EXPECT_NEAR(o.x(), 120, 0.3);
+    }
+}
+
 TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
