@@ -54,6 +54,23 @@ for (const scheme of ['dark', 'light'])
     await tab.context.close();
   });
 
+for (const scheme of ['dark', 'light'])
+  test(`old values can still be read, ${scheme}`, async () => {
+    const tab = await openTab(all.browser, all.server, { scheme });
+    await takeControl(tab);
+    await tab.page.evaluate(() => {
+      const root = document.documentElement;
+      const keep = () => root.classList.contains('stale') || root.classList.add('stale');
+      new globalThis.MutationObserver(keep).observe(root, { attributeFilter: ['class'] });
+      keep();
+    });
+    for (const view of VIEWS) {
+      await go(tab, view);
+      assert.deepEqual(await faults(tab), [], view);
+    }
+    await tab.context.close();
+  });
+
 test('axe-core finds nothing on a phone', async () => {
   const tab = await openTab(all.browser, all.server, { width: 360, height: 720 });
   assert.deepEqual(await faults(tab), []);
