@@ -136,11 +136,12 @@ class Caller {
         mr_rack_close(rack_);  // no effect
     }
     int control(mr_rack* on) {
-        if (below(2) == 0) {
+        if (motions_ == max_motions || below(2) == 0) {
             looks_ = true;
             return below(3) == 0 ? mr_on_condition(on, nullptr, nullptr) : mr_on_condition(on, &happened, this);
         }
         drives_ = is_file_ = true;
+        ++motions_;
         if (below(3) == 0) return mr_home(on, or_null(homed[below(homed.size())]));
         std::string& text = texts_[next_++ % texts_.size()];
         text = programs[below(programs.size())];
@@ -313,11 +314,13 @@ class Caller {
     flex2pos* flex_ = nullptr;
     std::array<std::string, 4> texts_;
     std::size_t next_ = 0;
-    bool looks_ = false;      ///< read-only call
-    bool is_file_ = false;    ///< creates or closes a file
-    bool drives_ = false;     ///< program or homing
-    int stops_ = 0;           ///< return value of progress
-    std::uint64_t told_ = 0;  ///< number of the last reported condition
+    bool looks_ = false;                   ///< read-only call
+    bool is_file_ = false;                 ///< creates or closes a file
+    bool drives_ = false;                  ///< program or homing
+    static constexpr int max_motions = 4;  ///< of an input: each may take seconds under a sanitizer
+    int motions_ = 0;                      ///< homings and programs so far
+    int stops_ = 0;                        ///< return value of progress
+    std::uint64_t told_ = 0;               ///< number of the last reported condition
     bool records_ = false;
 };
 
