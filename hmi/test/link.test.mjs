@@ -21,7 +21,7 @@ async function done(tab) {
   await tab.context.close();
 }
 
-test('values older than 500 ms are greyed and show their age; fresh ones are not', async () => {
+test('values older than 500 ms are slanted, without colour, and show their age; fresh ones are not', async () => {
   const context = await all.browser.newContext({ viewport: { width: 1440, height: 900 } });
   let silent = false;
   await context.routeWebSocket(/\/api\/stream/, (route) => {
@@ -30,24 +30,25 @@ test('values older than 500 ms are greyed and show their age; fresh ones are not
   });
   await context.clock.install();
   const tab = await tabOf(context, all.server);
-  const opacity = () =>
+  const look = () =>
     tab.page
       .locator('.commanded')
       .first()
-      .evaluate((one) => Number(getComputedStyle(one).opacity));
+      .evaluate((one) => [getComputedStyle(one).fontStyle, getComputedStyle(one).filter]);
+  const fresh = ['normal', 'none'];
   await tab.page.clock.pauseAt(Date.now() + 1000);
   const sequence = tab.status.sequence;
   await until(() => tab.status.sequence > sequence + 5, 'fresh values');
   silent = true;
   await pause(100);
   await tab.page.clock.runFor(400);
-  assert.equal(await opacity(), 1, 'not before 500 ms');
+  assert.deepEqual(await look(), fresh, 'not before 500 ms');
   await tab.page.clock.runFor(200);
-  assert.ok((await opacity()) < 0.6, 'greyed after 500 ms');
+  assert.deepEqual(await look(), ['italic', 'grayscale(1)'], 'after 500 ms');
   await tab.page.getByText(/these values are \d+\.\d s old/).waitFor();
   silent = false;
   await tab.page.clock.resume();
-  await until(async () => (await opacity()) === 1, 'fresh again');
+  await until(async () => (await look())[0] === 'normal', 'fresh again');
   await context.close();
 });
 
