@@ -166,16 +166,14 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
     std::string lost;
     text += service_.take_note();
-    if (latch.latched()) {
-        latch.settle();
-        stop_taken_ = true;
-        for (const rack::RackAxis& axis : rack_.config().axes) {
-            if (latch.keeps_position(axis.index())) continue;
-            trust_.lose(axis.letter);
-            lost += axis.letter;
-        }
-        if (!lost.empty() || !says_lost(text)) text += ' ' + latch.position_sentence();
+    latch.settle(true);
+    stop_taken_ = stop_taken_ || latch.latched();
+    for (const rack::RackAxis& axis : rack_.config().axes) {
+        if (latch.keeps_position(axis.index())) continue;
+        trust_.lose(axis.letter);
+        lost += axis.letter;
     }
+    if (!lost.empty() || (latch.latched() && !says_lost(text))) text += ' ' + latch.position_sentence();
     const std::string unknown = trust_.lose_unknown();
     if (!unknown.empty() && !says_lost(text))
         text += fmt::format(" The position of {} is not trusted any more; home again.", unknown);

@@ -273,13 +273,13 @@ HomingOutcome Job::home(const HomingSettings& settings) {
 /// If the axes report only a stop request, adds the reason from the latch.
 void Job::tell_stop(JobOutcome& out) {
     StopLatch& latch = rack_.stop_latch();
-    if (!latch.latched()) return;
-    latch.settle();
-    latch.look();
+    const bool failed = !out.ended && out.ended.error().kind == ErrorKind::machine;
+    latch.settle(failed);
+    if (latch.latched()) latch.look();
     const auto lost = [&](const RunningAxis& axis) { return !latch.keeps_position(axis.config.index()); };
-    if (!out.ended && out.ended.error().kind == ErrorKind::machine &&
-        std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
+    if (failed && std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
         out.ended.error().message += ' ' + latch.position_sentence();
+    if (!latch.latched()) return;
     const bool asked = latch.is_ordered();
     if (asked || (!out.ended && out.ended.error().kind != ErrorKind::stopped)) return;
     out.ended = fail(ErrorKind::machine,

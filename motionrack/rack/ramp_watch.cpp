@@ -39,32 +39,36 @@ void RampWatch::keep(std::size_t i, std::int64_t count) {
     counts.back() = count;
 }
 
-void RampWatch::judge(std::size_t i) {
+void RampWatch::judge(std::size_t i, Instant now) {
     const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
     if (watched_[i].law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0)
-        state_.jumped |= 1u << rack_.axes()[watched_[i].axis].config.index();
+        state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
 }
 
 void RampWatch::on_scheduled(Instant now) {
     kernel_.schedule(id_, later(now, period));
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         keep(i, count_of(i, now));
-        if (state_.judges != 0) judge(i);
+        judge(i, now);
     }
 }
 
 /// Continues the windows over the time without a driver.
 void RampWatch::settle() {
-    if (state_.judges == 0) return;
+    const Instant now = kernel_.now();
     for (std::size_t i = 0; i < watched_.size(); ++i) {
-        const std::int64_t count = count_of(i, kernel_.now());
+        const std::int64_t count = count_of(i, now);
         for (std::size_t k = 0; k < 2 * watched_[i].law.looks; ++k) {
             keep(i, count);
-            judge(i);
+            judge(i, now);
         }
     }
-    state_.judges = 0;
+}
+
+void RampWatch::look_back(Instant now) {
+    begin(std::max(now - looks_back, Instant{}));
+    settle();
 }
 
 void RampWatch::end() {

@@ -3,10 +3,11 @@
 //   armed                     a stop comes into force        the driver has seen all axes at standstill
 //     │     every millisecond        │                              │
 //     ▼                              ▼                              ▼
-//   counts of pulses ─────────────── windows of 1 to 8 ms: see JumpLaw ──► an axis with a velocity step
+//   windows of 1 to 8 ms: see JumpLaw ──► instant of the last velocity step of each axis ──► an axis that jumped
 //
 // A card that stops on a command or at a limit switch decelerates with a ramp. The chip of an MCX314 that follows a
-// path ends its pulses at the end of the current segment, at any velocity.
+// path ends its pulses at the end of the current segment, at any velocity. A card may stop before its driver knows, and
+// without a stop in force, where a switch was active before the motion began: see look_back().
 #pragma once
 
 #include <array>
@@ -29,19 +30,22 @@ class RampWatch final : public sim::Device {
     /// Records the recent motion of the axes from this instant.
     void arm(Instant now);
     /// Call when a stop comes into force.
-    void begin() { state_.judges = 1; }
+    void begin(Instant now) { state_.since = now; }
     /// Call between runs when all axes are at standstill.
     void settle();
+    /// Call in place of begin() and settle() when a card has stopped the axes by itself. Also detects velocity steps of
+    /// the last `looks_back`.
+    void look_back(Instant now);
     /// Call when no stop is in force or expected.
     void end();
     /// `axis`: 0 .. 5.
-    bool has_jumped(int axis) const { return (state_.jumped & 1u << axis) != 0; }
+    bool has_jumped(int axis) const { return state_.jumped[static_cast<std::size_t>(axis)] > state_.since; }
 
     void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    static constexpr Duration period = milliseconds(1);
+    static constexpr Duration period = milliseconds(1), looks_back = whole_seconds(2);
     static constexpr std::size_t counts_kept = 2 * (JumpLaw::max_window / period) + 1;
     /// An axis moved by pulses, with a velocity step limit.
     struct Watched {
@@ -49,13 +53,14 @@ class RampWatch final : public sim::Device {
         JumpLaw law;
     };
     struct State {
-        std::int64_t judges = 0;
+        Instant since = never;  ///< earlier velocity steps are ignored
         std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
-        std::uint64_t jumped = 0;                                                         ///< bits: axes
+        /// One tick after the last velocity step of each axis; 0: none.
+        std::array<Instant, control::axis_count> jumped{};
     };
     std::int64_t count_of(std::size_t i, Instant now) const;
     void keep(std::size_t i, std::int64_t count);
-    void judge(std::size_t i);
+    void judge(std::size_t i, Instant now);
 
     Rack& rack_;
     sim::Kernel& kernel_;

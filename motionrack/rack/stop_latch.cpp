@@ -200,7 +200,7 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
         state_.at = now;
         state_.cause = static_cast<std::int32_t>(source);
         state_.input = input;
-        ramps_.begin();
+        ramps_.begin(now);
         if (from != nullptr && is_behind(*from, now)) state_.behind = -from->direction;
     }
     if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
@@ -285,8 +285,11 @@ void StopLatch::look() {
     if (!heard || since > card_has || (!any && since > seen_within)) halted_ = true;
 }
 
-void StopLatch::settle() {
-    if (state_.latched == 0) return;
+void StopLatch::settle(bool failed) {
+    if (state_.latched == 0) {
+        if (failed && state_.armed != 0) ramps_.look_back(kernel_.now());
+        return;
+    }
     halted_ = true;
     ramps_.settle();
 }

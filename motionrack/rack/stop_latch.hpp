@@ -59,7 +59,9 @@ class StopLatch final : public sim::Device {
     /// Executes the reactions. Call between runs, in every slice of the driver.
     void look();
     /// Call between runs when the driver has seen all axes at standstill.
-    void settle();
+    /// `failed`: a motion has failed. Then the axes may have been stopped without a stop in force, because a switch
+    /// that was active before the motion began does not set the latch.
+    void settle(bool failed = false);
     /// Releases the latch. Call between runs. Refused, without any change, while the emergency stop or an alarm is
     /// active.
     Result<void> reset();

@@ -15,6 +15,8 @@ using operate::MachineState;
 
 /// Minimum interval of mean velocities.
 constexpr Duration interval = milliseconds(10);
+/// Time after which a driver has seen all axes at standstill where their card has stopped one of them.
+constexpr Duration fails_within = milliseconds(300);
 constexpr Duration lasers_off_within = milliseconds(4);
 /// A position error is found within one or two checks at standstill, and slightly later than the lost pulses during
 /// motion.
@@ -348,18 +350,23 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
         "the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its limits explain {:g} "
         "(state '{}')",
         facts.letter, own_[i].velocity, velocity, seconds, change, allowed, operate::name_of(now.state));
-    if ((braked_ || was_braked_) && std::fabs(velocity) < std::fabs(own_[i].velocity))
-        own_[i].jumped = std::move(text);
+    // A card that stops a motion by itself does so before its driver knows.
+    const bool ends = braked_ || was_braked_ || now.state != MachineState::homing;
+    if (ends && std::fabs(velocity) < std::fabs(own_[i].velocity))
+        own_[i].jumped = std::move(text), own_[i].jumped_at = now.at;
     else
         found(Rule::limits_kept, now.at, std::move(text));
 }
 
-/// In a stop, a card may have to end its pulses without a ramp; then the position must become invalid at standstill.
+/// In a stop, and where a motion fails, a card may have to end its pulses without a ramp; then the position must become
+/// invalid at standstill.
 void Invariants::see_jumps(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {
         if (!now.axes[i].position_valid) own_[i].jumped.clear();
-        if (own_[i].jumped.empty() || (now.latched && now.state != MachineState::error_stop)) continue;
-        found(Rule::limits_kept, now.at, std::exchange(own_[i].jumped, {}) + ", and it is trusted");
+        if (own_[i].jumped.empty()) continue;
+        const bool stopped = now.state == MachineState::error_stop;
+        if (!stopped && (now.latched || now.at - own_[i].jumped_at <= fails_within)) continue;
+        found(Rule::limits_kept, now.at, std::exchange(own_[i].jumped, {}) + (stopped ? ", and it is trusted" : ""));
     }
 }
 

@@ -107,7 +107,8 @@ class Invariants {
         bool off = false;
         double velocity = 0;    ///< in the previous interval
         std::int64_t base = 0;  ///< pulses at the start of the interval
-        std::string jumped;     ///< velocity change during the current stop
+        std::string jumped;     ///< velocity change of a stop, or of a motion that may have failed
+        Instant jumped_at{};
     };
     bool moved(std::size_t i, const Sight& now) const { return now.axes[i].sent != last_.axes[i].sent; }
     void see_time(const Sight& now);

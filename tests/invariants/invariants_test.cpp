@@ -229,7 +229,7 @@ const Broken broken[] = {
     {"a_jump_of_velocity", Rule::limits_kept,
      [](History& h) {
          h.begin();
-         h.jump(20);
+         h.jump(80);
          h.pass(0.03);
      }},
     {"a_stop_without_a_ramp_that_keeps_trust", Rule::limits_kept,
@@ -239,6 +239,20 @@ const Broken broken[] = {
          h.jump(0);
          h.to(MachineState::error_stop);
          h.pass(0.1);
+     }},
+    {"a_stop_by_a_card_without_a_ramp_that_keeps_trust", Rule::limits_kept,
+     [](History& h) {
+         h.begin();
+         h.jump(0);
+         h.pass(0.02);
+         h.to(MachineState::error_stop);
+         h.pass(0.02);
+     }},
+    {"a_jump_to_a_lower_velocity", Rule::limits_kept,
+     [](History& h) {
+         h.begin();
+         h.jump(20);
+         h.pass(0.4);
      }},
     {"beyond_its_travel", Rule::travel_kept,
      [](History& h) {
@@ -302,16 +316,17 @@ TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
 }
 
 TEST(AGoodHistory, MayEndPulsesAtOnceIfThatTakesTheTrust) {
-    History h;
-    h.begin();
-    h.latch(true);
-    h.jump(0);
-    h.to(MachineState::stopping);
-    h.pass(0.02);
-    h.now().axes[0].position_valid = false;
-    h.to(MachineState::error_stop);
-    h.pass(0.3);
-    for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+    for (const bool by_card_alone : {false, true}) {
+        History h;
+        h.begin();
+        if (!by_card_alone) h.latch(true), h.to(MachineState::stopping);
+        h.jump(0);
+        h.pass(0.1);
+        h.now().axes[0].position_valid = false;
+        h.to(MachineState::error_stop);
+        h.pass(0.3);
+        for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+    }
 }
 
 TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {

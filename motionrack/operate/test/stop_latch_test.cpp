@@ -253,6 +253,35 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
     }
 }
 
+/// The chip ends the pulses of a path at the end of its segment where one of its axes has reached a switch. No edge
+/// sets the latch, because the switch was active before.
+TEST(AStopByACard, TakesTheTrustOfAnAxisWhosePulsesEndWithoutARamp) {
+    for (const char* profile : {"trapezoid", "jerk_limited"}) {
+        rack::RackConfig config = router();
+        config.controller.profile = profile;
+        Operated o(config);
+        o.at(0.05, [](Machine& m) {
+            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+        });
+        o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_minus", 0)); });
+        o.at(0.15, [](Machine& m) { m.reset(); });
+        o.at(0.2, [](Machine& m) {
+            const std::vector<AxisStatus>& axes = m.status().axes;
+            const double x = axes[0].commanded, y = axes[1].commanded;
+            EXPECT_TRUE(m.begin_program(fmt::format("G21 G90 G17 F3000\nG3 X{} Y{} J20\nM2\n", x, y + 40), "p"));
+        });
+        o.at(2, [&](Machine& m) {
+            ASSERT_EQ(m.state(), MachineState::error_stop) << profile;
+            EXPECT_TRUE(m.status().axes[0].position_valid) << profile << ": it was slow where it turned back";
+            EXPECT_FALSE(m.status().axes[1].position_valid) << profile;
+            EXPECT_NE(m.status().reason.find("The position of Y is not trusted any more: steps may have been lost"),
+                      std::string::npos)
+                << m.status().reason;
+        });
+        o.run(2.1);
+    }
+}
+
 TEST(TheStopLatch, TakesTheTrustAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
     Operated o(router());
     o.at(0.05, [](Machine& m) {
