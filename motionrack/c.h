@@ -301,7 +301,7 @@ typedef struct mr_run_result {
  * a line for each mistake, with line and column. Wires may be driven, faults injected and recordings begun before;
  * during it counters are recorded every 50 ms. A program begins where the controller has the axes: where the rack file
  * says that the machine stands, or where mr_home found it, and on from there by the pulses that the card has sent
- * since, by whatever order (of a servo by what its motor has turned). What a host wrote into the card's counters
+ * since, by whatever command (of a servo by what its motor has turned). What a host wrote into the card's counters
  * does not count. G-code modes and offsets begin anew, and an mcx314 is set up anew: what a host wrote into its
  * registers is gone, outputs too, and EP begins at 0. An axis whose position an earlier program or mr_home has lost
  * keeps programs from beginning until it is homed. `options` and `result` may be NULL; `result` and mr_report are of

@@ -52,12 +52,12 @@ TEST_F(Decode, CountsWhatTheJobsSummarySays) {
         const auto& channel = decoded["channels"][i];
         const auto& axis = summary["axes"][i];
         EXPECT_EQ(channel["name"], axis["axis"]);
-        EXPECT_EQ(channel["counts"], axis["counts_read"]) << axis;
+        EXPECT_EQ(channel["counts"], axis["encoder_counts"]) << axis;
         EXPECT_EQ(channel["illegal"], 0);
         moved += channel["up"].get<int>() > 0;
     }
     EXPECT_EQ(moved, 2) << "up: X and Y; Z goes down";
-    EXPECT_NEAR(decoded["last_s"].get<double>(), summary["seconds"].get<double>(), 1e-4)
+    EXPECT_NEAR(decoded["last_s"].get<double>(), summary["duration_s"].get<double>(), 1e-4)
         << "it ends with the look after the job";
 }
 

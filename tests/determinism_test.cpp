@@ -90,8 +90,8 @@ TEST(Determinism, WatchingEveryWireDoesNotDisturb) {
     for (std::size_t i = 0; i < unseen.outcome.axes.size(); ++i) {
         const AxisOutcome &a = unseen.outcome.axes[i], &b = watched.outcome.axes[i];
         EXPECT_EQ(a.pulses_sent, b.pulses_sent) << i;
-        EXPECT_EQ(a.counts_read, b.counts_read) << i;
-        EXPECT_EQ(a.real_end, b.real_end) << i;
+        EXPECT_EQ(a.encoder_counts, b.encoder_counts) << i;
+        EXPECT_EQ(a.actual_end, b.actual_end) << i;
         EXPECT_EQ(a.top.peak_velocity, b.top.peak_velocity) << i;
         EXPECT_EQ(a.top.peak_accel, b.top.peak_accel) << i;
     }

@@ -148,6 +148,10 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
     EXPECT_EQ(run(examples, "printf 'G1 X5\\n' | " + program + " run - --no-report").code, 2);
     EXPECT_EQ(run(examples, program + " run no_such_file.ngc").code, 5);
     EXPECT_EQ(run(examples, program + " describe mcx315").code, 1);
+    const Ran former = run(examples, program + " serve --free --speed=2 2>&1");
+    EXPECT_EQ(former.code, 1);
+    EXPECT_NE(former.out.find("'--free' is now '--unthrottled'."), std::string::npos) << former.out;
+    EXPECT_NE(former.out.find("'--speed' is now '--time-scale'."), std::string::npos) << former.out;
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " describe mcx314 --json").out));
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
 }

@@ -45,10 +45,10 @@ inline Done drive(const RackConfig& config, const std::string& program, const st
 /// `jump`: allowed velocity step of an axis, relative to its limit. 0: not checked, for moves so short that one pulse
 /// more or less changes their mean rate by that much.
 inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
-    EXPECT_TRUE(outcome.position_trusted);
+    EXPECT_TRUE(outcome.position_valid);
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
-        EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
+        EXPECT_EQ(axis.encoder_counts, axis.expected_counts) << axis.index;
         EXPECT_EQ(axis.lost_pulses, 0) << axis.index;
         EXPECT_LE(axis.top.peak_velocity, axis.limits.max_velocity * 1.001) << axis.index;
         // Resolution of four samples: one speed step of the chip.

@@ -44,7 +44,7 @@ TEST(Journey, AWrongLineLaterEndsTheStreamWhereTheLineBeforeItEnds) {
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
     EXPECT_EQ(outcome.ended.error().place.line, 3);
-    EXPECT_TRUE(outcome.position_trusted);
+    EXPECT_TRUE(outcome.position_valid);
     EXPECT_EQ(outcome.axes[0].pulses_net, 8000);
     EXPECT_EQ(outcome.axes[1].pulses_net, 4480);
     EXPECT_NE(outcome.ended.error().text().find("X"), std::string::npos) << "the word to blame";
@@ -69,13 +69,13 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
     ASSERT_GT(asked, 0) << "the stop was asked for on the way";
     // From 30 mm/s at 1000 mm/s2 in less than 0.1 s.
     EXPECT_LT(to_seconds(outcome.time), asked + 0.2);
-    const double x = outcome.axes[0].real_end - 130, y = outcome.axes[1].real_end - 100;
+    const double x = outcome.axes[0].actual_end - 130, y = outcome.axes[1].actual_end - 100;
     EXPECT_NEAR(std::sqrt(x * x + y * y), 30, 3.0 / 640);
-    EXPECT_TRUE(outcome.position_trusted);
+    EXPECT_TRUE(outcome.position_valid);
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.lost_pulses, 0) << axis.index;
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
-        EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
+        EXPECT_EQ(axis.encoder_counts, axis.expected_counts) << axis.index;
     }
     EXPECT_LE(outcome.worst.mm, 3.0 / 640);
 }
@@ -143,11 +143,11 @@ TEST(Journey, AHundredThousandShortLinesEndExactly) {
     ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
     EXPECT_EQ(outcome.run.lines, count + 4);
     EXPECT_GE(outcome.run.plan.moves, count);
-    EXPECT_TRUE(outcome.position_trusted);
+    EXPECT_TRUE(outcome.position_valid);
     EXPECT_LE(outcome.worst.mm, 3.0 / 640);
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.pulses_net, 0) << axis.index;
-        EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
+        EXPECT_EQ(axis.encoder_counts, axis.expected_counts) << axis.index;
         EXPECT_LE(axis.top.peak_velocity, axis.limits.max_velocity * 1.001) << axis.index;
     }
     EXPECT_LE(running.job.monitor().samples().size(), 1000u) << "memory does not grow with the program";

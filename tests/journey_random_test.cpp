@@ -32,7 +32,7 @@ double drive_random(const std::string& profile, test::ProgramSize size) {
         EXPECT_LE(done.outcome.worst.mm, max_deviation(config, program, done.outcome))
             << "line " << done.outcome.worst.line;
         for (std::size_t i = 0; i < done.outcome.axes.size(); ++i)
-            EXPECT_NEAR(done.outcome.axes[i].real_end, program.end[i], 0.51 / config.axes[i].pulses_per_unit()) << i;
+            EXPECT_NEAR(done.outcome.axes[i].actual_end, program.end[i], 0.51 / config.axes[i].pulses_per_unit()) << i;
         ++driven;
         if (testing::Test::HasFailure() && count < 100) break;
     }

@@ -13,14 +13,14 @@ TEST(Journey, FourAxesTogetherEndExactly) {
                             "G21 G90 F1500\nG0 X100 Y100 Z40\nG1 X120 Y110 Z30 A90\nG1 X100 Y100 Z40 A-45\nG2 X100 "
                             "Y100 Z35 I10 J0 A180 P2\nM2\n");
     expect_exact(done.outcome, 0);
-    EXPECT_DOUBLE_EQ(done.outcome.axes[3].real_end, 180.0);
+    EXPECT_DOUBLE_EQ(done.outcome.axes[3].actual_end, 180.0);
     EXPECT_LE(done.outcome.worst.mm, 0.01);
 }
 
 TEST(Journey, ASteeredAxisThatIsThenInterpolatedEndsExactly) {
     const Done done = drive(router(), "G21 G90\nG1 X4 Y3 Z75 A20 F600\nG1 X0 A0\nM2\n");
     expect_exact(done.outcome, 0);
-    EXPECT_DOUBLE_EQ(done.outcome.axes[3].real_end, 0.0);
+    EXPECT_DOUBLE_EQ(done.outcome.axes[3].actual_end, 0.0);
 }
 
 TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
@@ -30,7 +30,7 @@ TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
               "F2698\n"
               "G3 X233.471 Y146.362 Z24.944 A86.80 R254.569 F111\nG1 X233.123 Y144.372 Z51.462 A67.19 F485\nM2\n");
     expect_exact(done.outcome, 0);
-    EXPECT_NEAR(done.outcome.axes[3].real_end, 67.19, 1e-9);
+    EXPECT_NEAR(done.outcome.axes[3].actual_end, 67.19, 1e-9);
 }
 
 TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
@@ -70,8 +70,8 @@ TEST(Journey, ALimitSwitchStopsTheJobAndSaysWhere) {
     EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::machine);
     EXPECT_EQ(done.outcome.ended.error().place.line, 2);
     EXPECT_NE(done.outcome.ended.error().message.find("axis X: the + limit switch"), std::string::npos);
-    EXPECT_GT(done.outcome.axes[0].real_end, 40.0);
-    EXPECT_LT(done.outcome.axes[0].real_end, 43.0);
+    EXPECT_GT(done.outcome.axes[0].actual_end, 40.0);
+    EXPECT_LT(done.outcome.axes[0].actual_end, 43.0);
     EXPECT_EQ(done.outcome.axes[0].lost_pulses, 0);
 }
 
@@ -80,7 +80,7 @@ TEST(Journey, AWeakMotorLosesStepsAndTheJobSaysSo) {
     config.axes[0].motor.pull_out_hz = 30'000;  // 47 mm/s
     config.axes[0].following_error_alarm = 0;
     const Done done = drive(config, "G21 G90\nG0 X200\nM2\n");
-    EXPECT_FALSE(done.outcome.position_trusted);
+    EXPECT_FALSE(done.outcome.position_valid);
     EXPECT_NE(done.outcome.axes[0].lost_pulses, 0);
     EXPECT_EQ(done.outcome.axes[0].lost_pulses % 64, 0) << "whole electrical cycles";
     ASSERT_FALSE(done.outcome.warnings.empty());
@@ -93,7 +93,7 @@ TEST(Journey, AStopComesToRestOnThePath) {
     const Done done = drive(router(), "G21 G90\nG1 X100 Y50 F3000\nM2\n", &stop);
     ASSERT_FALSE(done.outcome.ended);
     EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::stopped);
-    EXPECT_TRUE(done.outcome.position_trusted);
+    EXPECT_TRUE(done.outcome.position_valid);
 }
 
 TEST(Journey, WhatCameFromOutsideReplaysToTheSameHistory) {

@@ -33,8 +33,8 @@ TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
         const Ran ran = motionrack("plan --json examples/plan/" + entry.path().filename().string());
         ASSERT_EQ(ran.code, 0) << ran.out;
         const auto plan = nlohmann::json::parse(ran.out);
-        const double stopping = plan["stopping"]["seconds"], trapezoids = plan["trapezoids"]["seconds"],
-                     limited = plan["jerk_limited"]["seconds"], bound = plan["bound"]["seconds"];
+        const double stopping = plan["stopping"]["duration_s"], trapezoids = plan["trapezoids"]["duration_s"],
+                     limited = plan["jerk_limited"]["duration_s"], bound = plan["bound"]["duration_s"];
         EXPECT_LE(limited, stopping) << entry.path();
         EXPECT_GE(limited, bound) << entry.path();
         double peak = 0;
@@ -84,7 +84,7 @@ TEST_F(PlanCommand, OfNothingTakesNoTime) {
     write("nothing.ngc", "G21\nM2\n");
     const Ran ran = motionrack("plan nothing.ngc --json");
     ASSERT_EQ(ran.code, 0) << ran.out;
-    EXPECT_EQ(nlohmann::json::parse(ran.out)["jerk_limited"]["seconds"], 0);
+    EXPECT_EQ(nlohmann::json::parse(ran.out)["jerk_limited"]["duration_s"], 0);
 }
 
 TEST_F(PlanCommand, RefusesWhatCannotBePlannedWithTheReason) {

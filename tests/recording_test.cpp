@@ -34,7 +34,7 @@ JobRequest request_for(const std::string& text, const std::vector<std::string>& 
     request.program = text;
     request.program_name = "part.ngc";
     request.faults = *read_faults(faults);
-    request.orders = *read_orders(orders);
+    request.commands = *read_commands(orders);
     request.version = "0.0.0";
     return request;
 }
@@ -104,8 +104,8 @@ TEST_F(ARecordedRun, HasEveryPulseAndCountThatWasCounted) {
         EXPECT_EQ(net, axis.pulses_net) << name;
         const auto counts = read<std::int64_t>(*reader, name + ".encoder");
         for (std::size_t i = 1; i < counts.size(); ++i) EXPECT_EQ(std::abs(counts[i].second - counts[i - 1].second), 1);
-        EXPECT_EQ(counts.empty() ? 0 : counts.back().second, axis.counts_expected) << name;
-        EXPECT_EQ(read<double>(*reader, name + ".position").back().second, axis.real_end) << name;
+        EXPECT_EQ(counts.empty() ? 0 : counts.back().second, axis.expected_counts) << name;
+        EXPECT_EQ(read<double>(*reader, name + ".position").back().second, axis.actual_end) << name;
     }
 }
 
@@ -139,7 +139,7 @@ TEST_F(ARecordedRun, IsNotDisturbedByItsRecording) {
     EXPECT_EQ(seen.worst.mm, unseen.worst.mm);
     for (std::size_t i = 0; i < seen.axes.size(); ++i) {
         EXPECT_EQ(seen.axes[i].pulses_sent, unseen.axes[i].pulses_sent);
-        EXPECT_EQ(seen.axes[i].real_end, unseen.axes[i].real_end);
+        EXPECT_EQ(seen.axes[i].actual_end, unseen.axes[i].actual_end);
         EXPECT_EQ(seen.axes[i].top.peak_accel, unseen.axes[i].top.peak_accel);
     }
 }
@@ -160,7 +160,7 @@ TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
                          plain = record(request_for(program, {}, {}, profile), "plain.h5");
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
         const auto reader = trace::RecordingReader::open(at("a.h5"));
-        for (const auto& [when, speed] : read<double>(*reader, "X.speed"))
+        for (const auto& [when, speed] : read<double>(*reader, "X.velocity"))
             if (Instant{when} > milliseconds(700) && Instant{when} < milliseconds(800)) {
                 EXPECT_EQ(speed, 0) << "held, at " << when;
             }
@@ -229,7 +229,7 @@ TEST_F(ARecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
 TEST_F(ARecordedRun, RefusesOrdersThatAreNone) {
     Rack rack(request_for(program).config);
     const auto refused = [&](const std::string& order) {
-        const auto orders = read_orders({order});
+        const auto orders = read_commands({order});
         if (!orders) return orders.error().message;
         const auto plan = CommandSchedule::create(rack, *orders);
         return plan ? std::string() : plan.error().message;
@@ -237,7 +237,7 @@ TEST_F(ARecordedRun, RefusesOrdersThatAreNone) {
     for (const char* order : {"hold", "hold@", "hold@-1s", "hold@1", "hold=1@1s", "feed@1s", "feed=0@1s", "feed=2.1@1s",
                               "rapid=1.1@1s", "feed=nan@1s", "go@1s", "hold@1s"})
         EXPECT_THAT(refused(order), HasSubstr("Nothing was moved")) << order;
-    EXPECT_THAT(refused("hold@1s"), HasSubstr("for ever"));
+    EXPECT_THAT(refused("hold@1s"), HasSubstr("never end"));
 }
 
 // ---- the program

@@ -56,9 +56,9 @@ TEST_F(AServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
     refused("jog", {{"axis", "X"}, {"speed", -1e6}}, "Nothing was moved");
     refused("jog_by", {{"axis", "X"}, {"distance", 1}, {"speed", 1e6}}, "the speed is 1e+06 mm/s");
     refused("jog_by", {{"axis", "X"}, {"distance", 1e6}, {"speed", 5}}, "the whole travel of axis X is 300");
-    refused("begin", {{"name", "a.ngc"}, {"text", "; nothing\n"}}, "the program is empty");
-    refused("begin", {{"name", "a.ngc"}, {"text", ""}}, "");
-    refused("line", {{"text", "G0 X1e9"}}, "");
+    refused("start_program", {{"name", "a.ngc"}, {"text", "; nothing\n"}}, "the program is empty");
+    refused("start_program", {{"name", "a.ngc"}, {"text", ""}}, "");
+    refused("mdi", {{"text", "G0 X1e9"}}, "");
     const json status = served.status();
     EXPECT_EQ(status["state"], "standstill");
     EXPECT_EQ(status["axes"][0]["commanded"], 10);

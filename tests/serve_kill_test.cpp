@@ -40,7 +40,7 @@ class AServedRack : public InFolder {
     static void make_ready(Served& served) {
         EXPECT_TRUE(served.post("take_control").contains("done"));
         EXPECT_TRUE(served.post("enable", {{"on", true}}).contains("done"));
-        EXPECT_TRUE(served.post("declare_position", {{"axis", "X"}, {"position", 0}}).contains("done"));
+        EXPECT_TRUE(served.post("set_position", {{"axis", "X"}, {"position", 0}}).contains("done"));
     }
 };
 
@@ -64,13 +64,13 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
             }
             const json status = served.status();
             ASSERT_TRUE(status.contains("axes")) << status.dump();
-            EXPECT_FALSE(status["axes"][0]["trusted"]);
+            EXPECT_FALSE(status["axes"][0]["position_valid"]);
             ASSERT_EQ(status["alarms"].size(), 1u);
         }
         make_ready(served);
         const std::string name = "kill_" + std::to_string(kill) + ".ngc";
         ran.clear();
-        if (served.post("begin", {{"name", name}, {"text", long_way}}).contains("done"))
+        if (served.post("start_program", {{"name", name}, {"text", long_way}}).contains("done"))
             acknowledged.push_back(ran = name);
         for (int order = among(0, 12); order > 0; --order) {
             const double feed = 0.5 + 0.00001 * static_cast<double>(acknowledged.size());
@@ -82,7 +82,7 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
         ASSERT_EQ(served.end(SIGKILL), -SIGKILL);
     }
     EXPECT_GT(acknowledged.size(), 300u);
-    const std::vector<std::string> orders = entries("order");
+    const std::vector<std::string> orders = entries("command");
     std::size_t at = 0;
     for (const std::string& one : acknowledged) {
         while (at < orders.size() && orders[at].find(one) == std::string::npos) ++at;
@@ -100,16 +100,17 @@ TEST_F(AServedRack, KilledWhileItStoodKnowsIt) {
         Served served(arguments());
         EXPECT_THAT(served.said, HasSubstr("was cut off"));
         const json status = served.status();
-        EXPECT_FALSE(status["axes"][0]["trusted"]) << "anything could have moved it since";
+        EXPECT_FALSE(status["axes"][0]["position_valid"]) << "anything could have moved it since";
     }
-    EXPECT_EQ(entries("order").size(), 3u);
+    EXPECT_EQ(entries("command").size(), 3u);
 }
 
 TEST_F(AServedRack, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
     {
         Served served(arguments());
         make_ready(served);
-        EXPECT_TRUE(served.post("begin", {{"name", "there.ngc"}, {"text", "G1 X12.5 F6000\nM30\n"}}).contains("done"));
+        EXPECT_TRUE(
+            served.post("start_program", {{"name", "there.ngc"}, {"text", "G1 X12.5 F6000\nM30\n"}}).contains("done"));
         while (served.status()["axes"][0]["commanded"] != 12.5) continue;
         EXPECT_EQ(served.end(SIGTERM), 0);
     }
@@ -117,14 +118,14 @@ TEST_F(AServedRack, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
     EXPECT_THAT(served.said, testing::Not(HasSubstr("cut off")));
     const json status = served.status();
     EXPECT_EQ(status["axes"][0]["commanded"], 12.5);
-    EXPECT_TRUE(status["axes"][0]["trusted"]);
+    EXPECT_TRUE(status["axes"][0]["position_valid"]);
     EXPECT_TRUE(status["alarms"].empty());
 }
 
 TEST_F(AServedRack, StopsAMoveBeforeItEnds) {
     Served served(arguments());
     make_ready(served);
-    EXPECT_TRUE(served.post("begin", {{"name", "long.ngc"}, {"text", long_way}}).contains("done"));
+    EXPECT_TRUE(served.post("start_program", {{"name", "long.ngc"}, {"text", long_way}}).contains("done"));
     while (served.status()["axes"][0]["commanded"].get<double>() < 5) continue;
     EXPECT_EQ(served.end(SIGINT), 0);
     const std::vector<std::string> jobs = entries("job");

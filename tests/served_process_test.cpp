@@ -84,7 +84,7 @@ TEST_F(AServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
     };
     for (const auto& [options, code, says] :
          {Bad{"--unthrottled --live bench=port:/dev/zero", 3,
-              "the rack's clock is 'free' with factor 1. Nothing was started."},
+              "the rack's clock is 'unthrottled' with factor 1. Nothing was started."},
           Bad{"--paused --live bench=port:/dev/zero", 3, "the rack's clock is 'paused'"},
           Bad{"--time-scale 2 --live bench=port:/dev/zero", 3, "the rack's clock is 'real' with factor 2"},
           Bad{"--live m=port:/dev/zero", 3, "Card m moves X of the machine"},

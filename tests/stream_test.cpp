@@ -48,7 +48,7 @@ struct Watched {
     Interrupt& host() { return rack.cards().front()->host(); }
     double seconds() const { return to_seconds(rack.kernel().now()); }
 
-    double worst_deviation() const {
+    double max_deviation() const {
         double worst = 0;
         for (const Sample& sample : monitor.samples()) {
             double nearest = 1e9;
@@ -122,7 +122,7 @@ TEST_P(AStream, DrivesAProgramAsAJobDoes) {
     EXPECT_NEAR(w.seconds(), to_seconds(job.outcome.time), 0.03 * w.seconds());
     for (std::size_t i = 0; i < w.rack.axes().size(); ++i)
         EXPECT_EQ(w.rack.axes()[i].card->pulse_counter(w.rack.axes()[i].channel), job.outcome.axes[i].pulse_position);
-    EXPECT_LE(w.worst_deviation(), w.tolerance + 3.0 / 640 + 0.0021);
+    EXPECT_LE(w.max_deviation(), w.tolerance + 3.0 / 640 + 0.0021);
 }
 
 void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize size) {
@@ -145,7 +145,7 @@ void disturb(const std::string& profile, std::uint64_t seed, test::ProgramSize s
     };
     drive_all(w, program.text);
     w.expect_limits(size == test::ProgramSize::tiny ? 1000 : program.chords ? 1.6 : 1.15);
-    EXPECT_LE(w.worst_deviation(), w.tolerance + 3.5 / 640 + (program.chords ? 0.0021 : 0));
+    EXPECT_LE(w.max_deviation(), w.tolerance + 3.5 / 640 + (program.chords ? 0.0021 : 0));
     for (std::size_t i = 0; i < program.end.size(); ++i) {
         const RunningAxis& axis = w.rack.axes()[i];
         EXPECT_NEAR(axis.machine->position(w.rack.kernel().now()), program.end[i], 0.51 / axis.config.pulses_per_unit())
@@ -207,7 +207,7 @@ TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
         };
         drive_all(w, program);
         w.expect_limits();
-        EXPECT_LE(w.worst_deviation(), w.tolerance + 2.5 / 640);
+        EXPECT_LE(w.max_deviation(), w.tolerance + 2.5 / 640);
         EXPECT_NEAR(w.rack.axes()[3].machine->position(w.rack.kernel().now()), 20, 0.01);
     }
 }
@@ -319,7 +319,7 @@ TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
 
 TEST_P(AStream, InSingleStepPausesAfterEachLine) {
     Watched w(router(GetParam()));
-    w.stream->set_single_step(true);
+    w.stream->set_single_block(true);
     std::vector<double> stood;
     drive_all(w, "G21 G90 F3000\nG1 X10\nG1 X20\nG1 X30\n", [&] {
         if (w.stream->state() != ExecutionState::paused) return;

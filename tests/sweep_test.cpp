@@ -111,13 +111,28 @@ TEST_F(SweepCommand, GivesTheSameHdf5FileToo) {
     EXPECT_EQ(read.out, "64 s 0.05 ok\n");
 }
 
+TEST_F(SweepCommand, RefusesTablesOfFormerVersions) {
+    const auto refused = [&](const std::string& file) {
+        const std::string before = text_of(folder / file);
+        const Ran ran = motionrack("sweep sweep.toml -o " + file);
+        EXPECT_EQ(ran.code, 3) << ran.out;
+        EXPECT_EQ(text_of(folder / file), before);
+        return ran.out;
+    };
+    write("former.csv", "key,point,text.TOLERANCE,ended,time_s,worst_deviation_mm\n");
+    EXPECT_THAT(refused("former.csv"), HasSubstr("'worst_deviation_mm' is now 'max_deviation_mm'"));
+    ASSERT_EQ(motionrack("sweep sweep.toml -o former.h5 --jobs 2").code, 0);
+    shell("/usr/bin/python3 -c \"import h5py; f=h5py.File('former.h5','r+'); f.attrs['format_version']=1; f.close()\"");
+    EXPECT_THAT(refused("former.h5"), HasSubstr("The table has format 1, as motionrack "));
+}
+
 TEST_F(SweepCommand, TellsWhatRunTells) {
     const std::string csv = table("sweep.toml -o out.csv");
     const std::vector<std::string> lines = lines_of(csv);
     EXPECT_THAT(lines[0],
-                HasSubstr("key,point,axis.X.max_accel_mm_s2,text.TOLERANCE,fault,ended,time_s,worst_deviation_mm,x_top_"
-                          "speed_mm_s,x_top_accel_mm_s2,x_lost_pulses,x_rest_error_mm,y_top_speed"));
-    EXPECT_THAT(lines[0], Not(HasSubstr("z_top")));
+                HasSubstr("key,point,axis.X.max_accel_mm_s2,text.TOLERANCE,fault,ended,time_s,max_deviation_mm,x_peak_"
+                          "velocity_mm_s,x_peak_accel_mm_s2,x_lost_pulses,x_rest_error_mm,y_peak_velocity"));
+    EXPECT_THAT(lines[0], Not(HasSubstr("z_peak")));
     write("same.ngc", "G21 G90 G64 P0.05\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
     shell("sed -i 's/max_limit_mm = 300/max_limit_mm = 300\\nmax_accel_mm_s2 = 500/' rack.toml");
     const Ran ran = motionrack("run same.ngc --rack rack.toml --no-report --json -q --fault X.limit_plus=0@500ms");

@@ -64,7 +64,7 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     EXPECT_EQ(last_number(path, "counter:data=X_step:data_edge=rising", "counter=edge_count"), 2240);
     EXPECT_EQ(last_number(path, "stepper_motor:step=X_step:dir=X_dir", "stepper_motor=position"), 321)
         << "told when it is left";
-    EXPECT_EQ(outcome.axes[0].counts_read, 400);
+    EXPECT_EQ(outcome.axes[0].encoder_counts, 400);
     EXPECT_EQ(last_number(path, "graycode:d0=X_enc_a:d1=X_enc_b", "graycode=count"), 401);
     std::filesystem::remove(path);
 }

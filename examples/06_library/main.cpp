@@ -16,6 +16,6 @@ int main() {
 
     fmt::print("{:.3f} s\n", to_seconds(outcome.time));
     for (const rack::AxisOutcome& axis : outcome.axes)
-        fmt::print("{} {:.4f} {}, {} pulses\n", "XYZABC"[axis.index], axis.real_end, axis.unit, axis.pulses_sent);
+        fmt::print("{} {:.4f} {}, {} pulses\n", "XYZABC"[axis.index], axis.actual_end, axis.unit, axis.pulses_sent);
     return outcome.ended ? 0 : 1;
 }

@@ -40,8 +40,8 @@ class Carriage:
         rack.advance(ms=100)  # it comes to rest
         there = board.position()
         print(
-            f"  {name:<5} {abs(target - here):>7} counts  by the table {motion['seconds']:6.3f} s, took {took:6.3f} s, "
-            f"at most {motion['top_speed'] / COUNTS_PER_MM:3.0f} mm/s, "
+            f"  {name:<5} {abs(target - here):>7} counts  by the table {motion['duration_s']:6.3f} s, "
+            f"took {took:6.3f} s, at most {motion['top_speed'] / COUNTS_PER_MM:3.0f} mm/s, "
             f"stands {there - target:+d} counts from its target"
         )
 
@@ -66,7 +66,7 @@ class Carriage:
 
 print("as it should be")
 good = Carriage([])
-with good.rack.record("X.position_mm", "X.speed_mm_s", "X.drive_v", every=5e-3) as recording:
+with good.rack.record("X.position_mm", "X.speed_mm_s", "X.drive_v", period=5e-3) as recording:
     good.run()
 if len(sys.argv) > 1:
     recording.trace.plot(path=sys.argv[1])

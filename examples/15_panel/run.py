@@ -8,7 +8,7 @@ with motionrack.Rack.from_file("demonstration.toml") as rack:
     for card in rack.cards.values():
         print(f"{card.name:<12} {card.type:<16} {card.title}")
     print()
-    program = rack.fresh()
+    program = rack.new_instance()
 
 with program as rack:
     print(rack.run(path="../02_part/part.ngc"))

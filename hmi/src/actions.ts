@@ -1,7 +1,7 @@
 // Actions of buttons and keys: one table of permissions and commands.
 import { signal } from '@preact/signals';
 import { axes, machineState, status } from './link/state';
-import { mayOperate, notice, order, stop, whyNot } from './link/commands';
+import { mayOperate, notice, command, stop, whyNot } from './link/commands';
 import { typed } from './parts/numbers';
 import * as text from './program/text';
 
@@ -17,13 +17,13 @@ export const chosenAxis = signal('X');
 export const placeText = signal('0');
 
 function startText(): void {
-  if (machineState.value === 'hold') void order('resume');
+  if (machineState.value === 'hold') void command('resume');
   else if (text.program.value === '') notice('refused', 'There is no program to run. Open one, or type one, first.');
-  else void order('begin', { name: text.programName.value, text: text.program.value });
+  else void command('start_program', { name: text.programName.value, text: text.program.value });
 }
 
 async function oneStep(): Promise<void> {
-  if (!(await order('set_single_step', { on: true }))) return;
+  if (!(await command('set_single_block', { on: true }))) return;
   startText();
 }
 
@@ -34,40 +34,40 @@ export const axisLetter = (): string =>
 function declare(): void {
   const position = typed(placeText.value);
   if (position === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
-  else void order('declare_position', { axis: axisLetter(), position });
+  else void command('set_position', { axis: axisLetter(), position });
 }
 
 function touchOff(): void {
   const place = typed(placeText.value);
   if (place === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
-  else void order('set_work_zero', { axis: axisLetter(), value: place });
+  else void command('touch_off', { axis: axisLetter(), value: place });
 }
 
 const enabled = (): boolean => machineState.value !== 'disabled';
 
 export const actions = {
   stop: { label: 'STOP', why: () => '', run: stop },
-  hold: { label: 'Feed hold', why: () => whyNot('operate'), run: () => void order('hold') },
-  resume: { label: 'Resume', why: mayOperate, run: () => void order('resume') },
-  reset: { label: 'Reset', why: mayOperate, run: () => void order('reset') },
-  enable: { label: 'Enable drives', why: mayOperate, run: () => void order('enable', { on: !enabled() }) },
+  hold: { label: 'Feed hold', why: () => whyNot('operate'), run: () => void command('hold') },
+  resume: { label: 'Resume', why: mayOperate, run: () => void command('resume') },
+  reset: { label: 'Reset', why: mayOperate, run: () => void command('reset') },
+  enable: { label: 'Enable drives', why: mayOperate, run: () => void command('enable', { on: !enabled() }) },
   estop: {
     label: 'E-stop input (simulated)',
     why: () =>
       whyNot('operate') || (status.value?.estop.wired === false ? 'The rack file wires no emergency stop.' : ''),
-    run: () => void order('press_estop', { pressed: !status.value?.estop.pressed }),
+    run: () => void command('set_estop', { pressed: !status.value?.estop.pressed }),
   },
-  home: { label: 'Home all', why: mayOperate, run: () => void order('home') },
+  home: { label: 'Home all', why: mayOperate, run: () => void command('home') },
   touchOff: { label: 'Touch off', why: mayOperate, run: touchOff },
-  declare: { label: 'Declare', why: mayOperate, run: declare },
+  declare: { label: 'Set position', why: mayOperate, run: declare },
   run: { label: 'Run', why: mayOperate, run: startText },
-  step: { label: 'Single step', why: mayOperate, run: () => void oneStep() },
+  step: { label: 'Single block', why: mayOperate, run: () => void oneStep() },
 } satisfies Record<string, Action>;
 
 export const acknowledge = (alarm: number): Action => ({
   label: 'Acknowledge',
   why: () => whyNot('operate'),
-  run: () => void order('acknowledge', { alarm }),
+  run: () => void command('acknowledge_alarm', { alarm }),
 });
 
 /** Performs the action, or shows why it is not allowed. */
@@ -78,5 +78,5 @@ export function perform(action: Action): void {
 }
 
 export function setFeed(part: number): void {
-  perform({ label: 'Feed override', why: mayOperate, run: () => void order('set_overrides', { feed: part }) });
+  perform({ label: 'Feed override', why: mayOperate, run: () => void command('set_overrides', { feed: part }) });
 }

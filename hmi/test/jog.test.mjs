@@ -88,7 +88,7 @@ test('with Shift it jogs at the greatest speed', async () => {
   await tab.page.keyboard.down('Shift');
   await tab.page.keyboard.down('ArrowRight');
   await until(() => named(tab, 'jog').length > 0, 'a jog');
-  assert.equal(named(tab, 'jog')[0].speed, tab.status.axes[0].max_speed);
+  assert.equal(named(tab, 'jog')[0].speed, tab.status.axes[0].max_velocity);
   await tab.page.keyboard.up('ArrowRight');
   await tab.page.keyboard.up('Shift');
   await done(tab);

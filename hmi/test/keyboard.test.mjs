@@ -68,7 +68,7 @@ test('Space with the focus on Run holds and does not click Run; a second Space d
   await tab.page.keyboard.press('Space');
   await pause(300);
   assert.equal(tab.status.state, 'hold');
-  assert.equal(named(tab, 'begin').length, 1);
+  assert.equal(named(tab, 'start_program').length, 1);
   assert.equal(named(tab, 'resume').length, 0);
   await rest(tab);
 });
@@ -86,7 +86,7 @@ test('r or ~ runs, p or ! pauses, s resumes, t does one step', async () => {
   const tab = await withProgram();
   await tab.page.keyboard.press('~');
   await state(tab, 'moving');
-  assert.equal(named(tab, 'begin')[0].text, PROGRAM);
+  assert.equal(named(tab, 'start_program')[0].text, PROGRAM);
   await tab.page.keyboard.press('!');
   await state(tab, 'hold');
   await tab.page.keyboard.press('s');
@@ -94,16 +94,16 @@ test('r or ~ runs, p or ! pauses, s resumes, t does one step', async () => {
   await tab.page.keyboard.press('p');
   await state(tab, 'hold');
   await tab.page.keyboard.press('t');
-  await until(() => named(tab, 'set_single_step').some((one) => one.on === true), 'single step on');
+  await until(() => named(tab, 'set_single_block').some((one) => one.on === true), 'single block on');
   await until(() => named(tab, 'resume').length === 2, 'the step goes on from the hold');
-  await tab.page.getByRole('switch', { name: 'Single step' }).click();
+  await tab.page.getByRole('switch', { name: 'Single block' }).click();
   await rest(tab);
 });
 
 test('digits are the feed override: 1 to 9 for 10 to 90 %, 0 for 100 %, ` for 0 %', async () => {
   const tab = await fresh();
   for (const key of ['1', '5', '9', '0', '`']) await tab.page.keyboard.press(key);
-  await until(() => named(tab, 'set_overrides').length === 5, 'five orders');
+  await until(() => named(tab, 'set_overrides').length === 5, 'five commands');
   assert.deepEqual(
     named(tab, 'set_overrides').map((one) => one.feed),
     [0.1, 0.5, 0.9, 1, 0],
@@ -125,7 +125,7 @@ test('F1 toggles the E-stop input, F2 enables; the browser shows no help', async
   await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
   const before = named(tab, 'enable').length;
   await tab.page.keyboard.press('F2');
-  await until(() => named(tab, 'enable').length === before + 1, 'an order enable');
+  await until(() => named(tab, 'enable').length === before + 1, 'a command enable');
   await pause(200);
   if (tab.status.state === 'disabled') await tab.page.keyboard.press('F2');
   await rest(tab);
@@ -135,8 +135,8 @@ test('Ctrl+Home homes, Home alone does not; End touches off the chosen axis', as
   const tab = await fresh();
   await tab.page.keyboard.press('Home');
   await tab.page.keyboard.press('End');
-  await until(() => named(tab, 'set_work_zero').length === 1, 'touch off');
-  assert.deepEqual([named(tab, 'set_work_zero')[0].axis, named(tab, 'set_work_zero')[0].value], ['X', 0]);
+  await until(() => named(tab, 'touch_off').length === 1, 'touch off');
+  assert.deepEqual([named(tab, 'touch_off')[0].axis, named(tab, 'touch_off')[0].value], ['X', 0]);
   assert.equal(named(tab, 'home').length, 0);
   await tab.page.keyboard.press('Control+Home');
   await until(() => named(tab, 'home').length === 1, 'home');
@@ -175,7 +175,7 @@ test('no jog keys and no letters act while a field is typed in', async () => {
     await tab.page.keyboard.press(key);
   await pause(200);
   assert.deepEqual(
-    tab.sent.map((one) => one.order).filter((one) => !['take_control', 'keep_control'].includes(one)),
+    tab.sent.map((one) => one.command).filter((one) => !['take_control', 'renew_control'].includes(one)),
     [],
   );
   await rest(tab);
@@ -194,7 +194,7 @@ test('without control a key says why it does nothing', async () => {
   const tab = await openTab(all.browser, all.server);
   await tab.page.keyboard.press('r');
   await tab.page.getByText('Run: Take control first.').waitFor();
-  assert.equal(named(tab, 'begin').length, 0);
+  assert.equal(named(tab, 'start_program').length, 0);
   await tab.context.close();
 });
 

@@ -83,7 +83,7 @@ test('a second tab changes nothing and takes nothing', async () => {
   const second = await openTab(all.browser, all.server);
   await second.page.getByText(/holds control/).waitFor();
   await pause(500);
-  assert.deepEqual(second.sent, [], 'the second tab gave no order');
+  assert.deepEqual(second.sent, [], 'the second tab sent no command');
   assert.ok(['moving', 'hold'].includes(second.status.state));
   assert.equal(await tab.page.getByText('You hold control').count(), 1);
   const take = second.page.getByRole('button', { name: 'Take over' });

@@ -1,15 +1,15 @@
 // Pairing and roles: a code in the address, a code typed, a wrong one; what one may not do is disabled and says why.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, order, RACKS, suite, tabOf, until } from './support.mjs';
+import { openTab, command, RACKS, suite, tabOf, until } from './support.mjs';
 
 const all = suite(test, RACKS.axes, { pairing: true });
 let token = '';
 
 /** A pairing code of the program for somebody of that role. */
 async function invite(role) {
-  if (token === '') token = (await order(all.server, 'pair', { code: all.server.code, name: 'test' })).token;
-  return (await order(all.server, 'invite', { role }, token)).code;
+  if (token === '') token = (await command(all.server, 'pair', { code: all.server.code, name: 'test' })).token;
+  return (await command(all.server, 'invite', { role }, token)).code;
 }
 
 test('a code in the address pairs by itself and is removed from the address', async () => {

@@ -27,7 +27,7 @@ test('axes are homed, with their phases and what was found; then they are truste
   await tab.page.getByRole('list', { name: 'Phases of homing' }).waitFor();
   await state(tab, 'homing');
   await until(() => tab.status.state === 'standstill', 'all axes are homed', 60000);
-  await until(() => tab.status.axes.every((axis) => axis.trusted), 'all positions are trusted');
+  await until(() => tab.status.axes.every((axis) => axis.position_valid), 'all positions are trusted');
   await until(async () => (await tab.page.locator('.homed.yes').count()) === 4, 'all axes are shown as homed');
   await tab.page.getByText('Homed; what was found').click();
   await tab.page.locator('.homing td').first().waitFor();
@@ -164,14 +164,14 @@ test('the RTC5 marks, and the work piece is drawn', async () => {
   await done(tab);
 });
 
-test('registers are shown with the names of their bits, and looking gives no order', async () => {
+test('registers are shown with the names of their bits, and looking sends no command', async () => {
   const tab = await at('registers/motion');
-  const before = tab.sent.filter((one) => one.order !== 'keep_control').length;
+  const before = tab.sent.filter((one) => one.command !== 'renew_control').length;
   await tab.page.getByRole('button', { name: /^RR0/ }).click();
   await until(async () => (await tab.page.locator('.bits li').count()) > 4, 'fields of RR0');
   await tab.page.getByLabel('Find').fill('LP');
   await tab.page.getByText('x.LP').waitFor();
-  assert.equal(tab.sent.filter((one) => one.order !== 'keep_control').length, before);
+  assert.equal(tab.sent.filter((one) => one.command !== 'renew_control').length, before);
   await picture(tab, 'registers');
   await done(tab);
 });

@@ -65,7 +65,7 @@ export async function startServer(rack = RACKS.axes, { pairing = false, live = '
 
 export const openBrowser = () => chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox'] });
 
-/** A tab on the panel. `sent`: orders of this tab with their times; `subscribed`: what it asked to see; `troubles`:
+/** A tab on the panel. `sent`: commands of this tab with their times; `subscribed`: what it asked to see; `troubles`:
  * what the browser complained of. */
 export async function openTab(
   browser,
@@ -88,7 +88,7 @@ export async function tabOf(context, server, hash = '') {
     socket.on('framesent', ({ payload }) => {
       const message = JSON.parse(payload);
       if (message.subscribe) tab.subscribed = message.subscribe;
-      if (message.order) tab.sent.push({ at: performance.now(), ...message });
+      if (message.command) tab.sent.push({ at: performance.now(), ...message });
     });
     socket.on('framereceived', ({ payload }) => {
       const message = JSON.parse(payload);
@@ -116,13 +116,13 @@ export async function until(look, what, ms = 5000) {
 }
 
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
-export const named = (tab, order) => tab.sent.filter((one) => one.order === order);
+export const named = (tab, command) => tab.sent.filter((one) => one.command === command);
 /** Waits for one of these states of the machine. */
 export const state = (tab, ...names) =>
   until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
-/** Gives an order as a program beside the page does; the answer. `token`: '' where whoever comes may do everything. */
-export async function order(server, name, fields = {}, token = '') {
+/** Sends a command as a program beside the page does; the answer. `token`: '' where whoever comes may do everything. */
+export async function command(server, name, fields = {}, token = '') {
   const answer = await fetch(`${server.address}api/${name}`, {
     method: 'POST',
     headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) },
@@ -135,11 +135,11 @@ export async function order(server, name, fields = {}, token = '') {
 
 /** Lets a belt go on that a STOP has brought to rest. */
 export async function startPart(server, part) {
-  await order(server, 'take_control', { force: true });
-  await order(server, 'reset');
+  await command(server, 'take_control', { force: true });
+  await command(server, 'reset');
   await pause(200);
-  await order(server, 'start_part', { part });
-  await order(server, 'release_control');
+  await command(server, 'start_part', { part });
+  await command(server, 'release_control');
 }
 
 /** STOP, the reset that it takes, and control given back. STOP ends the control of another session, as of a tab before

@@ -103,7 +103,7 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
     }
     if (has(name))
         return deny(AuthError::Why::wrong,
-                    fmt::format("Not paired: {} is paired already. Choose another name, or have {} unpaired first.",
+                    fmt::format("Not paired: {} is paired already. Choose another name, or have {} revoked first.",
                                 name, name));
     AuthResult<Paired> paired = admit(name, invitation->role, now.wall);
     if (paired) invitations_.erase(invitation);

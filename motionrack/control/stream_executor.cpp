@@ -211,7 +211,7 @@ Result<void> StreamExecutor::fill_planner() {
 }
 
 bool StreamExecutor::stops_before(const Entry& entry) const {
-    if (single_step_ && entry.step.line != entries_.front().step.line) return true;
+    if (single_block_ && entry.step.line != entries_.front().step.line) return true;
     return entry.is_probe() || gcode::needs_standstill(entry.step);
 }
 
@@ -256,7 +256,7 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     path_begun_ = false;
     if (ride_) pop_driven(ride_->rider().first_pending_move());
     while (handed_ > 0) pop();
-    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
+    if (single_block_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
     if (ride_ && wish_ == Wish::hold && !has_work()) ride_->rider().resume();
     return stand();
 }

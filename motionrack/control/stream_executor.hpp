@@ -95,7 +95,7 @@ class StreamExecutor {
     /// Sets the feed override and the rapid override, clamped to 0.01 .. 2 and 0.01 .. 1.
     void set_overrides(double feed, double rapid);
     /// Enables single block: a pause after each line.
-    void set_single_step(bool on) { single_step_ = on; }
+    void set_single_block(bool on) { single_block_ = on; }
     bool has_work() const { return !entries_.empty() || unpulled_; }
     std::size_t entries() const { return entries_.size(); }
     const ProbeReport& last_probe() const { return last_probe_; }
@@ -214,7 +214,7 @@ class StreamExecutor {
     std::int32_t line_driven_ = 0;
     bool unpulled_ = false;    ///< calls of the last line are missing in entries_
     bool path_begun_ = false;  ///< the axes have moves without a finish()
-    bool single_step_ = false;
+    bool single_block_ = false;
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     bool probing_ = false;
     ProbeReport last_probe_;

@@ -76,7 +76,7 @@ nlohmann::json json_of(const ChannelResult& channel) {
                           {"counts", channel.count},
                           {"up", channel.up},
                           {"down", channel.down},
-                          {"seconds", channel.seconds},
+                          {"duration_s", channel.seconds},
                           {"mean_counts_per_s", channel.mean_per_s},
                           {"illegal", channel.illegal},
                           {"indexes", channel.indexes}};

@@ -38,7 +38,7 @@ struct Entry {
     std::int64_t run = 0;     ///< from 1: the program's runs with this file
     std::int64_t utc_ms = 0;  ///< ms since 1970-01-01
     Instant at{};             ///< simulated time
-    std::string kind;         ///< "run", "job", "order", "state", "alarm", "position", "setting", "audit"
+    std::string kind;         ///< "run", "job", "command", "state", "alarm", "position", "setting", "audit"
     std::string text;         ///< a sentence
     std::string data;         ///< JSON; may be empty
 };

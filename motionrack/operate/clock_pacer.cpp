@@ -16,8 +16,8 @@ std::string_view name_of(ClockMode mode) {
     switch (mode) {
         case ClockMode::real:
             return "real";
-        case ClockMode::free:
-            return "free";
+        case ClockMode::unthrottled:
+            return "unthrottled";
         case ClockMode::paused:
             return "paused";
     }
@@ -82,7 +82,7 @@ void ClockPacer::begin_here(Instant now) {
 
 bool ClockPacer::pace(Instant now) {
     last_ = now;
-    if (mode_ == ClockMode::free) return true;
+    if (mode_ == ClockMode::unthrottled) return true;
     if (mode_ == ClockMode::paused) {
         if (now < step_end_) return true;
         clock_.sleep(max_wait);

@@ -17,11 +17,11 @@
 namespace motionrack::operate {
 
 enum class ClockMode : std::uint8_t {
-    real,   ///< `factor` seconds of virtual time per second
-    free,   ///< unthrottled, as fast as the computer can
-    paused  ///< stopped, except for steps
+    real,         ///< `factor` seconds of virtual time per second
+    unthrottled,  ///< as fast as the computer can
+    paused        ///< stopped, except for steps
 };
-/// Returns "real", "free", "paused".
+/// Returns "real", "unthrottled", "paused".
 std::string_view name_of(ClockMode mode);
 
 /// Distribution of the lateness of slices. Fixed memory.

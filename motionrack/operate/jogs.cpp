@@ -13,8 +13,8 @@ Result<void> Jogs::see(const JogOrigin& origin) {
     if (origin.sequence == 0) return {};
     if (origin.session == newest_.session && origin.sequence <= newest_.sequence)
         return fail(ErrorKind::refused,
-                    fmt::format("Not jogged: the order has the sequence {}, but {} came before it. Nothing was "
-                                "changed; number the orders of a session upwards.",
+                    fmt::format("Not jogged: the command has the sequence {}, but {} came before it. Nothing was "
+                                "changed; number the commands of a session upwards.",
                                 origin.sequence, newest_.sequence));
     newest_ = origin;
     return {};
@@ -34,11 +34,11 @@ void Jogs::hold(char letter, double speed, const std::string& session) {
         leases_.erase(letter);
     else
         leases_[letter] = {speed, session, wall_() + lease_};
-    orders_.push_back({letter, speed, std::nullopt});
+    requests_.push_back({letter, speed, std::nullopt});
 }
 
 void Jogs::move(char letter, double distance, double speed) {
-    orders_.push_back({letter, speed, distance});
+    requests_.push_back({letter, speed, distance});
 }
 
 void Jogs::end_of(const std::string& session) {
@@ -46,7 +46,7 @@ void Jogs::end_of(const std::string& session) {
 }
 
 void Jogs::let_go() {
-    orders_.clear();
+    requests_.clear();
     leases_.clear();
 }
 
@@ -71,14 +71,14 @@ std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     return std::nullopt;
 }
 
-Result<void> Jogs::begin(const Order& order, const Take& take, Instant now) {
-    const bool leased = !order.distance;
-    if (leased && order.speed != 0 && !held(order.letter)) return {};  // over before its start
-    MOTIONRACK_TRY(control::Axis * axis, take(order.letter));
-    MOTIONRACK_CHECK(leased ? axis->jog(order.speed, now) : axis->move_by(*order.distance, order.speed));
+Result<void> Jogs::begin(const PendingJog& request, const Take& take, Instant now) {
+    const bool leased = !request.distance;
+    if (leased && request.speed != 0 && !held(request.letter)) return {};  // over before its start
+    MOTIONRACK_TRY(control::Axis * axis, take(request.letter));
+    MOTIONRACK_CHECK(leased ? axis->jog(request.speed, now) : axis->move_by(*request.distance, request.speed));
     const bool known =
-        std::any_of(moving_.begin(), moving_.end(), [&](const Moving& one) { return one.letter == order.letter; });
-    if (!known) moving_.push_back({order.letter, axis, leased});
+        std::any_of(moving_.begin(), moving_.end(), [&](const Moving& one) { return one.letter == request.letter; });
+    if (!known) moving_.push_back({request.letter, axis, leased});
     return {};
 }
 
@@ -89,11 +89,11 @@ std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, const std::fu
         if (ended) out.push_back(std::move(*ended));
         return ended.has_value();
     });
-    for (const Order& order : std::exchange(orders_, {})) {
-        Result<void> begun = begin(order, take, now);
+    for (const PendingJog& request : std::exchange(requests_, {})) {
+        Result<void> begun = begin(request, take, now);
         if (begun) continue;
-        leases_.erase(order.letter);
-        out.push_back({order.letter, true, std::move(begun)});
+        leases_.erase(request.letter);
+        out.push_back({request.letter, true, std::move(begun)});
     }
     return out;
 }

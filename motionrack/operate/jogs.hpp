@@ -53,13 +53,13 @@ class Jogs {
     /// Drops commands and leases; step() ends the remaining motion.
     void let_go();
 
-    bool any() const { return !orders_.empty() || !moving_.empty(); }
+    bool any() const { return !requests_.empty() || !moving_.empty(); }
     /// Starts requested jogs, and continues or ends running ones; axes to stop decelerate with a ramp. Returns the axes
     /// that have reached standstill. Call at least every few ms.
     std::vector<Ended> step(const Take& take, Instant now, const std::function<bool(char letter)>& stops);
 
   private:
-    struct Order {
+    struct PendingJog {
         char letter = 'X';
         double speed = 0;
         std::optional<double> distance;
@@ -76,11 +76,11 @@ class Jogs {
     };
     bool held(char letter) const;
     std::optional<Ended> carry_on(Moving& one, Instant now, bool stop);
-    Result<void> begin(const Order& order, const Take& take, Instant now);
+    Result<void> begin(const PendingJog& request, const Take& take, Instant now);
 
     Duration lease_;
     Clock wall_;
-    std::vector<Order> orders_;
+    std::vector<PendingJog> requests_;
     std::vector<Moving> moving_;
     std::map<char, Lease> leases_;
     JogOrigin newest_;  ///< latest numbered command and its session

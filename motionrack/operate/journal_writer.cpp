@@ -33,9 +33,9 @@ json axes_json(const std::vector<AxisStatus>& axes) {
     json out = json::array();
     for (const AxisStatus& axis : axes)
         out.push_back({{"letter", std::string(1, axis.letter)},
-                       {"place", axis.true_position},
+                       {"true_position", axis.true_position},
                        {"commanded", axis.commanded},
-                       {"trusted", axis.position_valid}});
+                       {"position_valid", axis.position_valid}});
     return out;
 }
 
@@ -149,9 +149,9 @@ void JournalWriter::see_settings(const Status& status) {
     };
     percent("Feed", feed_, status.feed_override);
     percent("Rapid", rapid_, status.rapid_override);
-    if (std::exchange(single_step_, status.single_step) != status.single_step)
-        write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"),
-              json{{"name", "single step"}, {"value", single_step_}}.dump());
+    if (std::exchange(single_block_, status.single_block) != status.single_block)
+        write(status.at, "setting", fmt::format("Single block {}.", single_block_ ? "on" : "off"),
+              json{{"name", "single block"}, {"value", single_block_}}.dump());
 }
 
 void JournalWriter::see_positions(const Status& status) {
@@ -214,9 +214,12 @@ std::vector<InitialAxisState> standings_of(const json& kept, const rack::RackCon
         if (!one.is_object() || one.value("letter", json()).type() != json::value_t::string) continue;
         const std::string letter = one["letter"];
         const rack::RackAxis* axis = letter.size() == 1 ? config.axis(letter[0]) : nullptr;
-        const json place = one.value("place", json()), commanded = one.value("commanded", json());
+        // Journals of former versions name them place and trusted.
+        const json place = one.value("true_position", one.value("place", json())),
+                   valid = one.value("position_valid", one.value("trusted", json())),
+                   commanded = one.value("commanded", json());
         if (axis == nullptr || !place.is_number() || !commanded.is_number()) continue;
-        out.push_back({letter[0], place, commanded, trusted && one.value("trusted", json()) == true});
+        out.push_back({letter[0], place, commanded, trusted && valid == true});
     }
     return out;
 }

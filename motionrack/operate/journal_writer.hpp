@@ -47,7 +47,7 @@ class JournalWriter {
     Told told_;
     bool first_ = true;
     MachineState state_ = MachineState::disabled;
-    bool program_runs_ = false, single_step_ = false;
+    bool program_runs_ = false, single_block_ = false;
     double feed_ = 1, rapid_ = 1;
     std::vector<bool> trusted_;
     std::int64_t last_alarm_ = 0;

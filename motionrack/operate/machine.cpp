@@ -228,7 +228,7 @@ Result<void> Machine::resume() {
 void Machine::stop(const StopOrigin& by) {
     const StopReport report = stop_report(now(), by, state_, at_work());
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
-    rack_.stop_latch().order();
+    rack_.stop_latch().stop();
     take_stop();
     tell_stop(report, status_.reason, stop_listeners_);
 }
@@ -391,7 +391,7 @@ Result<void> Machine::may_start(const char* what) const {
     return not_now(fmt::format("{}: {}", what, no_starts_));
 }
 
-bool Machine::acknowledge(std::int64_t alarm) {
+bool Machine::acknowledge_alarm(std::int64_t alarm) {
     for (Alarm& one : status_.alarms)
         if (one.number == alarm) return one.acknowledged = true;
     return false;

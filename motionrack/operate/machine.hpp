@@ -112,13 +112,13 @@ class Machine {
     /// Sets the position of an axis, which is valid then. Refused while something moves.
     Result<void> set_position(char axis, double position);
     void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
-    void set_single_step(bool on) { stream_->set_single_step(single_step_ = on); }
+    void set_single_block(bool on) { stream_->set_single_block(single_block_ = on); }
     /// Switches the coolant immediately, otherwise like M7, M8 and M9.
     void set_coolant(bool mist, bool flood);
     /// Clears work offsets, G28 and G30. Refused while something moves.
     Result<void> clear_offsets();
     /// Returns false if the alarm is unknown.
-    bool acknowledge(std::int64_t alarm);
+    bool acknowledge_alarm(std::int64_t alarm);
     /// Blocks starts because the machine's actions can no longer be recorded. Until the process restarts, no program,
     /// line or homing starts and nothing resumes. Motion decelerates, a program by a feed hold; jogs remain possible.
     /// The first call raises a permanent alarm.
@@ -127,7 +127,7 @@ class Machine {
     Result<void> may_start(const char* what) const;
     /// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
     /// degrees.
-    Result<void> set_work_zero(char axis, double value);
+    Result<void> touch_off(char axis, double value);
     /// Performs one host access to a card, in the loop while the machine is at standstill; `ready` later receives the
     /// value read. After a write, positions of a card that moves axes are not valid: they must be homed or set.
     /// Refused: the machine is not at standstill, the card does not support the access.
@@ -213,7 +213,7 @@ class Machine {
     std::optional<control::gcode::ProgramFlow> walk_;
     bool over_ = false;  ///< the last line was read, but motion that waits for a next line is pending
     std::int32_t line_count_ = 0;
-    bool program_runs_ = false, single_step_ = false;
+    bool program_runs_ = false, single_block_ = false;
     Instant last_line_{};
     double feed_ = 1, rapid_ = 1;
     // manual operation

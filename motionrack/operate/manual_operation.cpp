@@ -18,7 +18,7 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 
 }  // namespace
 
-Result<void> Machine::set_work_zero(char axis, double value) {
+Result<void> Machine::touch_off(char axis, double value) {
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
     if (!std::isfinite(value))
         return fail(ErrorKind::invalid_input, "The work zero was not set: the value is not a number.");

@@ -385,7 +385,7 @@ void Machine::publish_status() {
     status_.line = stream_->current_line();
     status_.lines = line_count_;
     status_.program_runs = program_runs_;
-    status_.single_step = single_step_;
+    status_.single_block = single_block_;
     status_.feed_override = feed_;
     status_.rapid_override = rapid_;
     status_.service = service_.card();

@@ -49,8 +49,9 @@ Result<void> Service::check_begin(const std::string& card) const {
     MOTIONRACK_CHECK(machine_.door_.check_closed(what));
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
-        return fail(ErrorKind::refused,
-                    fmt::format("{}: an order is still carried out. Nothing was changed; try again at once.", what));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("{}: a command is still being executed. Nothing was changed; try again at once.", what));
     return {};
 }
 

@@ -94,7 +94,7 @@ struct Status {
     std::string program;    ///< name; empty: none started
     std::int32_t line = 0;  ///< current line
     std::int32_t lines = 0;
-    bool program_runs = false, single_step = false;
+    bool program_runs = false, single_block = false;
     control::gcode::Spindle spindle = control::gcode::Spindle::off;  ///< state set by the last executed program or line
     double spindle_rpm = 0;
     bool mist = false, flood = false;

@@ -10,14 +10,12 @@ Answer done(json fields) {
     return {200, std::move(fields)};
 }
 
-Answer refused_answer(int status, std::string_view trouble, std::string message) {
-    return {status, {{"error", {{"trouble", trouble}, {"message", std::move(message)}}}}};
+Answer refused_answer(int status, std::string_view kind, std::string message) {
+    return {status, {{"error", {{"kind", kind}, {"message", std::move(message)}}}}};
 }
 
 Answer error_answer(const Error& error) {
-    const auto make = [&](int status, std::string_view trouble) {
-        return refused_answer(status, trouble, error.message);
-    };
+    const auto make = [&](int status, std::string_view kind) { return refused_answer(status, kind, error.message); };
     Answer answer;
     switch (error.kind) {
         case ErrorKind::invalid_input:

@@ -21,20 +21,20 @@ struct Caller {
 /// 503 gone.
 struct Answer {
     int status = 200;
-    nlohmann::json body;  ///< {"done":true, ...} or {"error":{"trouble","message","line","column"}}
+    nlohmann::json body;  ///< {"done":true, ...} or {"error":{"kind","message","line","column"}}
 };
 
 /// Returns {"done":true} and the members of `fields`.
 Answer done(nlohmann::json fields = nlohmann::json::object());
-/// `trouble`: invalid_input, refused, denied, machine, io, limit.
-Answer refused_answer(int status, std::string_view trouble, std::string message);
+/// `kind`: invalid_input, refused, denied, machine, io, limit.
+Answer refused_answer(int status, std::string_view kind, std::string message);
 Answer error_answer(const Error& error);
 
 /// An event, sent to all observers.
 struct Event {
     std::int64_t number = 0;  ///< starts at 1
     Instant at{};
-    std::string kind;  ///< alarm, state, job, order, setting, stop
+    std::string kind;  ///< alarm, state, job, command, setting, stop
     std::string text;
     nlohmann::json data;
 };

@@ -143,13 +143,13 @@ json live_now(operate::Machine& machine, const operate::LivePlace& place) {
     json out = {{"name", place.card},      {"at", to_seconds(machine.now())}, {"registers", json::array()},
                 {"values", json::array()}, {"quantities", json::array()},     {"pins", json::object()}};
     if (live == nullptr || live->place().card != place.card) {
-        out["why"] =
+        out["reason"] =
             fmt::format("The real card at {} is read while it is in service only. Begin its service.", place.place);
         return out;
     }
     const operate::LiveRegisters& seen = live->registers();
     out["at"] = to_seconds(seen.at);
-    if (live->lost()) out["why"] = live->lost()->message;
+    if (live->lost()) out["reason"] = live->lost()->message;
     for (const rack::RegisterSnapshot& one : seen.view.registers)
         out["registers"].push_back(register_json(live_name(one.axis, one.reg->name), *one.reg, one.word));
     for (const rack::ValueSnapshot& one : seen.view.values)

@@ -98,7 +98,7 @@ Result<json> frames_now(operate::Machine& machine) {
                 {"published", watch->published()},
                 {"cards", std::move(cards)},
                 {"agree", why.empty()},
-                {"why", why}};
+                {"reason", why}};
     return json{
         {"at", to_seconds(machine.now())}, {"buses", {std::move(bus)}}, {"stages", looped_stages(machine.rack())}};
 }

@@ -65,21 +65,21 @@ Result<json> set_clock(PanelContext& desk, const json& fields) {
                         live.front().card));
     const auto& name = fields.at("mode").get_ref<const std::string&>();
     for (const operate::ClockMode mode :
-         {operate::ClockMode::real, operate::ClockMode::free, operate::ClockMode::paused})
+         {operate::ClockMode::real, operate::ClockMode::unthrottled, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
             return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
     return fail(ErrorKind::invalid_input, "The clock has no such mode.");
 }
 
-Result<json> step_clock(PanelContext& desk, const json& fields) {
+Result<json> advance_clock(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
-    return accepted(pacer->step(from_seconds(fields.at("seconds").get<double>())));
+    return accepted(pacer->step(from_seconds(fields.at("duration_s").get<double>())));
 }
 
 constexpr std::array card_rows = {
     OperationHandler{"set_wire",
                      [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
-    OperationHandler{"press_estop",
+    OperationHandler{"set_estop",
                      [](PanelContext& desk, const Caller&, const json& fields) {
                          return accepted(desk.machine.wires().force("estop", fields.at("pressed").get<bool>() ? 0 : 1));
                      }},
@@ -100,8 +100,8 @@ constexpr std::array card_rows = {
                      }},
     OperationHandler{"set_clock",
                      [](PanelContext& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
-    OperationHandler{"step_clock",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return step_clock(desk, fields); }},
+    OperationHandler{"advance_clock",
+                     [](PanelContext& desk, const Caller&, const json& fields) { return advance_clock(desk, fields); }},
 };
 
 }  // namespace

@@ -22,8 +22,8 @@ constexpr std::array control = {
                      }},
     OperationHandler{"release_control", [](PanelContext& desk, const Caller& caller,
                                            const json&) { return accepted(desk.lease.release(caller.session)); }},
-    OperationHandler{"keep_control", [](PanelContext& desk, const Caller& caller,
-                                        const json&) { return accepted(desk.lease.keep(caller.session)); }},
+    OperationHandler{"renew_control", [](PanelContext& desk, const Caller& caller,
+                                         const json&) { return accepted(desk.lease.keep(caller.session)); }},
     OperationHandler{"stop",
                      [](PanelContext& desk, const Caller& caller, const json&) -> Result<json> {
                          desk.machine.stop({caller.user, caller.address, "STOP"});
@@ -60,12 +60,12 @@ constexpr std::array motion = {
                          if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
                          return json::object();
                      }},
-    OperationHandler{"set_work_zero",
+    OperationHandler{"touch_off",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         return accepted(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
+                         return accepted(desk.machine.touch_off(letter, fields.at("value").get<double>()));
                      }},
-    OperationHandler{"declare_position",
+    OperationHandler{"set_position",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
                          return accepted(desk.machine.set_position(letter, fields.at("position").get<double>()));

@@ -52,13 +52,13 @@ void check(PanelContext& desk, const json& fields, Ready ready) {
 }
 
 constexpr std::array program = {
-    OperationHandler{"begin",
+    OperationHandler{"start_program",
                      [](PanelContext& desk, const Caller&, const json& fields) { return begin_program(desk, fields); }},
     OperationHandler{"check", nullptr,
                      [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
                          check(desk, fields, std::move(ready));
                      }},
-    OperationHandler{"line",
+    OperationHandler{"mdi",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
                          if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1);
                              !read)
@@ -81,15 +81,15 @@ constexpr std::array program = {
                                                     fields.value("rapid", status.rapid_override));
                          return json::object();
                      }},
-    OperationHandler{"set_single_step",
+    OperationHandler{"set_single_block",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
-                         desk.machine.set_single_step(fields.at("on").get<bool>());
+                         desk.machine.set_single_block(fields.at("on").get<bool>());
                          return json::object();
                      }},
-    OperationHandler{"acknowledge",
+    OperationHandler{"acknowledge_alarm",
                      [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
                          const auto number = fields.at("alarm").get<std::int64_t>();
-                         if (desk.machine.acknowledge(number)) return json::object();
+                         if (desk.machine.acknowledge_alarm(number)) return json::object();
                          return fail(
                              ErrorKind::invalid_input,
                              fmt::format("The machine has no alarm {} that is active. Nothing was changed.", number));

@@ -119,7 +119,7 @@ json make_openapi() {
              {{"error",
                {{"type", "object"},
                 {"properties",
-                 {{"trouble",
+                 {{"kind",
                    {{"type", "string"}, {"enum", {"invalid_input", "refused", "denied", "machine", "io", "limit"}}}},
                   {"message", {{"type", "string"}}},
                   {"line", {{"type", "integer"}}},
@@ -179,12 +179,12 @@ std::string api_reference() {
     std::string out =
         "# What can be asked of a served machine\n\n"
         "<!-- written by `motionrack describe api --markdown` -->\n\n"
-        "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"order\":NAME,...}` and "
-        "`{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every order and every query is\n"
+        "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"command\":NAME,...}` and "
+        "`{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every command and every query is\n"
         "declared once; checking, `/api/openapi.json` and this page are made from that. An answer is "
         "`{\"done\":true,...}` or\n"
-        "`{\"error\":{\"trouble\":...,\"message\":...}}` with a sentence that says what was not done, and why.\n\n"
-        "## Orders\n\n";
+        "`{\"error\":{\"kind\":...,\"message\":...}}` with a sentence that says what was not done, and why.\n\n"
+        "## Commands\n\n";
     for (const OperationSpec& row : commands()) out += section_of(row, "POST");
     out += "## Queries\n\n";
     for (const OperationSpec& row : queries()) out += section_of(row, "GET");

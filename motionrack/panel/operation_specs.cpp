@@ -1,7 +1,10 @@
 // Tables of commands and queries.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <motionrack/panel/operation_specs.hpp>
+#include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::panel {
 
@@ -53,23 +56,23 @@ constexpr std::array jog_fields = {
     flag("renews", "only prolongs a jog: it is refused where that has ended, whatever ended it", false)};
 constexpr std::array jog_stop_fields = {sequence};
 constexpr std::array jog_by_fields = {one_axis, number("distance", -far, far, "mm or degrees", "signed"), speed};
-constexpr std::array declare_fields = {
+constexpr std::array set_position_fields = {
     one_axis, number("position", -far, far, "mm or degrees", "where the axis stands, machine coordinates")};
-constexpr std::array work_zero_fields = {
+constexpr std::array touch_off_fields = {
     one_axis,
     number("value", -far, far, "mm or degrees", "what the present place is called in work coordinates (G10 L20)")};
-constexpr std::array begin_fields = {text("name", 200, "of the program, for people"),
-                                     text("text", max_text_bytes, "the program, G-code")};
-constexpr std::array line_fields = {text("text", 1024, "one line of G-code")};
+constexpr std::array start_program_fields = {text("name", 200, "of the program, for people"),
+                                             text("text", max_text_bytes, "the program, G-code")};
+constexpr std::array mdi_fields = {text("text", 1024, "one line of G-code")};
 constexpr std::array override_fields = {
     number("feed", 0, 2, "", "part of the programmed feed; below 0.01 it is 0.01", false),
     number("rapid", 0, 1, "", "part of the rapid speed; below 0.01 it is 0.01", false)};
-constexpr std::array step_fields = {flag("on", "pause after each line")};
-constexpr std::array acknowledge_fields = {integer("alarm", 1, 9e15, "its number")};
+constexpr std::array single_block_fields = {flag("on", "pause after each line")};
+constexpr std::array acknowledge_alarm_fields = {integer("alarm", 1, 9e15, "its number")};
 constexpr std::array clock_fields = {
-    choice("mode", "real|free|paused", "beside the computer's time, as fast as it can, or not at all"),
+    choice("mode", "real|unthrottled|paused", "beside the computer's time, as fast as it can, or not at all"),
     number("factor", 0.001, 1000, "", "seconds of the rack for a second; mode real", false)};
-constexpr std::array step_clock_fields = {number("seconds", 1e-10, 3600, "s", "of the rack's time")};
+constexpr std::array advance_clock_fields = {number("duration_s", 1e-10, 3600, "s", "of the rack's time")};
 constexpr std::array wire_fields = {text("name", 80, "CARD.PIN, NAME.END or estop"),
                                     FieldSpec{"value",
                                               FieldType::number,
@@ -118,18 +121,20 @@ constexpr std::array scope_fields = {
     integer("since", 0, 9e15, "number of the capture that is known: only a later one is sent", false)};
 constexpr std::array event_fields = {integer("since", 0, 9e15, "number of the last event that is known", false),
                                      integer("limit", 1, 1000, "the newest ones; 200", false)};
-constexpr std::array journal_fields = {
-    integer("since", 0, 9e15, "number of the last entry that is known", false),
-    text("kind", 32, "only these: run, job, order, stop, state, alarm, position, setting, audit", false),
-    integer("limit", 1, 10'000, "the newest ones; 100", false)};
+constexpr std::array journal_fields = {integer("since", 0, 9e15, "number of the last entry that is known", false),
+                                       text("kind", 32,
+                                            "only these: run, job, command, stop, state, alarm, position, setting, "
+                                            "audit; order: commands in older journals",
+                                            false),
+                                       integer("limit", 1, 10'000, "the newest ones; 100", false)};
 constexpr std::array invite_fields = {choice("role", "observe|operate|maintain", "what the code lets in to")};
-constexpr std::array unpair_fields = {text("user", 64, "whose tokens are void from now on")};
+constexpr std::array revoke_user_fields = {text("user", 64, "whose tokens are void from now on")};
 
-constexpr std::array order_rows = {
+constexpr std::array command_rows = {
     OperationSpec{"take_control", Role::operate, false, take_control_fields,
                   "Takes the control lease, which ends 10 s after the last sign of its session."},
     OperationSpec{"release_control", Role::operate, false, {}, "Gives the control lease back."},
-    OperationSpec{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
+    OperationSpec{"renew_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
     OperationSpec{
         "stop",
         Role::none,
@@ -145,14 +150,14 @@ constexpr std::array order_rows = {
         "with the connection that asked."},
     OperationSpec{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
     OperationSpec{"jog_stop", Role::operate, true, jog_stop_fields, "Ends all jogs; a program goes on."},
-    OperationSpec{"declare_position", Role::operate, true, declare_fields,
+    OperationSpec{"set_position", Role::operate, true, set_position_fields,
                   "Says where an axis stands; its position is trusted then."},
-    OperationSpec{"set_work_zero", Role::operate, true, work_zero_fields,
+    OperationSpec{"touch_off", Role::operate, true, touch_off_fields,
                   "Touches off: moves the zero of the active work coordinates."},
-    OperationSpec{"begin", Role::operate, true, begin_fields, "Checks a program whole and begins it."},
-    OperationSpec{"line", Role::operate, true, line_fields, "Drives one line of G-code, behind those that are there."},
+    OperationSpec{"start_program", Role::operate, true, start_program_fields, "Checks a program whole and begins it."},
+    OperationSpec{"mdi", Role::operate, true, mdi_fields, "Drives one line of G-code, behind those that are there."},
     OperationSpec{"hold", Role::operate, false, {}, "Decelerates along the path; resume goes on."},
-    OperationSpec{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single step."},
+    OperationSpec{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single block."},
     OperationSpec{
         "reset",
         Role::operate,
@@ -160,15 +165,15 @@ constexpr std::array order_rows = {
         {},
         "Ends an error stop and moves nothing; programs and modes are forgotten, work zero and positions stay."},
     OperationSpec{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
-    OperationSpec{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer."},
-    OperationSpec{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen."},
+    OperationSpec{"set_single_block", Role::operate, true, single_block_fields,
+                  "Pauses after each line, or no longer."},
+    OperationSpec{"acknowledge_alarm", Role::operate, false, acknowledge_alarm_fields, "Says that an alarm was seen."},
     OperationSpec{"set_clock", Role::maintain, true, clock_fields, "Changes how fast the rack's time goes."},
-    OperationSpec{"step_clock", Role::maintain, true, step_clock_fields,
+    OperationSpec{"advance_clock", Role::maintain, true, advance_clock_fields,
                   "Lets so much time go by while the clock is paused."},
     OperationSpec{"set_wire", Role::maintain, true, wire_fields, "Drives a wire by hand until it is released."},
     OperationSpec{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it."},
-    OperationSpec{"press_estop", Role::operate, false, estop_fields,
-                  "Presses or releases the simulated emergency stop."},
+    OperationSpec{"set_estop", Role::operate, false, estop_fields, "Presses or releases the simulated emergency stop."},
     OperationSpec{"write_register", Role::maintain, true, write_fields,
                   "Writes to a card through its bus, while the machine stands; to one that only measures at any time."},
     OperationSpec{
@@ -188,17 +193,17 @@ constexpr std::array order_rows = {
         "text, value (the returned number)"},
     OperationSpec{"check", Role::observe, false, check_fields_,
                   "Reads and plans a program as if it began here; nothing moves.",
-                  "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},
+                  "ok, problems, lines, moves, duration_s, length_mm, least, greatest, axes, path"},
     OperationSpec{"scope_arm", Role::operate, false, arm_fields, "Arms the scope.", ""},
     OperationSpec{"scope_stop", Role::operate, false, {}, "Disarms the scope.", ""},
     OperationSpec{"mark", Role::operate, true, mark_fields, "Marks with a laser card of the rack while the rack runs.",
-                  "orders, notes"},
+                  "commands, notes"},
     OperationSpec{"mark_stop", Role::operate, true, mark_stop_fields,
                   "Ends what a laser card marks, and takes no further starts.", ""},
     OperationSpec{"start_part", Role::operate, true, start_part_fields,
                   "Lets a belt, a table or a stage go on that a stop has brought to rest, after the reset.", ""},
     OperationSpec{"invite", Role::maintain, false, invite_fields, "Makes a code that pairs a user.", "code", true},
-    OperationSpec{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},
+    OperationSpec{"revoke_user", Role::maintain, false, revoke_user_fields, "Ends a user's tokens.", "", true},
 };
 
 constexpr std::array query_rows = {
@@ -213,7 +218,7 @@ constexpr std::array query_rows = {
         "card", Role::observe, false, name_fields,
         "Registers, fields, values and pins of a card at this moment, by peek, so that looking disturbs nothing; of a "
         "real card, as its service has read them last.",
-        "registers, values, quantities, pins, why (a real card shows none)"},
+        "registers, values, quantities, pins, reason (a real card shows none)"},
     OperationSpec{"slopes", Role::observe, false, name_fields,
                   "The slope table of a DataBoard 4002: speed over distance.",
                   "slopes: name, points (counts, Hz); position, rate, hz, moving"},
@@ -259,10 +264,29 @@ constexpr std::array query_rows = {
 }  // namespace
 
 std::span<const OperationSpec> commands() {
-    return order_rows;
+    return command_rows;
 }
 std::span<const OperationSpec> queries() {
     return query_rows;
+}
+
+std::string unknown_operation(std::string_view kind, std::string_view name) {
+    // Former names, with the present ones.
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> renamed = {
+        {{"begin", "start_program"},
+         {"line", "mdi"},
+         {"declare_position", "set_position"},
+         {"set_work_zero", "touch_off"},
+         {"set_single_step", "set_single_block"},
+         {"acknowledge", "acknowledge_alarm"},
+         {"keep_control", "renew_control"},
+         {"step_clock", "advance_clock"},
+         {"press_estop", "set_estop"},
+         {"unpair", "revoke_user"}}};
+    const auto found = std::find_if(renamed.begin(), renamed.end(), [&](const auto& one) { return one.first == name; });
+    if (found != renamed.end()) return fmt::format("'{}' is now '{}'. Nothing was done.", found->first, found->second);
+    return fmt::format("Unknown {} {}. Nothing was done. See /api/openapi.json for the list.", kind,
+                       rack::in_quotes(name));
 }
 
 const OperationSpec* find_row(std::string_view name) {

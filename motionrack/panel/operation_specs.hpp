@@ -28,7 +28,7 @@ struct FieldSpec {
     bool required = true;
     double min = 0, max = 0;  ///< limits of numbers; for texts, lists and objects limits of their length
     std::string_view unit;    ///< "mm or degrees", "s"
-    std::string_view words;   ///< choice: "real|free|paused"
+    std::string_view words;   ///< choice: "real|unthrottled|paused"
     std::string_view text;    ///< one line
     bool or_null = false;     ///< JSON's null is also accepted
 };
@@ -49,6 +49,9 @@ std::span<const OperationSpec> commands();
 std::span<const OperationSpec> queries();
 /// Searches both tables; returns nullptr if the name is unknown.
 const OperationSpec* find_row(std::string_view name);
+/// Sentence about a name that find_row does not know; names the present name of a former one. `kind`: "command",
+/// "query".
+std::string unknown_operation(std::string_view kind, std::string_view name);
 
 /// Errors: invalid_input if `fields` is not an object, or a field is unknown, missing or wrong; a sentence names it.
 Result<void> check_fields(const OperationSpec& row, const nlohmann::json& fields);

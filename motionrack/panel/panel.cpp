@@ -138,9 +138,9 @@ class Panel::Inside {
                 one.safe(0);
                 continue;
             }
-            const json data = {{"order", one.row->name}, {"user", one.caller.user}};
+            const json data = {{"command", one.row->name}, {"user", one.caller.user}};
             const Event& event =
-                desk_.book.add({0, desk_.machine.now(), "order", sentence(*one.row, one.caller, one.fields), data});
+                desk_.book.add({0, desk_.machine.now(), "command", sentence(*one.row, one.caller, one.fields), data});
             if (desk_.settings.journal != nullptr)
                 desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(one.safe));
             else
@@ -185,9 +185,7 @@ Panel::~Panel() = default;
 
 void Panel::ask(const Caller& caller, std::string_view name, const json& fields, std::function<void(Answer)> reply) {
     const OperationSpec* row = find_row(name);
-    if (row == nullptr)
-        return reply(refused_answer(404, "invalid_input",
-                                    fmt::format("There is no order and no query {}.", text_of(json(name)))));
+    if (row == nullptr) return reply(refused_answer(404, "invalid_input", unknown_operation("command or query", name)));
     if (caller.role < row->role)
         return reply(
             refused_answer(caller.role == auth::Role::none ? 401 : 403, "denied",

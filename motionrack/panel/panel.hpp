@@ -29,7 +29,7 @@ class ControlLease;
 
 namespace motionrack::panel {
 
-/// A command or query declared in the specs and executed elsewhere (invite, unpair, users). Any thread.
+/// A command or query declared in the specs and executed elsewhere (invite, revoke_user, users). Any thread.
 using Handler = std::function<Answer(const Caller& caller, const nlohmann::json& fields)>;
 
 struct PanelSettings {

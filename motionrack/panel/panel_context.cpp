@@ -8,7 +8,7 @@ namespace motionrack::panel {
 using nlohmann::json;
 
 Reply::Call::~Call() {
-    if (call) call(refused_answer(503, "machine", "The machine was shut down before the order was carried out."));
+    if (call) call(refused_answer(503, "machine", "The machine was shut down before the command was executed."));
 }
 
 const Event& EventLog::add(Event event) {

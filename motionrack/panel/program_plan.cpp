@@ -125,7 +125,7 @@ json to_json(const ProgramPlan& plan, const std::string& letters) {
         lines.push_back(point.line);
         feeds.push_back(point.feed ? 1 : 0);
     }
-    out["seconds"] = plan.seconds;
+    out["duration_s"] = plan.seconds;
     out["length_mm"] = plan.path_mm;
     out["thinned"] = plan.thinned;
     out["path"] = std::move(path);

@@ -22,7 +22,7 @@ json axes_of(const rack::RackConfig& config) {
                        {"channel", axis.channel},
                        {"min", axis.min_position},
                        {"max", axis.max_position},
-                       {"max_speed", axis.max_velocity},
+                       {"max_velocity", axis.max_velocity},
                        {"max_accel", axis.max_accel},
                        {"pulses_per_unit", axis.pulses_per_unit()},
                        {"counts_per_unit", axis.counts_per_unit()},

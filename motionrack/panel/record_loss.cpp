@@ -11,8 +11,8 @@ namespace {
 
 /// Commands that stop the machine, take or release control of it, or move it out of the way manually.
 constexpr std::array<std::string_view, 12> taken_without_record = {
-    "stop", "hold",   "reset",    "mark_stop",    "press_estop",     "acknowledge",
-    "jog",  "jog_by", "jog_stop", "take_control", "release_control", "keep_control"};
+    "stop", "hold",   "reset",    "mark_stop",    "set_estop",       "acknowledge_alarm",
+    "jog",  "jog_by", "jog_stop", "take_control", "release_control", "renew_control"};
 
 bool is_taken_without_record(const OperationSpec& row) {
     return row.role == auth::Role::observe ||

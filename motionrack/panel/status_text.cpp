@@ -30,7 +30,7 @@ struct Noted {
 };
 
 json clock_of(const operate::ClockPacer* pacer) {
-    if (pacer == nullptr) return {{"mode", "free"}, {"factor", 1}, {"late_ms", 0}};
+    if (pacer == nullptr) return {{"mode", "unthrottled"}, {"factor", 1}, {"late_ms", 0}};
     return {{"mode", operate::name_of(pacer->mode())},
             {"factor", pacer->factor()},
             {"late_ms", to_seconds(pacer->lateness().within(0.99)) * 1e3},
@@ -146,7 +146,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
             for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
             axes.push_back({{"letter", std::string(1, axis.letter)},
                             {"unit", fact.unit},
-                            {"trusted", axis.position_valid},
+                            {"position_valid", axis.position_valid},
                             {"enabled", axis.enabled},
                             {"can_home", fact.can_home},
                             {"commanded", axis.commanded},
@@ -157,14 +157,14 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
                             {"counts", axis.counts},
                             {"min", fact.min},
                             {"max", fact.max},
-                            {"max_speed", fact.max_velocity},
+                            {"max_velocity", fact.max_velocity},
                             {"leds", std::move(leds)}});
         }
         json out = {
             {"at", to_seconds(status.at)},
             {"sequence", status.sequence},
             {"state", operate::name_of(status.state)},
-            {"why", status.reason},
+            {"reason", status.reason},
             {"service", status.service},
             {"simulation", !status.real},
             {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
@@ -174,7 +174,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
               {"runs", status.program_runs},
               {"line", status.line},
               {"lines", status.lines},
-              {"single_step", status.single_step},
+              {"single_block", status.single_block},
               {"remaining_s", noted->remaining_s ? json(*noted->remaining_s) : json()}}},
             {"homing", {{"runs", status.state == operate::MachineState::homing}, {"phases", phases_of(status.homing)}}},
             {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},

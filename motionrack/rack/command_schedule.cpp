@@ -21,11 +21,11 @@ bool CommandSchedule::knows(std::string_view action) {
     return name == "stop" || name == "hold" || name == "resume" || name == "feed" || name == "rapid";
 }
 
-Result<CommandSchedule::Order> CommandSchedule::read(const ScheduledText& text) {
+Result<CommandSchedule::ScheduledCommand> CommandSchedule::read(const ScheduledText& text) {
     const std::string_view action = text.action;
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
-    Order out{text.at, Kind::stop, 1, text.text, false};
+    ScheduledCommand out{text.at, Kind::stop, 1, text.text, false};
     const auto plain = [&](Kind kind) {
         out.kind = kind;
         return equals == std::string_view::npos;
@@ -39,39 +39,38 @@ Result<CommandSchedule::Order> CommandSchedule::read(const ScheduledText& text) 
                       (name == "resume" && plain(Kind::resume)) || (name == "feed" && part(Kind::feed, 2)) ||
                       (name == "rapid" && part(Kind::rapid, 1));
     if (good) return out;
-    return fail(ErrorKind::invalid_input,
-                fmt::format("The order {} is none: orders are hold, resume, stop, feed=PART (0.01 "
-                            ".. 2) and rapid=PART (0.01 .. 1), each with its "
-                            "time, such as feed=0.5@1.5s. Nothing was moved.",
-                            in_quotes(text.text)));
+    return fail(
+        ErrorKind::invalid_input,
+        fmt::format("Unknown command {}. Nothing was moved. Commands are hold, resume, stop, feed=PART (0.01 .. 2) and "
+                    "rapid=PART (0.01 .. 1), each with its time, such as feed=0.5@1.5s.",
+                    in_quotes(text.text)));
 }
 
-Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack, const std::vector<ScheduledText>& orders) {
+Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack,
+                                                                 const std::vector<ScheduledText>& commands) {
     std::unique_ptr<CommandSchedule> plan(new CommandSchedule(rack));
-    for (const ScheduledText& text : orders) {
-        MOTIONRACK_TRY(Order order, read(text));
-        plan->needs_stream_ = plan->needs_stream_ || order.kind != Kind::stop;
-        plan->orders_.push_back(std::move(order));
+    for (const ScheduledText& text : commands) {
+        MOTIONRACK_TRY(ScheduledCommand command, read(text));
+        plan->needs_stream_ = plan->needs_stream_ || command.kind != Kind::stop;
+        plan->commands_.push_back(std::move(command));
     }
-    std::stable_sort(plan->orders_.begin(), plan->orders_.end(),
-                     [](const Order& a, const Order& b) { return a.at < b.at; });
+    std::stable_sort(plan->commands_.begin(), plan->commands_.end(),
+                     [](const ScheduledCommand& a, const ScheduledCommand& b) { return a.at < b.at; });
     MOTIONRACK_CHECK(plan->check_holds());
-    plan->id_ = rack.kernel().add(*plan, sim::Phase::observers, "orders");
+    plan->id_ = rack.kernel().add(*plan, sim::Phase::observers, "commands");
     return plan;
 }
 
 Result<void> CommandSchedule::check_holds() const {
-    const Order* holds = nullptr;
-    for (const Order& order : orders_) {
-        if (order.kind == Kind::hold) holds = &order;
-        if (order.kind == Kind::resume || order.kind == Kind::stop) holds = nullptr;
+    const ScheduledCommand* holds = nullptr;
+    for (const ScheduledCommand& command : commands_) {
+        if (command.kind == Kind::hold) holds = &command;
+        if (command.kind == Kind::resume || command.kind == Kind::stop) holds = nullptr;
     }
     if (holds == nullptr) return {};
-    return fail(
-        ErrorKind::refused,
-        fmt::format(
-            "After the order {} the job would stand for ever; add a resume or a stop after it. Nothing was moved.",
-            in_quotes(holds->text)));
+    return fail(ErrorKind::refused,
+                fmt::format("The job would never end after {}. Nothing was moved. Add a resume or a stop after it.",
+                            in_quotes(holds->text)));
 }
 
 void CommandSchedule::begin() {
@@ -80,32 +79,32 @@ void CommandSchedule::begin() {
 
 void CommandSchedule::aim() {
     const Instant now = rack_.kernel().now();
-    for (const Order& order : orders_)
-        if (!order.done && order.at >= now) return rack_.kernel().schedule(id_, order.at);
+    for (const ScheduledCommand& command : commands_)
+        if (!command.done && command.at >= now) return rack_.kernel().schedule(id_, command.at);
     rack_.kernel().schedule(id_, never);
 }
 
 void CommandSchedule::on_scheduled(Instant now) {
     rack_.kernel().break_run();
-    for (const Order& order : orders_)
-        if (order.at > now) return rack_.kernel().schedule(id_, order.at);
+    for (const ScheduledCommand& command : commands_)
+        if (command.at > now) return rack_.kernel().schedule(id_, command.at);
 }
 
 std::optional<Instant> CommandSchedule::ask_stop() {
     if (std::exchange(asked_, true) || stop_flag_) return std::nullopt;
-    Order order{rack_.kernel().now() + asked_ahead, Kind::stop, 1, "stop", false};
-    const auto after = std::upper_bound(orders_.begin(), orders_.end(), order.at,
-                                        [](Instant at, const Order& one) { return at < one.at; });
-    orders_.insert(after, order);
+    ScheduledCommand command{rack_.kernel().now() + asked_ahead, Kind::stop, 1, "stop", false};
+    const auto after = std::upper_bound(commands_.begin(), commands_.end(), command.at,
+                                        [](Instant at, const ScheduledCommand& one) { return at < one.at; });
+    commands_.insert(after, command);
     aim();
-    return order.at;
+    return command.at;
 }
 
 void CommandSchedule::apply_due() {
-    for (Order& order : orders_)
-        if (!order.done && order.at <= rack_.kernel().now()) {
-            order.done = true;
-            apply(order);
+    for (ScheduledCommand& command : commands_)
+        if (!command.done && command.at <= rack_.kernel().now()) {
+            command.done = true;
+            apply(command);
         }
 }
 
@@ -114,14 +113,14 @@ void CommandSchedule::halt() {
     stream_->stop();
 }
 
-void CommandSchedule::apply(const Order& order) {
-    if (order.kind == Kind::stop) {
+void CommandSchedule::apply(const ScheduledCommand& command) {
+    if (command.kind == Kind::stop) {
         stop_flag_ = true;
-        rack_.stop_latch().order();
+        rack_.stop_latch().stop();
     }
-    if (order.kind == Kind::hold || order.kind == Kind::resume) holds_ = order.kind == Kind::hold;
+    if (command.kind == Kind::hold || command.kind == Kind::resume) holds_ = command.kind == Kind::hold;
     if (stream_ == nullptr) return;
-    switch (order.kind) {
+    switch (command.kind) {
         case Kind::stop:
             stream_->stop();
             break;
@@ -132,22 +131,23 @@ void CommandSchedule::apply(const Order& order) {
             stream_->resume();
             break;
         case Kind::feed:
-            stream_->set_overrides(feed_ = order.value, rapid_);
+            stream_->set_overrides(feed_ = command.value, rapid_);
             break;
         case Kind::rapid:
-            stream_->set_overrides(feed_, rapid_ = order.value);
+            stream_->set_overrides(feed_, rapid_ = command.value);
             break;
     }
 }
 
 bool CommandSchedule::pending() const {
-    return std::any_of(orders_.begin(), orders_.end(), [](const Order& order) { return !order.done; });
+    return std::any_of(commands_.begin(), commands_.end(),
+                       [](const ScheduledCommand& command) { return !command.done; });
 }
 
 std::vector<std::string> CommandSchedule::not_done() const {
     std::vector<std::string> out;
-    for (const Order& order : orders_)
-        if (!order.done) out.push_back("the run ended before the order " + order.text);
+    for (const ScheduledCommand& command : commands_)
+        if (!command.done) out.push_back("the run ended before the command " + command.text);
     return out;
 }
 

@@ -23,7 +23,7 @@ class CommandSchedule final : public sim::Device {
     /// Call before the rack starts. Commands: "stop", "hold", "resume", "feed=PART" (0.01 .. 2),
     /// "rapid=PART" (0.01 .. 1). Errors: invalid_input for the first unknown command; refused for a hold without a
     /// later resume or stop.
-    static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& orders);
+    static Result<std::unique_ptr<CommandSchedule>> create(Rack& rack, const std::vector<ScheduledText>& commands);
     /// Returns true if a command of that name exists; its value may be invalid.
     static bool knows(std::string_view action);
 
@@ -55,7 +55,7 @@ class CommandSchedule final : public sim::Device {
 
   private:
     enum class Kind : std::uint8_t { stop, hold, resume, feed, rapid };
-    struct Order {
+    struct ScheduledCommand {
         Instant at{};
         Kind kind = Kind::stop;
         double value = 1;
@@ -63,14 +63,14 @@ class CommandSchedule final : public sim::Device {
         bool done = false;
     };
     explicit CommandSchedule(Rack& rack) : rack_(rack) {}
-    static Result<Order> read(const ScheduledText& text);
+    static Result<ScheduledCommand> read(const ScheduledText& text);
     Result<void> check_holds() const;
-    void apply(const Order& order);
+    void apply(const ScheduledCommand& command);
     void aim();
 
     Rack& rack_;
     sim::DeviceId id_{};
-    std::vector<Order> orders_;  // by time
+    std::vector<ScheduledCommand> commands_;  // by time
     control::StreamExecutor* stream_ = nullptr;
     std::atomic<bool> stop_flag_{false};
     bool needs_stream_ = false, asked_ = false, holds_ = false;

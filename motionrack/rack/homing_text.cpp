@@ -74,7 +74,7 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
                                 {"slow_speed", axis.order.slow_speed},
                                 {"begun", axis.begun},
                                 {"homed", o.homed},
-                                {"seconds", rounded(o.took_s)},
+                                {"duration_s", rounded(o.took_s)},
                                 {"sentence", o.sentence}};
     j["states"] = nlohmann::ordered_json::array();
     for (const control::HomingStateVisit& stay : o.stays)
@@ -114,7 +114,7 @@ std::string homing_text(const HomingOutcome& outcome) {
 
 std::string homing_json(const HomingOutcome& outcome) {
     nlohmann::ordered_json j = {{"homed", outcome.all_homed()},
-                                {"seconds", rounded(outcome.seconds)},
+                                {"duration_s", rounded(outcome.seconds)},
                                 {"error", outcome.ended ? nlohmann::ordered_json(nullptr)
                                                         : nlohmann::ordered_json(outcome.ended.error().message)}};
     j["axes"] = nlohmann::ordered_json::array();

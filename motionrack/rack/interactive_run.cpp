@@ -92,12 +92,12 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders, Feeder& feeder,
+Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& commands, Feeder& feeder,
                    const std::string& file, control::ProgramResult& run) {
     using control::ExecutionState;
     std::int64_t probes = stream.last_probe().count;
     while (true) {
-        if (!orders.stopped()) feeder.feed(stream);
+        if (!commands.stopped()) feeder.feed(stream);
         const Result<ExecutionState> driven = stream.drive(feeder.more());
         if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
             probes = probe.count;
@@ -109,9 +109,9 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
                 host.pass(look);
                 break;
             case ExecutionState::feed_hold:
-                if (!orders.holds())
+                if (!commands.holds())
                     stream.resume();
-                else if (!orders.pending())
+                else if (!commands.pending())
                     return fail(ErrorKind::stopped,
                                 fmt::format("The job was held in line {}, and not resumed.", stream.current_line()),
                                 {stream.current_line(), 0}, file);
@@ -124,7 +124,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
             case ExecutionState::running:
                 break;
             case ExecutionState::idle:
-                if (orders.stopped())
+                if (commands.stopped())
                     return fail(ErrorKind::stopped,
                                 fmt::format("Stopped on request in line {}; the axes came to rest along the path.",
                                             stream.current_line()),
@@ -137,7 +137,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
 
 }  // namespace
 
-Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
+Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& commands,
                         std::string_view text, const control::gcode::Settings& settings, const std::string& file,
                         control::ProgramResult& run, const OnProgrammedMove& on_move) {
     // The remainder of a move is planned again after a feed hold; the programmed move counts.
@@ -150,7 +150,7 @@ Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const 
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
     Feeder feeder(text, settings, file, run);
-    const Result<void> ended = drive(stream, host, orders, feeder, file, run);
+    const Result<void> ended = drive(stream, host, commands, feeder, file, run);
     stream.on_move({});
     run.plan.moves = run.moves;
     run.plan.path_mm = path_mm;

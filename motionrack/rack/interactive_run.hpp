@@ -47,9 +47,9 @@ class PathObserver final : public control::AxisGroup {
 using OnProgrammedMove = std::function<void(const control::Move& move, const control::Point& start)>;
 
 /// Executes a checked program. A program error ends the job at the present position. Errors: as ProgramExecutor::run.
-/// The stream's stop flag must also be the axes' flag, and `orders` must be attached to the stream. `on_move` is called
-/// with each move as it was read.
-Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& orders,
+/// The stream's stop flag must also be the axes' flag, and `commands` must be attached to the stream. `on_move` is
+/// called with each move as it was read.
+Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& commands,
                         std::string_view text, const control::gcode::Settings& settings, const std::string& file,
                         control::ProgramResult& run, const OnProgrammedMove& on_move);
 

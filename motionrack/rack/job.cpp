@@ -93,9 +93,9 @@ void Job::listen(const std::vector<control::MoveStart>& starts) {
     for (const control::MoveStart& start : starts) line_ = start.line;
     monitor_->started(starts);
     monitor_->drain();
-    if (settings_.orders != nullptr) {
-        settings_.orders->apply_due();
-        if (rack_.stop_latch().halted()) settings_.orders->halt();
+    if (settings_.commands != nullptr) {
+        settings_.commands->apply_due();
+        if (rack_.stop_latch().halted()) settings_.commands->halt();
     }
     if (settings_.on_slice) settings_.on_slice();
     if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began_), line_, lines_});
@@ -107,8 +107,9 @@ Result<void> Job::drive(control::AxisGroup& axes, JobOutcome& out) {
     settings.gcode.start = start_;
     settings.accel_reserve = rack_.axes().front().card->accel_reserve();
     settings.jerk_limited = rack_.config().jerk_limited();
-    if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
-    settings.stop = settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop;
+    if (settings_.commands != nullptr && settings_.commands->needs_stream())
+        return drive_by_stream(axes, settings, out);
+    settings.stop = settings_.commands != nullptr ? settings_.commands->stop_flag() : settings_.stop;
     settings.halted = &rack_.stop_latch().halted();
     rack_.set_stop_flag(settings.stop);
     rack_.on_slice(slice, [&] { listen(axes.take_move_starts()); });
@@ -136,16 +137,16 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     control::StreamExecutor stream(watch, host, stream_settings);
     rack_.set_stop_flag(stream.stop_flag());
     rack_.on_slice(slice, [&] { listen(watch.heard()); });
-    settings_.orders->attach(&stream);
+    settings_.commands->attach(&stream);
     monitor_->begin();
     const OnProgrammedMove on_move = [&](const control::Move& move, const control::Point& start) {
         programmed(move, start, out);
     };
-    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode,
+    const Result<void> ended = drive_live(stream, host, *settings_.commands, settings_.program, settings.gcode,
                                           settings_.program_name, out.run, on_move);
     out.time = rack_.kernel().now() - began_;
     listen(watch.heard());
-    settings_.orders->attach(nullptr);
+    settings_.commands->attach(nullptr);
     rack_.set_stop_flag(nullptr);
     return ended;
 }
@@ -220,7 +221,7 @@ JobOutcome Job::run() {
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
         if (!axis.servo) continue;
-        const double off = std::fabs(axis.real_end - axis.planned_end);
+        const double off = std::fabs(axis.actual_end - axis.planned_end);
         if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
     }
     rack_.stop_latch().disarm();
@@ -232,7 +233,7 @@ void Job::judge_positions(TrustWatch& trust, JobOutcome& out) {
     for (TrustFinding& found : trust.look(true)) {
         if (found.axis == TrustFinding::no_axis) continue;  // reported with the conditions
         if (found.lost) {
-            out.position_trusted = false;
+            out.position_valid = false;
             reference_.lose(found.axis, std::move(found.text));
         } else {
             out.warnings.push_back({found.at, 0, std::move(found.text)});
@@ -241,7 +242,7 @@ void Job::judge_positions(TrustWatch& trust, JobOutcome& out) {
     const StopLatch& latch = rack_.stop_latch();
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
         if (latch.keeps_position(rack_.axes()[i].config.index())) continue;
-        out.position_trusted = false;
+        out.position_valid = false;
         reference_.lose(i, "steps may have been lost in a stop");
     }
 }
@@ -368,13 +369,13 @@ std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
         one.pulses_net = commanded - before.commanded;
         one.pulse_position = axis.card->pulse_counter(axis.channel);
         one.pulse_start = before.pulse_counter;
-        one.counts_read = axis.card->encoder_counter(axis.channel) - before.encoder_counter;
+        one.encoder_counts = axis.card->encoder_counter(axis.channel) - before.encoder_counter;
         one.lost_pulses = commanded - axis.machine->rotor().count(now) - reference_.lost_before(i);
-        one.counts_expected = counts(commanded) - counts(before.commanded);
+        one.expected_counts = counts(commanded) - counts(before.commanded);
         one.planned_end = rack_.config().positions_alone(axis.config)
                               ? sent_to[static_cast<std::size_t>(one.index)]
                               : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
-        one.real_end = axis.machine->position(now) + (reference_.real_origin(i) - axis.config.start_position);
+        one.actual_end = axis.machine->position(now) + (reference_.real_origin(i) - axis.config.start_position);
         one.top = monitor_->statistics(one.index);
         out.push_back(std::move(one));
     }

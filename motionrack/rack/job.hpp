@@ -31,8 +31,8 @@ struct JobSettings {
     std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
     std::size_t max_samples = 200'000;
-    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; ignored if `orders` is set
-    CommandSchedule* orders = nullptr;                      ///< planned commands and stops; must outlive the job
+    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; ignored if `commands` is set
+    CommandSchedule* commands = nullptr;                    ///< planned commands and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
     std::function<void()> on_slice = {};                    ///< called between runs: recorders drain here
     std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< called with every sample, between runs
@@ -48,11 +48,11 @@ struct AxisOutcome {
     std::int64_t pulses_net = 0;       ///< forward pulses minus backward pulses
     std::int64_t pulse_position = 0;   ///< the card's counter LP at the end
     std::int64_t pulse_start = 0;      ///< the card's counter LP at the start of the job
-    std::int64_t counts_read = 0;      ///< change of the card's encoder counter EP
-    std::int64_t counts_expected = 0;  ///< expected change if the motor followed every pulse
+    std::int64_t encoder_counts = 0;   ///< change of the card's encoder counter EP
+    std::int64_t expected_counts = 0;  ///< expected change if the motor followed every pulse
     std::int64_t lost_pulses = 0;      ///< step loss of the motor
     double planned_end = 0;            ///< mm or degrees
-    double real_end = 0;               ///< machine position, by the last position reference
+    double actual_end = 0;             ///< machine position, by the last position reference
     AxisStatistics top;
 };
 
@@ -77,12 +77,12 @@ struct JobOutcome {
     std::uint64_t trace_hash = 0;
     int rest_axis = -1;   ///< servo axis with the largest position error at the end; -1: no servo
     double rest_off = 0;  ///< its position error, mm or degrees
-    bool position_trusted =
+    bool position_valid =
         true;           ///< false after step loss, or if an axis that positions by itself has lost its position
     Breaches breaches;  ///< breaches caused by the controller
 
     /// Returns true if the job ended well without step loss or breach.
-    bool good() const { return ended.has_value() && position_trusted && breaches.all().empty(); }
+    bool good() const { return ended.has_value() && position_valid && breaches.all().empty(); }
 };
 
 /// Axes of a rack for a monitor: all of them.

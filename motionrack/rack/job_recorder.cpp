@@ -198,17 +198,17 @@ std::vector<trace::OutcomeField> facts_of(const JobOutcome& outcome) {
         add("message", outcome.ended.error().message);
         add("line", outcome.ended.error().place.line);
     }
-    add("seconds", to_seconds(outcome.time));
+    add("duration_s", to_seconds(outcome.time));
     add("path_mm", outcome.path_mm);
     add("moves", outcome.run.moves);
     add("lines", outcome.run.lines);
     add("chip_segments", outcome.chip_segments);
     add("trace_hash", fmt::format("{:016x}", outcome.trace_hash));
-    add("position_trusted", outcome.position_trusted ? "yes" : "no");
-    add("worst_deviation_mm", outcome.worst.mm);
+    add("position_valid", outcome.position_valid ? "yes" : "no");
+    add("max_deviation_mm", outcome.worst.mm);
     add("pulse_positions", of_axes(outcome, &AxisOutcome::pulse_position));
-    add("counts_read", of_axes(outcome, &AxisOutcome::counts_read));
-    add("real_ends", of_axes(outcome, &AxisOutcome::real_end));
+    add("encoder_counts", of_axes(outcome, &AxisOutcome::encoder_counts));
+    add("actual_ends", of_axes(outcome, &AxisOutcome::actual_end));
     return facts;
 }
 

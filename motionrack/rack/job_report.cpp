@@ -67,14 +67,14 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
         out.pulses_sent = axis.pulses_sent;
         out.pulses_net = axis.pulses_net;
         out.pulse_counter = axis.pulse_position - axis.pulse_start;
-        out.counts_read = axis.counts_read;
-        out.counts_expected = axis.counts_expected;
+        out.encoder_counts = axis.encoder_counts;
+        out.expected_counts = axis.expected_counts;
         out.lost_steps = axis.lost_pulses;
         out.peak_velocity = axis.top.peak_velocity;
         out.peak_accel = axis.top.peak_accel;
         out.peak_velocity_step = axis.top.peak_velocity_step;
         out.planned_end = axis.planned_end;
-        out.real_end = axis.real_end;
+        out.actual_end = axis.actual_end;
         for (std::size_t s = 0; s < samples.size(); ++s) {
             out.position.push_back(static_cast<float>(samples[s].position[i]));
             out.speed.push_back(static_cast<float>(samples[s].speed[i]));
@@ -87,7 +87,7 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
 
 std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.ended) return outcome.ended.error().message;
-    if (!outcome.position_trusted)
+    if (!outcome.position_valid)
         return "The program ended, but motors lost steps: the machine is not where the controller believes it is. "
                "Lower speed or acceleration.";
     if (const std::vector<Breach>& breaches = outcome.breaches.all(); !breaches.empty())
@@ -188,8 +188,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     for (const AxisOutcome& axis : outcome.axes)
         out += fmt::format("  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10.4f} {:<3}{:>13.3f} /{:>7.4g}{:>15.1f} /{:>7.4g}\n",
                            control::axis_letters[static_cast<std::size_t>(axis.index)],
-                           of_pulses(axis, axis.pulses_sent), axis.counts_read, axis.counts_expected,
-                           of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.peak_velocity,
+                           of_pulses(axis, axis.pulses_sent), axis.encoder_counts, axis.expected_counts,
+                           of_pulses(axis, axis.lost_pulses), axis.actual_end, axis.unit, axis.top.peak_velocity,
                            axis.limits.max_velocity, axis.top.peak_accel, axis.limits.max_accel);
     return out;
 }
@@ -201,19 +201,19 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     if (!outcome.ended)
         json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
     json["rack"] = config.name;
-    json["seconds"] = to_seconds(outcome.time);
-    json["planned_seconds"] = outcome.run.plan.seconds;
+    json["duration_s"] = to_seconds(outcome.time);
+    json["planned_duration_s"] = outcome.run.plan.seconds;
     json["path_mm"] = outcome.path_mm;
     json["moves"] = moves_of(config, outcome);
     json["lines"] = outcome.run.lines;
     json["chip_segments"] = outcome.chip_segments;
     json["events"] = outcome.events;
     json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
-    json["position_trusted"] = outcome.position_trusted;
-    json["worst_deviation"] = {{"from", "program"},
-                               {"mm", outcome.worst.mm},
-                               {"line", outcome.worst.line},
-                               {"seconds", to_seconds(outcome.worst.at)}};
+    json["position_valid"] = outcome.position_valid;
+    json["max_deviation"] = {{"from", "program"},
+                             {"mm", outcome.worst.mm},
+                             {"line", outcome.worst.line},
+                             {"seconds", to_seconds(outcome.worst.at)}};
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});
@@ -226,7 +226,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
              {"limit", breach.limit},
              {"seconds", to_seconds(breach.at)},
              {"line", breach.line},
-             {"place", breach.place},
+             {"position", breach.place},
              {"times", breach.times}});
     json["axes"] = nlohmann::ordered_json::array();
     for (const AxisOutcome& axis : outcome.axes)
@@ -234,16 +234,16 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
                                 {"unit", axis.unit},
                                 {"pulses_sent", axis.pulses_sent},
                                 {"pulse_position", axis.pulse_position},
-                                {"counts_read", axis.counts_read},
-                                {"counts_expected", axis.counts_expected},
+                                {"encoder_counts", axis.encoder_counts},
+                                {"expected_counts", axis.expected_counts},
                                 {"lost_pulses", axis.lost_pulses},
                                 {"servo", axis.servo},
-                                {"end", axis.real_end},
-                                {"top_speed", axis.top.peak_velocity},
-                                {"max_speed", axis.limits.max_velocity},
-                                {"top_accel", axis.top.peak_accel},
+                                {"actual_end", axis.actual_end},
+                                {"peak_velocity", axis.top.peak_velocity},
+                                {"max_velocity", axis.limits.max_velocity},
+                                {"peak_accel", axis.top.peak_accel},
                                 {"max_accel", axis.limits.max_accel},
-                                {"top_jump", axis.top.peak_velocity_step}});
+                                {"peak_velocity_step", axis.top.peak_velocity_step}});
     json["warnings"] = nlohmann::ordered_json::array();
     for (const JobWarning& warning : outcome.warnings)
         json["warnings"].push_back(

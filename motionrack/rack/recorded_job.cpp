@@ -14,7 +14,7 @@ namespace {
 // Distinguishes faults from commands in a recording.
 constexpr std::string_view fault_word = "fault ";
 
-trace::RecordingHead head_of(const JobRequest& request, const CommandSchedule& orders) {
+trace::RecordingHead head_of(const JobRequest& request, const CommandSchedule& commands) {
     trace::RecordingHead head;
     head.version = request.version;
     head.program_name = request.program_name;
@@ -26,24 +26,25 @@ trace::RecordingHead head_of(const JobRequest& request, const CommandSchedule& o
     head.stream = request.stream;
     for (const control::gcode::Tool& tool : request.tools.tools()) head.tools += to_text(tool) + "\n";
     head.subprograms = request.subprograms;
-    head.live = orders.needs_stream();
+    head.live = commands.needs_stream();
     head.sample_period = JobSettings().sample_period;
     for (const ScheduledText& fault : request.faults)
         head.inputs.push_back({fault.at, std::string(fault_word) + fault.action});
-    for (const ScheduledText& order : request.orders) head.inputs.push_back({order.at, order.action});
+    for (const ScheduledText& command : request.commands) head.inputs.push_back({command.at, command.action});
     return head;
 }
 
 }  // namespace
 
-Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts) {
+Result<std::vector<ScheduledText>> read_commands(const std::vector<std::string>& texts) {
     std::vector<ScheduledText> out;
     for (const std::string& text : texts) {
         std::optional<ScheduledText> timed = read_timed_text(text);
         if (!timed)
-            return fail(ErrorKind::invalid_input, fmt::format("The order {} needs its time, 0 to {:.0f} s: hold@1.5s, "
-                                                              "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
-                                                              in_quotes(text), max_planned_seconds));
+            return fail(ErrorKind::invalid_input,
+                        fmt::format("The command {} needs its time, 0 to {:.0f} s: hold@1.5s, "
+                                    "resume@2s, feed=0.5@20ms, stop@3s. Nothing was moved.",
+                                    in_quotes(text), max_planned_seconds));
         out.push_back(std::move(*timed));
     }
     return out;
@@ -82,7 +83,7 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     for (const trace::RecordedInput& input : recording.inputs()) {
         const bool fault = input.text.compare(0, fault_word.size(), fault_word) == 0;
         const std::string action = fault ? input.text.substr(fault_word.size()) : input.text;
-        (fault ? out.faults : out.orders)
+        (fault ? out.faults : out.commands)
             .push_back({input.at, action, fmt::format("{}@{}s", action, to_seconds(input.at))});
     }
     return out;
@@ -94,10 +95,10 @@ Result<std::unique_ptr<RecordedJob>> RecordedJob::create(const JobRequest& reque
         MOTIONRACK_TRY(out->waves_, WaveRecorder::create(out->rack_, *watchers.waves));
     }
     MOTIONRACK_TRY(out->faults_, FaultSchedule::create_timed(out->rack_, request.faults));
-    MOTIONRACK_TRY(out->orders_, CommandSchedule::create(out->rack_, request.orders));
+    MOTIONRACK_TRY(out->commands_, CommandSchedule::create(out->rack_, request.commands));
     if (!watchers.recording.empty()) {
         MOTIONRACK_TRY(out->recorder_,
-                       JobRecorder::create(out->rack_, watchers.recording, head_of(request, *out->orders_)));
+                       JobRecorder::create(out->rack_, watchers.recording, head_of(request, *out->commands_)));
     }
     return out;
 }
@@ -110,7 +111,7 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked,
     settings.program = request_.program;
     settings.program_name = request_.program_name;
     settings.reading = reading_of(request_);
-    settings.orders = orders_.get();
+    settings.commands = commands_.get();
     settings.progress = std::move(progress);
     settings.on_slice = [this, stop_asked] { between_runs(stop_asked); };
     if (recorder_)
@@ -120,7 +121,7 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked,
     if (waves_) waves_->begin();
     if (recorder_) recorder_->begin();
     faults_->begin();
-    orders_->begin();
+    commands_->begin();
     outcome_ = job_->run();
     report_ = report_of(rack_, *job_, outcome_, request_.program, request_.program_name);
     return outcome_;
@@ -129,7 +130,7 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked,
 void RecordedJob::between_runs(const std::atomic<bool>* stop_asked) {
     faults_->apply_due();
     if (stop_asked != nullptr && stop_asked->load(std::memory_order_relaxed))
-        if (const std::optional<Instant> at = orders_->ask_stop(); at && recorder_) recorder_->input({*at, "stop"});
+        if (const std::optional<Instant> at = commands_->ask_stop(); at && recorder_) recorder_->input({*at, "stop"});
     if (waves_) waves_->drain_settled();
     if (recorder_) recorder_->drain();
 }
@@ -142,7 +143,7 @@ Result<void> RecordedJob::finish() {
 
 std::vector<std::string> RecordedJob::not_done() const {
     std::vector<std::string> out = faults_->not_done();
-    for (std::string& order : orders_->not_done()) out.push_back(std::move(order));
+    for (std::string& command : commands_->not_done()) out.push_back(std::move(command));
     return out;
 }
 

@@ -26,12 +26,12 @@ struct JobRequest {
     bool block_delete = false, stream = false;
     control::gcode::ToolTable tools;
     std::map<std::string, std::string> subprograms;  ///< texts of called subprograms outside the program
-    std::vector<ScheduledText> faults, orders;
+    std::vector<ScheduledText> faults, commands;
     std::string version;  ///< version of the running program
 };
 
 /// Parses "COMMAND@TIME" texts. Errors: invalid_input.
-Result<std::vector<ScheduledText>> read_orders(const std::vector<std::string>& texts);
+Result<std::vector<ScheduledText>> read_commands(const std::vector<std::string>& texts);
 
 /// Returns the reader settings of the request's program.
 control::gcode::Settings reading_of(const JobRequest& request);
@@ -74,7 +74,7 @@ class RecordedJob {
     std::unique_ptr<WaveRecorder> waves_;
     std::unique_ptr<JobRecorder> recorder_;
     std::unique_ptr<FaultSchedule> faults_;
-    std::unique_ptr<CommandSchedule> orders_;
+    std::unique_ptr<CommandSchedule> commands_;
     std::unique_ptr<Job> job_;
     JobOutcome outcome_;
     trace::ReportData report_;

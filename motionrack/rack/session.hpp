@@ -26,7 +26,7 @@
 namespace motionrack::rack {
 
 /// A part program for Session::run_program.
-struct ProgramOrder {
+struct ProgramRequest {
     std::string_view path_or_text;  ///< a text contains a line end; the subprograms of a file lie beside it
     std::string tools = {};         ///< path of a tool table (LinuxCNC's .tbl); empty: none
     bool block_delete = false;
@@ -94,7 +94,7 @@ class Session {
     // ---- controller functions
     /// Runs a part program on the controller of a rack opened for programs, from the axes' present positions: see
     /// PositionReference. Checks the whole program before anything moves.
-    ProgramReport run_program(const ProgramOrder& order);
+    ProgramReport run_program(const ProgramRequest& request);
     /// Homes axes: letters, optionally with blanks and commas between them; empty: all axes with a home switch. Errors
     /// (in `ended`): as home_axes, and refused by check_free.
     HomingOutcome home(std::string_view axes);
@@ -155,8 +155,8 @@ class Session {
     void between();
     void tell_conditions();
     std::uint64_t condition_count() const;
-    Result<control::gcode::Settings> read_program(const ProgramOrder& order, std::string& name);
-    Result<void> drive_program(const ProgramOrder& order, ProgramReport& report);
+    Result<control::gcode::Settings> read_program(const ProgramRequest& request, std::string& name);
+    Result<void> drive_program(const ProgramRequest& request, ProgramReport& report);
 
     Rack rack_;
     std::unique_ptr<Job> job_;  // nullptr: no programs

@@ -52,25 +52,25 @@ std::unique_ptr<Job> Session::make_job(Programs programs) {
     return std::make_unique<Job>(rack_, std::move(settings));
 }
 
-Result<control::gcode::Settings> Session::read_program(const ProgramOrder& order, std::string& name) {
-    control::gcode::Settings reading = reader_settings(rack_.config(), order.block_delete);
-    if (order.path_or_text.find('\n') != std::string_view::npos) {
+Result<control::gcode::Settings> Session::read_program(const ProgramRequest& request, std::string& name) {
+    control::gcode::Settings reading = reader_settings(rack_.config(), request.block_delete);
+    if (request.path_or_text.find('\n') != std::string_view::npos) {
         name = "program";
-        program_ = order.path_or_text;
+        program_ = request.path_or_text;
     } else {
-        name = order.path_or_text;
+        name = request.path_or_text;
         MOTIONRACK_TRY(program_, read_whole_file(name, read_limits::program));
         reading.subprogram = subprograms_in(std::filesystem::path(name).parent_path());
     }
-    if (!order.tools.empty()) {
-        MOTIONRACK_TRY(const std::string tools, read_whole_file(order.tools, read_limits::table));
-        MOTIONRACK_TRY(reading.tools, control::gcode::read_tool_table(tools, order.tools));
+    if (!request.tools.empty()) {
+        MOTIONRACK_TRY(const std::string tools, read_whole_file(request.tools, read_limits::table));
+        MOTIONRACK_TRY(reading.tools, control::gcode::read_tool_table(tools, request.tools));
     }
     MOTIONRACK_CHECK(control::gcode::check_settings(reading));
     return reading;
 }
 
-Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& report) {
+Result<void> Session::drive_program(const ProgramRequest& request, ProgramReport& report) {
     MOTIONRACK_CHECK(check_free());
     if (!job_)
         return fail(ErrorKind::refused,
@@ -79,7 +79,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     MOTIONRACK_CHECK(room_for(max_drive_time));
     MOTIONRACK_TRY(const control::Point start, job_->start());
     std::string name;
-    MOTIONRACK_TRY(control::gcode::Settings reading, read_program(order, name));
+    MOTIONRACK_TRY(control::gcode::Settings reading, read_program(request, name));
     reading.start = start;
     const control::gcode::ProgramCheck check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
@@ -88,7 +88,7 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     }
     const RaisedFlag driving(driving_);
     stop_ = false;
-    progress_ = order.progress;
+    progress_ = request.progress;
     job_->give(program_, name, std::move(reading));
     report.outcome = job_->run();
     progress_ = {};
@@ -108,9 +108,9 @@ Result<void> Session::drive_program(const ProgramOrder& order, ProgramReport& re
     return {};
 }
 
-ProgramReport Session::run_program(const ProgramOrder& order) {
+ProgramReport Session::run_program(const ProgramRequest& request) {
     ProgramReport report;
-    report.ended = drive_program(order, report);
+    report.ended = drive_program(request, report);
     if (!report.ended) report.sentence = report.ended.error().text();
     return report;
 }

@@ -28,7 +28,7 @@ struct SourceWords {
 };
 constexpr std::array<SourceWords, stop_sources.size()> words = {{
     {StopSource::emergency_stop, "emergency stop", "Release it, then reset."},
-    {StopSource::stop_order, "STOP order", "Reset, then start anew."},
+    {StopSource::stop_command, "STOP command", "Reset, then start anew."},
     {StopSource::drive_alarm, "drive alarm", "Clear it at the drive, then reset."},
     {StopSource::limit_switch, "limit switch", "Reset, then move it off the switch."},
     {StopSource::watchdog, "watchdog", "Reset, then home."},
@@ -161,7 +161,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
                                [&](const RunningAxis& axis) { return !moves(axis, now) || is_on_card(axis, input); });
         case StopSource::drive_alarm:
         case StopSource::following_error:
-        case StopSource::stop_order:
+        case StopSource::stop_command:
             break;
     }
     return false;
@@ -183,7 +183,7 @@ bool StopLatch::is_stopped_by_card(char letter) const {
             });
         case StopSource::drive_alarm:
         case StopSource::following_error:
-        case StopSource::stop_order:
+        case StopSource::stop_command:
             break;
     }
     return false;
@@ -237,8 +237,8 @@ void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
     }
 }
 
-void StopLatch::order() {
-    trip(StopSource::stop_order, -1, kernel_.now());
+void StopLatch::stop() {
+    trip(StopSource::stop_command, -1, kernel_.now());
     look();
 }
 
@@ -264,7 +264,7 @@ void StopLatch::look() {
     if (state_.armed != 0 && has_watchdogs_) look_at_watchdogs();
     if (state_.armed != 0 && state_.heeds_door != 0 && state_.latched == 0 && contacts_.door_open()) {
         state_.by_door = 1;
-        trip(StopSource::stop_order, -1, std::max(contacts_.door_opened(), Instant{}));
+        trip(StopSource::stop_command, -1, std::max(contacts_.door_opened(), Instant{}));
     }
     if (state_.latched == 0) return;
     for (const StopSource source : stop_sources)
@@ -328,7 +328,7 @@ std::string StopLatch::input_text() const {
     switch (cause()) {
         case StopSource::emergency_stop:
             return "The emergency stop was pressed";
-        case StopSource::stop_order:
+        case StopSource::stop_command:
             return state_.by_door != 0 ? "The door was opened" : "Stopped on request";
         case StopSource::drive_alarm:
             return fmt::format("The drive of {} reported an alarm", letter);

@@ -46,7 +46,7 @@ class StopLatch final : public sim::Device {
     void heed_limits(bool on) { state_.heeds_limits = on; }
 
     /// Sets the latch for a STOP command. Call between runs.
-    void order();
+    void stop();
     /// Sets the latch for an axis (index in Rack::axes()) above its following-error limit; called in the kernel, at
     /// that tick. Its position becomes invalid even if a stop is already in force.
     void stays_behind(std::size_t axis, Instant now);
@@ -70,7 +70,7 @@ class StopLatch final : public sim::Device {
     /// Flag that makes the latch a source of stop requests: see VirtualHost::set_halted_flag.
     const std::atomic<bool>& halted() const { return halted_; }
     /// Returns true if a stop command was the only cause.
-    bool is_ordered() const { return cause() == StopSource::stop_order && state_.by_door == 0; }
+    bool is_ordered() const { return cause() == StopSource::stop_command && state_.by_door == 0; }
     /// First cause, and its instant; valid while latched.
     StopSource cause() const { return static_cast<StopSource>(state_.cause); }
     Instant at() const { return state_.at; }

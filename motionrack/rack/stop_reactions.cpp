@@ -24,8 +24,9 @@ constexpr std::uint32_t to(std::initializer_list<StopSource> sources) {
 using enum StopSource;
 using enum StopCategory;
 
-constexpr std::uint32_t every = to({emergency_stop, stop_order, drive_alarm, limit_switch, watchdog, following_error});
-constexpr std::uint32_t but_the_button = to({stop_order, drive_alarm, limit_switch, watchdog, following_error});
+constexpr std::uint32_t every =
+    to({emergency_stop, stop_command, drive_alarm, limit_switch, watchdog, following_error});
+constexpr std::uint32_t but_the_button = to({stop_command, drive_alarm, limit_switch, watchdog, following_error});
 
 /// One slice of the driver; an edge ends a slice immediately.
 constexpr Duration a_slice = milliseconds(50);
@@ -78,14 +79,14 @@ constexpr std::array reactions = {
     StopReaction{"mcx314", to({limit_switch}), category_2, StopBy::card,
                  "the chip decelerates the axis that moves towards it, and with it the path, until the piece that it "
                  "drives ends; no axis moves: nothing begins to", milliseconds(1), true},
-    StopReaction{"mcx314", to({stop_order, drive_alarm, watchdog, following_error}), category_2, StopBy::drive,
+    StopReaction{"mcx314", to({stop_command, drive_alarm, watchdog, following_error}), category_2, StopBy::drive,
                  "all axes decelerate along their path and hold their places", a_slice, true},
     StopReaction{"databoard4002", to({emergency_stop}), category_0, StopBy::card,
                  "the relay takes the voltage off the amplifier, at its input ems; the axis is braked by the amplifier",
                  milliseconds(1), true},
     StopReaction{"databoard4002", to({limit_switch, watchdog}), category_0, StopBy::card,
                  "the card ends the move by itself, without a ramp: 0 V", milliseconds(1), true},
-    StopReaction{"databoard4002", to({stop_order, drive_alarm, following_error}), category_2, StopBy::drive,
+    StopReaction{"databoard4002", to({stop_command, drive_alarm, following_error}), category_2, StopBy::drive,
                  "the axis decelerates with its own acceleration and holds its place", a_slice, true},
     StopReaction{"rtc5", every, category_0, StopBy::latch,
                  "the laser goes off, lists end, and starts are no longer taken; the mirrors stay where they are",
@@ -115,7 +116,7 @@ constexpr std::array states = {
     StopState{"dwell", "dwells (G4)"},
     StopState{"hold", "stands in a feed hold"},
     StopState{"m0", "waits at M0"},
-    StopState{"single_step", "single step: a line is done"},
+    StopState{"single_block", "single block: a line is done"},
     StopState{"probing", "probes (G38)"},
     StopState{"homing", "homes"},
     StopState{"jog", "jogs while a key is held"},

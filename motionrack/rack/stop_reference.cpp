@@ -18,7 +18,7 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
      "once it is released; where two channels were unlike for 500 ms (`estop_discrepancy_ms`), which is an alarm of "
      "its "
      "own, once both are alike"},
-    {StopSource::stop_order,
+    {StopSource::stop_command,
      "STOP on the page, `POST /api/stop`, `machine.stop()`, `--at stop@TIME`; in a run the door, "
      "which is opened",
      "at any time"},
@@ -44,7 +44,7 @@ constexpr std::string_view begin = R"(# What a stop does
 A rack has one stop latch. Whatever must stop the machine sets it, in every state of the machine, and only a reset
 releases it:
 
-    emergency stop, drive alarm, limit switch, watchdog,       STOP order
+    emergency stop, drive alarm, limit switch, watchdog,       STOP command
     following error                                                | between two slices
          | edge of a wire, at its tick                             |
          +----------------------> LATCH <--------------------------+
@@ -52,16 +52,16 @@ releases it:
                                     |---> laser off, belts stand, stages brake, outputs 0: the table of reactions
                                     `---> error stop, with a sentence; what was under way is forgotten
 
-    LATCH -- reset, once the cause is gone --> standstill -- a new order --> motion
+    LATCH -- reset, once the cause is gone --> standstill -- a new command --> motion
 
 - **No motion before a reset.** Programs, lines, jogs, homing, marking and resume are refused, with what stopped the
   machine.
 - **A reset releases what was there when it was ordered.** A stop that comes later, while the machine still brakes,
   stays until the next reset.
 - **A reset moves nothing.** Programs and lines that were under way are forgotten; belts and stages stay
-  where they are until the order `start_part`.
-- **A new start takes both**: the reset and a new order.
-- `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP order and
+  where they are until the command `start_part`.
+- **A new start takes both**: the reset and a new command.
+- `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP command and
   Ctrl-C with 130.
 
 A door (`door = true` in `[safety]`, the wire `door`) that is opened holds the feed of a served machine, puts spindle
@@ -86,7 +86,7 @@ constexpr std::string_view trust = R"(
 ## Where positions are trusted
 A position is kept where no step can have been lost, and dropped where one may have been:
 
-- a ramp loses nothing: the STOP order, limit switches, an alarm of another axis;
+- a ramp loses nothing: the STOP command, limit switches, an alarm of another axis;
 - at a limit switch the chip of an MCX314 that follows a path brakes within the piece that it drives, and ends its
   pulses where that ends: an axis whose speed then changed at once by more than its start speed is not trusted;
 - without a ramp (the emergency stop) an axis keeps its position that was not faster than its start speed,
@@ -160,7 +160,7 @@ std::string safety_reference() {
     for (const StopSource source : stop_sources) out += fmt::format(" {} |", name_of(source));
     out += "\n|---|---|---|---|---|---|---|\n";
     static constexpr std::array<std::string_view, stop_sources.size()> test_names = {
-        "emergency_stop", "stop_order", "drive_alarm", "limit_switch", "watchdog", "following_error"};
+        "emergency_stop", "stop_command", "drive_alarm", "limit_switch", "watchdog", "following_error"};
     for (const StopState& state : stop_states()) {
         out += fmt::format("| {} |", state.text);
         for (const StopSource source : stop_sources) {
@@ -172,7 +172,7 @@ std::string safety_reference() {
     }
     out +=
         "\nPrograms without an operator (`motionrack run`) are tested by `AStop.*` "
-        "(`motionrack/rack/test/stop_latch_test.cpp`), the page's orders by `AStopOnThePage.*` "
+        "(`motionrack/rack/test/stop_latch_test.cpp`), the page's commands by `AStopOnThePage.*` "
         "(`motionrack/panel/test/stop_test.cpp`).\n";
     return out;
 }

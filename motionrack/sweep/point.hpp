@@ -42,7 +42,7 @@ struct ResultColumn {
     std::string unit;  ///< empty: no unit
     bool text = false;
 };
-/// All columns in table order: ended, time_s, worst_deviation_mm, those of each axis, trace_hash.
+/// All columns in table order: ended, time_s, max_deviation_mm, those of each axis, trace_hash.
 std::span<const ResultColumn> result_columns();
 
 /// Returns the cell of that name; empty if missing.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <motionrack/sweep/results.hpp>
 #include <motionrack/trace/csv_rows.hpp>
+#include <motionrack/trace/former_version.hpp>
 #include <system_error>
 #include <unordered_set>
 
@@ -144,6 +145,12 @@ Result<Rows> read_rows_csv(const std::string& path) {
             ErrorKind::refused,
             "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
             {}, path);
+    if (std::find(head.begin(), head.end(), "worst_deviation_mm") != head.end())
+        return fail(ErrorKind::refused,
+                    fmt::format("The table has format 1, as motionrack {} writes it: its column 'worst_deviation_mm' "
+                                "is now 'max_deviation_mm'. It was left as it is; choose another name, or remove it.",
+                                trace::format_1_version),
+                    {}, path);
     std::vector<std::string> fields;
     while (true) {
         const Result<bool> next = csv.next(fields);

@@ -7,6 +7,7 @@
 #include <motionrack/base/numbers.hpp>
 #include <motionrack/sweep/results.hpp>
 #include <motionrack/trace/csv_rows.hpp>
+#include <motionrack/trace/former_version.hpp>
 #include <motionrack/trace/hdf5.hpp>
 
 namespace motionrack::sweep {
@@ -17,6 +18,8 @@ using trace::hdf5::File;
 using trace::hdf5::Type;
 
 constexpr const char* format = "motionrack sweep";
+constexpr std::int64_t format_version = 2;
+
 /// Path of a column name's text: names contain dots and quotes, and HDF5 paths must not contain slashes.
 std::string path_of(std::string name) {
     std::replace(name.begin(), name.end(), '/', '_');
@@ -70,7 +73,7 @@ Result<std::vector<std::string>> read_column(const File& file, const ResultColum
 Result<void> write_table_hdf5(const std::vector<TableColumn>& table, const std::string& path) {
     MOTIONRACK_TRY(File file, File::create(path));
     file.set("/", "format", std::string_view(format));
-    file.set("/", "format_version", std::int64_t{1});
+    file.set("/", "format_version", format_version);
     for (const TableColumn& column : table) write_column(file, column);
     return file.close();
 }
@@ -84,6 +87,15 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
         return fail(
             ErrorKind::refused,
             "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
+            {}, path);
+    if (const std::int64_t version = file->attribute_number("format_version"); version != format_version)
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The table has format {}{}; this program continues tables of format {}. It was left as "
+                        "it is; choose another name, or remove it.",
+                        version,
+                        version == 1 ? fmt::format(", as motionrack {} writes it", trace::format_1_version) : "",
+                        format_version),
             {}, path);
     MOTIONRACK_TRY(const std::vector<std::string> keys, read_column(*file, {"key", "", true}));
     std::vector<Row> rows(keys.size());

@@ -21,10 +21,10 @@ struct AxisColumn {
     double (*value)(const rack::AxisOutcome& axis);
 };
 constexpr std::array<AxisColumn, 4> axis_columns = {{
-    {"top_speed_{u}_s", "{u}/s", [](const rack::AxisOutcome& axis) { return axis.top.peak_velocity; }},
-    {"top_accel_{u}_s2", "{u}/s2", [](const rack::AxisOutcome& axis) { return axis.top.peak_accel; }},
+    {"peak_velocity_{u}_s", "{u}/s", [](const rack::AxisOutcome& axis) { return axis.top.peak_velocity; }},
+    {"peak_accel_{u}_s2", "{u}/s2", [](const rack::AxisOutcome& axis) { return axis.top.peak_accel; }},
     {"lost_pulses", "", [](const rack::AxisOutcome& axis) { return static_cast<double>(axis.lost_pulses); }},
-    {"rest_error_{u}", "{u}", [](const rack::AxisOutcome& axis) { return axis.real_end - axis.planned_end; }},
+    {"rest_error_{u}", "{u}", [](const rack::AxisOutcome& axis) { return axis.actual_end - axis.planned_end; }},
 }};
 
 constexpr std::string_view letters = "xyzabc";
@@ -40,7 +40,7 @@ std::string axis_column_name(std::size_t axis, const AxisColumn& column) {
 }
 
 std::string ended_text(const rack::JobOutcome& outcome) {
-    if (outcome.ended) return outcome.good() ? "ok" : outcome.position_trusted ? "limits_broken" : "lost_steps";
+    if (outcome.ended) return outcome.good() ? "ok" : outcome.position_valid ? "limits_broken" : "lost_steps";
     switch (outcome.ended.error().kind) {
         case ErrorKind::invalid_input:
             return "invalid_input";
@@ -59,7 +59,7 @@ std::string ended_text(const rack::JobOutcome& outcome) {
 Row row_of(const rack::JobOutcome& outcome) {
     Row out = {{"ended", ended_text(outcome)},
                {"time_s", number_text(to_seconds(outcome.time))},
-               {"worst_deviation_mm", number_text(outcome.worst.mm)}};
+               {"max_deviation_mm", number_text(outcome.worst.mm)}};
     for (const rack::AxisOutcome& axis : outcome.axes)
         for (const AxisColumn& column : axis_columns)
             out.emplace_back(axis_column_name(static_cast<std::size_t>(axis.index), column),
@@ -79,7 +79,7 @@ Row refused(const Error& error) {
 
 std::span<const ResultColumn> result_columns() {
     static const std::vector<ResultColumn> columns = [] {
-        std::vector<ResultColumn> out = {{"ended", "", true}, {"time_s", "s"}, {"worst_deviation_mm", "mm"}};
+        std::vector<ResultColumn> out = {{"ended", "", true}, {"time_s", "s"}, {"max_deviation_mm", "mm"}};
         for (std::size_t axis = 0; axis < letters.size(); ++axis)
             for (const AxisColumn& column : axis_columns)
                 out.push_back({axis_column_name(axis, column), with_unit(column.unit, axis)});

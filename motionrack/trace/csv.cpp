@@ -45,12 +45,12 @@ std::vector<Event> events_of(const ReportData& data) {
         const std::optional<double> when = instant(seconds);
         events.push_back({when, name, line, when ? driven_at(data, *when) : std::nullopt, std::move(text)});
     };
-    for (const ReportMove& block : data.blocks) add(block.start, "block", block.line, block.kind);
+    for (const ReportMove& block : data.blocks) add(block.start, "move", block.line, block.kind);
     for (const ReportWarning& warning : data.warnings) add(warning.seconds, "warning", warning.line, warning.text);
     if (data.worst) {
         const ReportMaxDeviation& worst = *data.worst;
         const std::string text = std::isfinite(worst.mm) ? fmt::format("{} mm", worst.mm) : "";
-        events.push_back({instant(worst.seconds), "worst deviation", worst.line, worst.at, text});
+        events.push_back({instant(worst.seconds), "max deviation", worst.line, worst.at, text});
     }
     if (data.stop)
         events.push_back({instant(data.stop->seconds), "stop", data.stop->line, data.stop->at, data.stop->text});
@@ -180,7 +180,7 @@ Result<void> write_csv(const ReportData& data, const std::string& path) {
     };
     for (const ReportAxis& axis : data.axes) {
         add(column_name(axis.name, "position", axis.unit), axis.position);
-        add(column_name(axis.name, "speed", axis.unit + "_s"), axis.speed);
+        add(column_name(axis.name, "velocity", axis.unit + "_s"), axis.speed);
         add(column_name(axis.name, "acceleration", axis.unit + "_s2"), axis.accel);
         if (axis.servo) add(column_name(axis.name, "drive", "v"), axis.volts);
     }

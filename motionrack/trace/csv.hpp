@@ -1,6 +1,6 @@
 // Sampled values as CSV (RFC 4180): a head with units, then one line per sample; CR LF line ends, decimal points.
 //
-//     time_s,x_position_mm,x_speed_mm_s
+//     time_s,x_position_mm,x_velocity_mm_s
 //     0,0,0
 //     0.001,0.0125,25
 //
@@ -63,7 +63,7 @@ class CsvWriter {
 };
 
 /// Writes the events of a run in time order: block starts, warnings, the maximum deviation, the stop. Columns: time_s,
-/// event ("block", "warning", "worst deviation", "stop"), line, x_mm, y_mm, z_mm (true position), text (kind of block,
+/// event ("move", "warning", "max deviation", "stop"), line, x_mm, y_mm, z_mm (true position), text (kind of move,
 /// warning). Unknown values are empty; events without an instant come first. Errors: io.
 Result<void> write_events_csv(const ReportData& data, const std::string& path);
 

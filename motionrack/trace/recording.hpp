@@ -144,7 +144,7 @@ struct RecordedSeries {
 
 class RecordingReader {
   public:
-    /// Errors: io, invalid_input (not a recording, a newer format, or damaged before any readable data).
+    /// Errors: io, invalid_input (not a recording, another format, or damaged before any readable data).
     static Result<RecordingReader> open(const std::string& path);
 
     const RecordingHead& head() const { return head_; }
@@ -196,7 +196,7 @@ class RecordingReader {
     Instant began_{}, known_to_{};
 };
 
-/// Version of the written layout; newer ones are rejected.
-inline constexpr std::int64_t recording_format = 1;
+/// Version of the written layout; all others are rejected.
+inline constexpr std::int64_t recording_format = 2;
 
 }  // namespace motionrack::trace

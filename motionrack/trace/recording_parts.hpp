@@ -18,7 +18,7 @@ void each_number_of_axis(Axis& axis, Field field) {
     field("origin", axis.origin);
     field("min_position", axis.min_position);
     field("max_position", axis.max_position);
-    field("max_speed", axis.max_velocity);
+    field("max_velocity", axis.max_velocity);
     field("max_acceleration", axis.max_accel);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/trace/decimating_buffer.hpp>
+#include <motionrack/trace/former_version.hpp>
 #include <motionrack/trace/recording.hpp>
 #include <motionrack/trace/recording_parts.hpp>
 #include <motionrack/trace/report_json.hpp>
@@ -15,20 +16,10 @@ namespace {
 constexpr std::size_t read_block = 1 << 14;
 constexpr std::uint64_t max_inputs = 1'000'000;
 /// Fields of the outcome, in display order.
-constexpr const char* fact_names[] = {"ended",
-                                      "message",
-                                      "line",
-                                      "seconds",
-                                      "path_mm",
-                                      "moves",
-                                      "lines",
-                                      "chip_segments",
-                                      "trace_hash",
-                                      "position_trusted",
-                                      "worst_deviation_mm",
-                                      "pulse_positions",
-                                      "counts_read",
-                                      "real_ends"};
+constexpr const char* fact_names[] = {
+    "ended",          "message",       "line",       "duration_s",     "path_mm",          "moves",
+    "lines",          "chip_segments", "trace_hash", "position_valid", "max_deviation_mm", "pulse_positions",
+    "encoder_counts", "actual_ends"};
 
 }  // namespace
 
@@ -39,12 +30,14 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
     if (file.attribute_text("format") != "motionrack recording")
         return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
     const std::int64_t version = file.attribute_number("format_version");
-    if (version < 1 || version > recording_format)
-        return fail(ErrorKind::invalid_input,
-                    fmt::format("The recording has format {}, this program reads up to {}; take the program that wrote "
-                                "it, or a later one.",
-                                version, recording_format),
-                    {}, path);
+    if (version != recording_format)
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("The recording has format {}, this program reads format {}. It was not read. Take {}.", version,
+                        recording_format,
+                        version == 1 ? fmt::format("motionrack {}, or the version that wrote it", format_1_version)
+                                     : "the version that wrote it, or a later one"),
+            {}, path);
     const auto named = [&](Result<void> done) -> Result<void> {
         if (!done && done.error().file.empty()) done.error().file = path;
         return done;
@@ -71,7 +64,7 @@ Result<void> RecordingReader::read_head() {
         const std::string folder = axis_folder(axis.name);
         sampled(axis.name + ".position", axis.unit, folder + "/position");
         sampled(axis.name + ".commanded", axis.unit, folder + "/commanded");
-        sampled(axis.name + ".speed", axis.unit + "/s", folder + "/speed");
+        sampled(axis.name + ".velocity", axis.unit + "/s", folder + "/velocity");
         sampled(axis.name + ".acceleration", axis.unit + "/s2", folder + "/acceleration");
         if (axis.servo) sampled(axis.name + ".drive", "V", folder + "/drive");
     }
@@ -85,7 +78,7 @@ Result<void> RecordingReader::read_end() {
     if (whole_) {
         known_to_ = Instant{ended};
         max_samples_ =
-            static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("most_samples"), 16, 10'000'000));
+            static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("max_samples"), 16, 10'000'000));
         MOTIONRACK_TRY(report_, file_.text("run/report"));
         for (const char* name : fact_names)
             if (const std::string text = file_.attribute_text(name, "outcome"); !text.empty())
@@ -215,7 +208,7 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         auto one = std::make_unique<AxisBlock>();
         one->servo = axis.servo;
         MOTIONRACK_TRY(one->position, file_.column(folder + "/position"));
-        MOTIONRACK_TRY(one->speed, file_.column(folder + "/speed"));
+        MOTIONRACK_TRY(one->speed, file_.column(folder + "/velocity"));
         MOTIONRACK_TRY(one->accel, file_.column(folder + "/acceleration"));
         if (axis.servo) {
             MOTIONRACK_TRY(one->volts, file_.column(folder + "/drive"));

@@ -148,7 +148,7 @@ void RecordingWriter::make_samples(const RecordingHead& head) {
         one.servo = axis.servo;
         column(one.position, name + "/position", axis.unit);
         column(one.commanded, name + "/commanded", axis.unit);
-        column(one.speed, name + "/speed", axis.unit + "/s");
+        column(one.speed, name + "/velocity", axis.unit + "/s");
         column(one.accel, name + "/acceleration", axis.unit + "/s2");
         if (axis.servo) column(one.volts, name + "/drive", "V");
         samples_->axes.push_back(std::move(one));
@@ -207,7 +207,7 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     file_.make_group("outcome");
     for (const OutcomeField& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
     file_.write_text("run/report", report_json(end.report));
-    file_.set("/", "most_samples", static_cast<std::int64_t>(end.max_samples));
+    file_.set("/", "max_samples", static_cast<std::int64_t>(end.max_samples));
     file_.set("/", "ended_ticks", end.at.count());  // last: its presence marks a complete file
     return file_.close();
 }

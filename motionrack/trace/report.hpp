@@ -38,14 +38,14 @@ struct ReportAxis {
     std::int64_t pulses_sent = 0;      ///< counted on the wire, both directions
     std::int64_t pulses_net = 0;       ///< counted on the wire, forward less backward
     std::int64_t pulse_counter = 0;    ///< change of the card's own pulse counter
-    std::int64_t counts_read = 0;      ///< encoder counts read by the card
-    std::int64_t counts_expected = 0;  ///< encoder counts expected from the pulses sent
+    std::int64_t encoder_counts = 0;   ///< encoder counts read by the card
+    std::int64_t expected_counts = 0;  ///< encoder counts expected from the pulses sent
     std::int64_t lost_steps = 0;
     double peak_velocity = 0;       ///< maximum absolute value measured
     double peak_accel = 0;          ///< maximum absolute value measured
     double peak_velocity_step = 0;  ///< maximum velocity step (from standstill or at a corner), unit/s
     double planned_end = 0;         ///< programmed end position
-    double real_end = 0;            ///< true end position of the motor
+    double actual_end = 0;          ///< true end position of the motor
     /// Series over ReportData::seconds: each is empty or of the same length. Non-finite values are skipped.
     std::vector<float> position;
     std::vector<float> speed;

@@ -26,7 +26,7 @@ ReportAxis& axis_of(ReportData& data, char letter, const std::string& unit) {
     return made;
 }
 
-/// Returns the handler of a column ("x_speed_mm_s"); empty if unknown.
+/// Returns the handler of a column ("x_velocity_mm_s"); empty if unknown.
 Put reader_of(ReportData& data, const std::string& column) {
     if (column == "deviation_mm")
         return [](ReportData& to, double value) { to.deviation_mm.push_back(static_cast<float>(value)); };
@@ -41,7 +41,7 @@ Put reader_of(ReportData& data, const std::string& column) {
     const std::string unit = letter >= 'x' ? "mm" : "deg", what = column.substr(2);
     std::vector<float> ReportAxis::*series = nullptr;
     if (what == "position_" + unit) series = &ReportAxis::position;
-    if (what == "speed_" + unit + "_s") series = &ReportAxis::speed;
+    if (what == "velocity_" + unit + "_s") series = &ReportAxis::speed;
     if (what == "acceleration_" + unit + "_s2") series = &ReportAxis::accel;
     if (what == "drive_v") series = &ReportAxis::volts;
     if (series == nullptr) return {};
@@ -50,6 +50,12 @@ Put reader_of(ReportData& data, const std::string& column) {
     return [letter, unit, series](ReportData& to, double value) {
         (axis_of(to, letter, unit).*series).push_back(static_cast<float>(value));
     };
+}
+
+/// Returns "x_velocity_mm_s" for "x_speed_mm_s", its former name; empty for others.
+std::string present_name(const std::string& column) {
+    const std::size_t at = column.find("_speed_");
+    return at == 1 ? column.substr(0, 1) + "_velocity_" + column.substr(8) : std::string();
 }
 
 struct Columns {
@@ -69,13 +75,19 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
         } else if (Put put = reader_of(data, name)) {
             out.others.emplace_back(i, std::move(put));
             out.driven = out.driven || name.compare(0, 7, "driven_") == 0;
+        } else if (reader_of(data, present_name(name))) {
+            return fail(ErrorKind::invalid_input,
+                        fmt::format("The column '{}' is now '{}'. The file was not read; rename the column.", name,
+                                    present_name(name)),
+                        {1, 0}, path);
         }
     }
     if (timed && !out.others.empty()) return out;
-    return fail(ErrorKind::invalid_input,
-                "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s "
-                "or deviation_mm.",
-                {1, 0}, path);
+    return fail(
+        ErrorKind::invalid_input,
+        "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_velocity_mm_s "
+        "or deviation_mm.",
+        {1, 0}, path);
 }
 
 /// Computes the peak values of an axis from its samples.
@@ -85,7 +97,7 @@ void add_tops(ReportAxis& axis) {
             axis.peak_velocity = std::max(axis.peak_velocity, std::fabs(static_cast<double>(speed)));
     for (const float accel : axis.accel)
         if (std::isfinite(accel)) axis.peak_accel = std::max(axis.peak_accel, std::fabs(static_cast<double>(accel)));
-    if (!axis.position.empty()) axis.planned_end = axis.real_end = axis.position.back();
+    if (!axis.position.empty()) axis.planned_end = axis.actual_end = axis.position.back();
 }
 
 }  // namespace

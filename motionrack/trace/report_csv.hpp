@@ -7,7 +7,7 @@
 
 namespace motionrack::trace {
 
-/// Reads a table of write_csv: time_s and any of x_position_mm, x_speed_mm_s, x_acceleration_mm_s2, x_drive_v,
+/// Reads a table of write_csv: time_s and any of x_position_mm, x_velocity_mm_s, x_acceleration_mm_s2, x_drive_v,
 /// deviation_mm, driven_x_mm. Errors: io, invalid_input (no time_s, no displayable column, decreasing times).
 Result<ReportData> report_from_csv(const std::string& path);
 

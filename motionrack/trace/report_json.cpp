@@ -106,11 +106,12 @@ void fields_of(ReportNumber& v, Fields& f) {
 }
 void fields_of(ReportAxis& v, Fields& f) {
     f("name", v.name)("unit", v.unit)("servo", v.servo)("min_position", v.min_position)("max_position", v.max_position);
-    f("max_speed", v.max_velocity)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net", v.pulses_net);
-    f("pulse_counter", v.pulse_counter)("counts_read", v.counts_read)("counts_expected", v.counts_expected)(
+    f("max_velocity", v.max_velocity)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net",
+                                                                                              v.pulses_net);
+    f("pulse_counter", v.pulse_counter)("encoder_counts", v.encoder_counts)("expected_counts", v.expected_counts)(
         "lost_steps", v.lost_steps);
-    f("top_speed", v.peak_velocity)("top_accel", v.peak_accel)("top_jump", v.peak_velocity_step)(
-        "planned_end", v.planned_end)("real_end", v.real_end);
+    f("peak_velocity", v.peak_velocity)("peak_accel", v.peak_accel)("peak_velocity_step", v.peak_velocity_step)(
+        "planned_end", v.planned_end)("actual_end", v.actual_end);
 }
 void fields_of(ReportSegment& v, Fields& f) {
     f("points", v.points)("traverse", v.rapid)("line", v.line);
@@ -124,8 +125,8 @@ void fields_of(ReportStop& v, Fields& f) {
 void fields_of(ReportMove& v, Fields& f) {
     f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration",
                                                                                                             v.duration);
-    f("entry_speed", v.entry_speed)("top_speed", v.peak_velocity)("exit_speed", v.exit_speed)("deviation_mm",
-                                                                                              v.deviation_mm);
+    f("entry_speed", v.entry_speed)("peak_velocity", v.peak_velocity)("exit_speed", v.exit_speed)("deviation_mm",
+                                                                                                  v.deviation_mm);
 }
 void fields_of(ReportWarning& v, Fields& f) {
     f("seconds", v.seconds)("line", v.line)("text", v.text);

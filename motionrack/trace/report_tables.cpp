@@ -53,11 +53,11 @@ std::string axis_row(const ReportAxis& axis) {
             cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
                                                    : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
                                                          ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
-    out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(axis.servo ? "-" : lost);
+    out += cell(pair(axis.encoder_counts, axis.expected_counts)) + cell(axis.servo ? "-" : lost);
     out += cell(against(axis.peak_velocity, axis.max_velocity, unit + "/s")) +
            cell(against(axis.peak_accel, axis.max_accel, unit + "/s\xC2\xB2"));
     out += cell(number(axis.peak_velocity_step) + " <small>" + unit + "/s</small>");
-    out += cell(number(axis.real_end, 4) + " <small>" + unit + "</small><br><small>planned " +
+    out += cell(number(axis.actual_end, 4) + " <small>" + unit + "</small><br><small>planned " +
                 number(axis.planned_end, 4) + "</small>");
     return out + "</tr>\n";
 }

@@ -4,8 +4,8 @@
 
     rack = motionrack.Rack.template("router")
     outcome = rack.run("G21 G90\\nG1 X10 Y5 F600\\nM2\\n")
-    outcome.axes["X"].real_end      # mm
-    outcome.trace.plot("x.speed")   # NumPy arrays inside
+    outcome.axes["X"].actual_end      # mm
+    outcome.trace.plot("x.velocity")   # NumPy arrays inside
 
 Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Everything that
 goes wrong is a :class:`motionrack.Error` with a sentence.
@@ -17,10 +17,10 @@ from . import _core
 from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Mcx314Library, Rtc5, SlopeTable, SpeedMeter, SpeedScale
 from ._version import __version__
 from .cards import Card, Cards, Channel
-from .errors import BadInput, Error, FileTrouble, MachineFault, NoSuchName, Refused, Stopped, Timeout
+from .errors import InvalidInput, Error, FileError, MachineFault, NoSuchName, Refused, Stopped, Timeout
 from .live import LiveCard
 from .machine import Alarm, AxisStatus, Machine, Status
-from .outcome import AxisOutcome, Block, Homing, Outcome, ProgramEvent, Warning, Worst
+from .outcome import AxisOutcome, ExecutedMove, Homing, MaxDeviation, Outcome, ProgramEvent, Warning
 from .parts import Part, Parts, Wires
 from .rack import Rack, Snapshot
 from .recording import Recording, Waves
@@ -34,7 +34,7 @@ def templates() -> list[str]:
 
 
 def template_text(name: str = "router") -> str:
-    """The rack file of a template: every key with its unit, range and default as a comment. BadInput."""
+    """The rack file of a template: every key with its unit, range and default as a comment. InvalidInput."""
     return _core.template_text(name)
 
 
@@ -42,20 +42,21 @@ __all__ = [
     "Alarm",
     "AxisOutcome",
     "AxisStatus",
-    "BadInput",
-    "Block",
     "Card",
     "Cards",
     "Channel",
     "Databoard4002",
     "Error",
-    "FileTrouble",
+    "ExecutedMove",
+    "FileError",
     "GratingCard",
     "Homing",
+    "InvalidInput",
     "Ioflex02",
     "LiveCard",
     "Machine",
     "MachineFault",
+    "MaxDeviation",
     "Mcx314",
     "Mcx314Library",
     "NoSuchName",
@@ -80,7 +81,6 @@ __all__ = [
     "Waves",
     "Wires",
     "Word",
-    "Worst",
     "__version__",
     "template_text",
     "templates",

@@ -38,7 +38,7 @@ class RackHandle:
     def begin_waves(self, path: str, signals: Sequence[str]) -> None: ...
     def end_waves(self) -> None: ...
     def copy(self) -> RackHandle: ...
-    def fresh(self) -> RackHandle: ...
+    def new_instance(self) -> RackHandle: ...
     def copy_from(self, other: RackHandle) -> None: ...
 
 def open_file(path: str) -> tuple[Any, ...]: ...
@@ -75,13 +75,13 @@ class SteppedMachine:
     def stop(self) -> None: ...
     def reset(self) -> None: ...
     def enable(self, on: bool, axes: str) -> None: ...
-    def begin(self, program: str, name: str) -> None: ...
+    def start_program(self, program: str, name: str) -> None: ...
     def home(self, axes: str) -> None: ...
     def jog(self, axis: str, speed: float) -> None: ...
     def jog_by(self, axis: str, distance: float, speed: float) -> None: ...
-    def declare_position(self, axis: str, position: float) -> None: ...
+    def set_position(self, axis: str, position: float) -> None: ...
     def set_overrides(self, feed: float, rapid: float) -> None: ...
-    def acknowledge(self, alarm: int) -> bool: ...
+    def acknowledge_alarm(self, alarm: int) -> bool: ...
     def advance(self, ticks: int) -> None: ...
     def status(self) -> dict[str, Any]: ...
     def trace_hash(self) -> str: ...
@@ -101,7 +101,7 @@ def svg_timeline(title: str, seconds: npt.ArrayLike, charts: Sequence[tuple[str,
 class LivePort:
     """A real card behind a live port, with a stop that holds; motionrack.LiveCard has its registers by their names."""
     def __init__(self, place: str, type: str) -> None:
-        """Opens the port; no register is touched. BadInput, FileTrouble, Refused."""
+        """Opens the port; no register is touched. InvalidInput, FileError, Refused."""
     def map(self) -> dict[str, Any]:
         """What is declared of the card."""
     def now(self) -> float:
@@ -296,7 +296,7 @@ class Mcx314:
 class Mcx314Library:
     """The 57 functions of the MCX314's source under their names and with their arguments, then those that it names without listing them; the same on a virtual card and on a real one. Arguments are whole numbers, by place or by name. `axis` is a mask, X 1, Y 2, Z 4, U 8 and their sums, also where one axis is asked for.
 
-BadInput: an argument is missing, not known, or out of its range. Refused: the card cannot take it now, such as while an axis drives, or another thread uses the card. Stopped: a stop came, or holds. MachineFault: a limit, an alarm or the emergency input stopped an axis. FileTrouble: the computer refuses an access to a real card. The first two are raised before anything is written."""
+InvalidInput: an argument is missing, not known, or out of its range. Refused: the card cannot take it now, such as while an axis drives, or another thread uses the card. Stopped: a stop came, or holds. MachineFault: a limit, an alarm or the emergency input stopped an axis. FileError: the computer refuses an access to a real card. The first two are raised before anything is written."""
     def __init__(self, world: RackHandle, card: str) -> None:
         """Of a virtual card. Not beside another driver of it."""
     @staticmethod
@@ -308,94 +308,94 @@ BadInput: an argument is missing, not known, or out of its range. Refused: the c
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 mode: pulse output; 0 (two pulse trains), 1 (pulse and direction).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetMultiple(self, axis: int, data: int) -> str:
         """The multiple M: pulses a second = V x M. One of these three comes before the first drive. Source: 4.3 Initial.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the multiple M = 8,000,000 / R; 1 to 500.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetRange(self, data: int) -> str:
         """R of all axes; R = 800,000 is M = 10. Source: 4.3 Initial.
 
 data: R of all axes: M = 8,000,000 / R; 16000 to 8000000.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetMaxSpeed(self, data: int) -> str:
         """The smallest multiple with which V reaches this speed, of all axes. Source: 4.3 Initial.
 
 data: greatest speed that V reaches; 1 to 4000000 pulses/s.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetSV(self, axis: int, data: int) -> str:
         """Initial speed. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: speed; 1 to 8000 x M pulses/s.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetV(self, axis: int, data: int) -> str:
         """Drive speed; acts also while driving. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: speed; 1 to 8000 x M pulses/s.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetA(self, axis: int, data: int) -> str:
         """Acceleration. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetD(self, axis: int, data: int) -> str:
         """Deceleration, in force from then on. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetAA(self, axis: int, data: int) -> str:
         """K, the acceleration's rate. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetAO(self, axis: int, data: int) -> str:
         """Pulses kept for the end at SV. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: kept for the end at SV; 0 to 65535 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Pulse(self, axis: int, data: int) -> str:
         """Output pulses of a fixed drive. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the sign is the direction; -268435455 to 268435455 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def AutoDec(self) -> str:
         """The chip finds the deceleration of all axes itself. Source: 4.4 Basic motion.
 
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ManualDec(self, axis: int, DecPulse: int) -> str:
         """Fixed drives decelerate after so many pulses. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ManDec(self, axis: int, DecPulse: int) -> str:
         """As ManualDec; the source has both names. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def TCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_Pulse: int) -> str:
         """Fixed drive with T-curve. Source: 4.4 Basic motion.
 
@@ -405,7 +405,7 @@ m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def TCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int) -> str:
         """Continuous drive with T-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
 
@@ -414,7 +414,7 @@ m_SV: initial speed; 1 to 8000 x M pulses/s.
 m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int, m_Pulse: int) -> str:
         """Fixed drive with S-curve. Source: 4.4 Basic motion.
 
@@ -425,7 +425,7 @@ m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
 m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int) -> str:
         """Continuous drive with S-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
 
@@ -435,7 +435,7 @@ m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes at constant speed. Source: 4.5.1 Lines.
 
@@ -446,7 +446,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes at constant speed. Source: 4.5.1 Lines.
 
@@ -457,7 +457,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes with T-curve. Source: 4.5.1 Lines.
 
@@ -471,7 +471,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes with T-curve. Source: 4.5.1 Lines.
 
@@ -485,7 +485,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes with S-curve. Source: 4.5.1 Lines.
 
@@ -500,7 +500,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes with S-curve. Source: 4.5.1 Lines.
 
@@ -515,7 +515,7 @@ PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc clockwise at constant speed; the first axis points right, the second up. Source: 4.5.2 Arcs.
 
@@ -530,7 +530,7 @@ CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc counterclockwise at constant speed. Source: 4.5.2 Arcs.
 
@@ -545,7 +545,7 @@ CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc clockwise with T-curve. Source: 4.5.2 Arcs.
 
@@ -563,7 +563,7 @@ CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc counterclockwise with T-curve. Source: 4.5.2 Arcs.
 
@@ -581,114 +581,114 @@ CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCP(self, axis: int, data: int) -> str:
         """Centre of arcs whose own centre is 0. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: centre of arcs, from the start; -8388608 to 8388607 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetC(self, axis: int, data: int) -> str:
         """As SetCP; the source has both names. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: centre of arcs, from the start; -8388608 to 8388607 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetFP(self, axis: int, data: int) -> str:
         """Finish point of lines and arcs whose own is 0. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetP(self, axis: int, data: int) -> str:
         """As SetFP; the source has both names. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTP(self, n: int, axis: int) -> str:
         """Level at which the + limit switch acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTM(self, n: int, axis: int) -> str:
         """Level at which the - limit switch acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTSig(self, n: int, axis: int) -> str:
         """How limit switches stop. Source: 4.6 Signals.
 
 n: a limit switch stops; 0 (at once), 1 (decelerating).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTP(self, n: int) -> str:
         """Software limit at COMP+. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTM(self, n: int) -> str:
         """Software limit at COMP-. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTSig(self, n: int) -> str:
         """What the software limits are compared with. Source: 4.6 Signals.
 
 n: of all axes, COMP+ and COMP- are compared with; 0 (the logical position LP), 1 (the real position EP).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderMode(self, n: int, axis: int) -> str:
         """Kind of the encoder inputs. Source: 4.6 Signals.
 
 n: encoder inputs; 0 (quadrature A/B), 1 (up and down pulses).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderCWCCW(self, n: int, axis: int) -> str:
         """Which edges of A/B count. Source: 4.6 Signals.
 
 n: edges of A/B that count; 0 (all), 1 (every second), 2 (every fourth).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def EnableALM(self, n: int) -> str:
         """Alarm inputs. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def EnableInPos(self, n: int) -> str:
         """In-position inputs. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ALMSig(self, n: int, axis: int) -> str:
         """Level at which the alarm input acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def InPosSig(self, n: int, axis: int) -> str:
         """Level at which the in-position input acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def HomeType1(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """Decelerates at the home switch. The axes are those of home_axes. Source: 4.7 Home.
 
@@ -697,7 +697,7 @@ SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType2(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """As 1, then back at SV and slowly to the switch again. Source: 4.7 Home.
 
@@ -706,7 +706,7 @@ SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType3(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """As 1, then on at SV to the encoder's index Z. Source: 4.7 Home.
 
@@ -715,7 +715,7 @@ SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType4(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """As 3 slowly, then as 2. Source: 4.7 Home.
 
@@ -724,114 +724,114 @@ SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def LPS(self, axis: int, data: int) -> str:
         """Sets the logical position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: what the logical position becomes; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def EPS(self, axis: int, data: int) -> str:
         """Sets the real (encoder) position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: what the real position becomes; -2147483648 to 2147483647 counts.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadLPS(self, axis: int) -> int:
         """The logical position of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: pulses.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadEPS(self, axis: int) -> int:
         """The real position of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: counts.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadCV(self, axis: int) -> int:
         """Present speed of one axis; 0 at rest. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: x M pulses/s.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadCA(self, axis: int) -> int:
         """Present acceleration of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: x 125 M pulses/s2.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCompP(self, axis: int, data: int) -> str:
         """COMP+, the + software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: place of the software limit; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCompM(self, axis: int, data: int) -> str:
         """COMP-, the - software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: place of the software limit; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def RESET(self) -> str:
         """Resets the chip; all registers and the multiple have to be set again. Source: 4.8 Positions.
 
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def home_axes(self, axis: int) -> str:
         """The axes that HomeType1 to HomeType4 home, all at once; X at first. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def stop(self, axis: int) -> str:
         """Stops axes, decelerating, with everything that is interpolated with them. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def stop_now(self, axis: int) -> str:
         """Stops axes at once. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def wait(self, axis: int, milliseconds: int) -> str:
         """Waits until none of the axes drives. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 milliseconds: how long at most; 0 to 60000 ms.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def moving(self, axis: int) -> int:
         """Those of the axes that drive. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: mask of axes.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def at_limit(self, axis: int) -> int:
         """Those of the axes at a limit switch or beyond a software limit. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: mask of axes.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def report(self, axis: int) -> str:
         """Whether axes drive, where they are, why they stopped. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def asymmetric(self, axis: int, on: int) -> str:
         """Whether decelerations take D. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 on: decelerations take D instead of A; 0 (off), 1 (on).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def set_output(self, axis: int, output: int, level: int) -> str:
         """A general output: servo on, brakes. The source names it without listing it.
 
@@ -839,7 +839,7 @@ axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 output: OUT0 to OUT7; 0 to 7.
 level: level; 0 (Low), 1 (High).
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def contour_begin(self, SV: int, V: int, A: int, D: int) -> str:
         """Opens a contour with its speeds. The source names it without listing it.
 
@@ -848,7 +848,7 @@ V: drive speed; 1 to 8000 x M pulses/s.
 A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
 D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def contour_line(self, axis: int, PX: int, PY: int, PZ: int, PU: int, V: int) -> str:
         """The next line; waits until the chip takes it. The source names it without listing it.
 
@@ -859,7 +859,7 @@ PZ: from the segment's start; -8388608 to 8388607 pulses.
 PU: from the segment's start; -8388608 to 8388607 pulses.
 V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_arc(self, axis: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, clockwise: int, V: int) -> str:
         """The next arc; waits until the chip takes it. The source names it without listing it.
 
@@ -875,12 +875,12 @@ CU: from the segment's start; -8388608 to 8388607 pulses.
 clockwise: direction; 0 (counterclockwise), 1 (clockwise).
 V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_end(self) -> int:
         """Drives the last segment and waits for the end. The source names it without listing it.
 
 Gives: segments.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def pattern_begin(self, SV: int, V: int, A: int, DecPoint: int, axis: int) -> str:
         """Opens a bit pattern of two or three axes. The source names it without listing it.
 
@@ -890,7 +890,7 @@ A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
 DecPoint: then it decelerates; with A; 0 to 268435455 steps.
 axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def pattern_steps(self, plus1: int, minus1: int, plus2: int, minus2: int, plus3: int, minus3: int) -> str:
         """Sixteen steps of each axis; three words fit before the start. The source names it without listing it.
 
@@ -901,17 +901,17 @@ minus2: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
 plus3: 16 steps in + direction, the lowest bit first; 0 to 65535.
 minus3: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def pattern_start(self) -> str:
         """Starts the pattern. The source names it without listing it.
 
 Gives: a sentence.
-Errors: BadInput, Refused, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Stopped, FileError."""
     def pattern_end(self) -> str:
         """Waits for the end. The source names it without listing it.
 
 Gives: a sentence.
-Errors: BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileTrouble."""
+Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
 
 
 class SpeedScale:
@@ -932,7 +932,7 @@ class SlopeTable:
     def entries(self) -> list[tuple[int, int]]:
         """The 48 intervals: (rate, counts)."""
     def motion(self, distance: int, rate: int, scale: SpeedScale) -> dict[str, Any]:
-        """What the card does with it for a move of so many counts with that rate, before anything moves: seconds, top_speed (counts/s), legs."""
+        """What the card does with it for a move of so many counts with that rate, before anything moves: duration_s, top_speed (counts/s), legs."""
 
 
 class Databoard4002:
@@ -1072,7 +1072,7 @@ class Ioflex02:
         """A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
     @staticmethod
     def image_info(image: bytes) -> dict[str, Any]:
-        """What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it (fits). BadInput for one that the card would refuse."""
+        """What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""
 
 
 class GratingCard:
@@ -1453,11 +1453,11 @@ class Rtc5:
     def load_program_file(self, Path: str | None = None) -> int:
         """Sets the card back to power-up, but for McBSP location 0, which goes on; the name is not looked at. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
     def load_correction_file(self, Name: str | None, No: int, Dim: int = 2) -> int:
-        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. BadInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), FileTrouble where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. InvalidInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
     def table_note(self, TableNo: int) -> str:
         """What is worth knowing of the file of table TableNo 1 to 4: that its checksum is not known; "": nothing."""
     def load_fly_2d_table(self, Name: str | None, No: int) -> int:
-        """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Gives 0. No 0 to 4294967295. BadInput with the line where it is wrong, FileTrouble where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
+        """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Gives 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
     def set_mcbsp_out_ptr(self, SignalPtr: Sequence[int]) -> None:
         """Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal that is not there. Source: the maker's header of the RTC5 of 2013."""
     def get_waveform(self, Channel: int, Number: int) -> npt.NDArray[np.int32]:

@@ -16,7 +16,7 @@ from typing import Any
 
 from . import _core
 from ._time import ticks_of
-from .errors import BadInput, NoSuchName, Refused, Timeout
+from .errors import InvalidInput, NoSuchName, Refused, Timeout
 from .registers import MappedCard, Register
 
 
@@ -37,7 +37,7 @@ class Channel:
             return Register(self._card, reg, self._name)
         try:
             return self._card.peek(f"{self._name}.{name}")
-        except BadInput as error:
+        except InvalidInput as error:
             raise AttributeError(str(error)) from None
 
     def __dir__(self) -> list[str]:
@@ -98,7 +98,7 @@ class Card(MappedCard):
 
     def peek(self, name: str) -> int:
         """A register or value by its name (``"RR0"``, ``"x.LP"``), without any effect; takes no time.
-        BadInput with the names that there are."""
+        InvalidInput with the names that there are."""
         return _core.peek(self._world, self._name, name)
 
     def read(self, offset: int, bits: int = 16) -> int:
@@ -177,7 +177,7 @@ class Card(MappedCard):
             return Channel(self, name)
         try:
             return self.peek(name)
-        except BadInput as error:
+        except InvalidInput as error:
             raise AttributeError(str(error)) from None
 
     def _subject(self) -> str:
@@ -194,7 +194,7 @@ class Card(MappedCard):
         for reg in self.registers.values():
             try:
                 shown = repr(reg.peek())
-            except BadInput:
+            except InvalidInput:
                 shown = reg.name
             rows.append(
                 f"<tr><td>{shown}</td><td>{reg.offset:#04x}</td><td>{reg.access}</td><td>{reg.meaning}</td></tr>"

@@ -1,11 +1,11 @@
 """What goes wrong, by name. All of them are :class:`Error`; each sentence says what was seen, the limit,
 and what was (not) done.
 
-    BadInput      a rack file, a part program or a name is wrong; nothing was done
+    InvalidInput      a rack file, a part program or a name is wrong; nothing was done
     Refused       well formed, but outside a limit or at the wrong time; nothing was done
     MachineFault  the machine stopped: a limit switch, an alarm, the emergency stop, a card that does not answer
     Timeout       what was waited for did not come in time
-    FileTrouble   a file could not be read or written
+    FileError   a file could not be read or written
     Stopped       the run was ended by its user; what was recorded is kept
 
 Ctrl-C is a KeyboardInterrupt, as everywhere in Python: what moves is brought to rest first.
@@ -36,11 +36,11 @@ class Error(Exception):
         self.problems: list[Error] = []
 
 
-class BadInput(Error):
+class InvalidInput(Error):
     """A rack file, a part program or a name is wrong; nothing was done."""
 
 
-class NoSuchName(BadInput, KeyError):
+class NoSuchName(InvalidInput, KeyError):
     """A mapping (cards, parts, wires, signals of a trace) has nothing of that name;
     the sentence has the names that there are."""
 
@@ -60,7 +60,7 @@ class Timeout(Error, TimeoutError):
     """What was waited for did not come in time; the rack stands where the time ended."""
 
 
-class FileTrouble(Error):
+class FileError(Error):
     """A file could not be read or written."""
 
 

@@ -18,7 +18,7 @@ import weakref
 from types import TracebackType
 
 from . import _core
-from .errors import BadInput, Error, Stopped, Timeout
+from .errors import InvalidInput, Error, Stopped, Timeout
 from .registers import MappedCard, Register
 
 ExceptionKind = type[BaseException]  # a card's own `type` hides Python's
@@ -59,7 +59,7 @@ class LiveCard(MappedCard):
         ``,gap_ns=N`` (0 to 10**9). ``type``: only an ``"mcx314"`` has a map that a real card has, behind registers
         that live ports reach.
 
-        BadInput: the error in place or type. FileTrouble: not there, no permission, too short. Refused: open
+        InvalidInput: the error in place or type. FileError: not there, no permission, too short. Refused: open
         already, or it would not be reached as it must. Nothing is opened then.
         """
         port = _core.LivePort(place, type)
@@ -108,7 +108,7 @@ class LiveCard(MappedCard):
 
     def quick_stop(self) -> None:
         """All axes end their pulses, at once and without a ramp; a call of another thread ends with Stopped. From any
-        thread, in every state. It holds until :meth:`reset_stop`. FileTrouble where the computer refuses the write."""
+        thread, in every state. It holds until :meth:`reset_stop`. FileError where the computer refuses the write."""
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
@@ -122,7 +122,7 @@ class LiveCard(MappedCard):
 
     def close(self) -> None:
         """Stops all axes at once and lets the card go; again it does nothing. Refused in the middle of a call of this
-        thread. FileTrouble where the stop could not be written; it is closed all the same."""
+        thread. FileError where the stop could not be written; it is closed all the same."""
         self._port.close()
         _open.discard(self)
 
@@ -141,25 +141,25 @@ class LiveCard(MappedCard):
 
     def read(self, offset: int, bits: int = 16) -> int:
         """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also
-        while a stop holds. BadInput, FileTrouble."""
+        while a stop holds. InvalidInput, FileError."""
         self._check_bits(bits)
         return self._port.read(offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
         """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. What library or driver
-        has set is not known to them then. BadInput, Refused, Stopped, FileTrouble."""
+        has set is not known to them then. InvalidInput, Refused, Stopped, FileError."""
         self._check_bits(bits)
         self._port.write(offset, value)
 
     def peek(self, name: str) -> int:
-        """Always BadInput: a real card shows nothing without an access."""
-        raise BadInput(
+        """Always InvalidInput: a real card shows nothing without an access."""
+        raise InvalidInput(
             f"Register {name} of a real card cannot be looked at without an access. Nothing was read. Use read()."
         )
 
     def view(self, clearing: bool = False) -> str:
         """What its registers show, in words; ``clearing``: RR3 too, which reading clears. It writes WR0, with NOP and
-        read commands, which move nothing; also while a stop holds. FileTrouble."""
+        read commands, which move nothing; also while a stop holds. FileError."""
         return self._port.view(clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
@@ -172,7 +172,7 @@ class LiveCard(MappedCard):
 
     def _check_bits(self, bits: int) -> None:
         if bits != 16:
-            raise BadInput(f"The registers of a real {self.type} have 16 bits, not {bits}. Nothing was done.")
+            raise InvalidInput(f"The registers of a real {self.type} have 16 bits, not {bits}. Nothing was done.")
 
     # ---- names as attributes ----
 

@@ -1,4 +1,4 @@
-"""A machine that is operated while it runs: step by step, from order to order."""
+"""A machine that is operated while it runs: step by step, from command to command."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from .rack import Rack
 
 @dataclass(frozen=True)
 class AxisStatus:
-    """One axis: places in ``unit`` (mm or deg), speed per s.
-    ``place`` is where the table really is, whatever any counter says."""
+    """One axis: positions in ``unit`` (mm or deg), speed per s.
+    ``true_position`` is the position of the simulated table, whatever a counter says."""
 
     unit: str
-    trusted: bool  #: the positions mean places of the machine
+    position_valid: bool  #: the positions are those of the machine: homed, declared or kept over a clean restart
     enabled: bool
     commanded: float
     actual: float
-    place: float
+    true_position: float
     speed: float
     pulses: int
     counts: int
@@ -48,7 +48,7 @@ class Status:
     seconds: float
     ticks: int
     state: str  #: disabled, standstill, homing, moving, jogging, hold, stopping, error stop or service
-    why: str  #: the sentence that stopped it last, or why it holds
+    reason: str  #: why it stopped last, or why it holds
     axes: dict[str, AxisStatus]
     program: str
     line: int
@@ -64,8 +64,8 @@ class Machine:
     """A rack that is operated while it runs: programs with hold and resume, jogs, homing, alarms,
     as on the operator panel.
 
-    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; orders are taken between two slices, often
-    in the middle of a drive. The same orders at the same times give the same history.
+    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; commands are taken between two slices,
+    often in the middle of a drive. The same commands at the same times give the same event trace.
     Axes with a home switch are not trusted before they are homed or declared.
     """
 
@@ -111,9 +111,9 @@ class Machine:
         """Lets the machine run for so long, in whole slices of 2 ms."""
         self._operated().advance(ticks_of(seconds, ms))
 
-    def wait(self, until: str | Callable[[Status], object], timeout: float, every: float = 2e-3) -> Status:
+    def wait(self, until: str | Callable[[Status], object], timeout: float, poll: float = 2e-3) -> Status:
         """Runs until the machine has that state, or ``until(status)`` is true,
-        asked every ``every`` s (at least a slice, 0.002); Timeout."""
+        checked each ``poll`` s (at least a slice, 0.002); Timeout."""
         end = self.status.ticks + ticks_of(timeout)
         while True:
             status = self.status
@@ -121,10 +121,10 @@ class Machine:
                 return status
             if status.ticks >= end:
                 raise Timeout(
-                    f"The machine did not come to it within {timeout:g} s; it is {status.state} at "
-                    f"{status.seconds:.9g} s. {status.why}".rstrip()
+                    f"Timed out after {timeout:g} s; the machine is {status.state} at "
+                    f"{status.seconds:.9g} s. {status.reason}".rstrip()
                 )
-            self.advance(max(every, 2e-3))
+            self.advance(max(poll, 2e-3))
 
     # ---- looking ----
 
@@ -141,14 +141,14 @@ class Machine:
         return self.status.state
 
     def trace_hash(self) -> str:
-        """The hash of the history so far; see :meth:`Trace.hash`."""
+        """The hash of the event trace so far; see :meth:`Trace.hash`."""
         return self._operated().trace_hash()
 
     def get(self, name: str) -> float:
         """A quantity of a part, ``"X.position_mm"``; see :meth:`Rack.get`."""
         return self._operated().quantity(name)
 
-    # ---- orders; refused ones change nothing ----
+    # ---- commands; refused ones change nothing ----
 
     def enable(self, axes: str = "") -> None:
         """Enables these axes; ``""``: all."""
@@ -158,10 +158,10 @@ class Machine:
         """Stops whatever moves, then disables these axes; ``""``: all."""
         self._operated().enable(False, axes)
 
-    def begin(self, program: str, name: str = "") -> None:
-        """Checks a program whole, then begins it: BadInput with line and column,
+    def start_program(self, program: str, name: str = "") -> None:
+        """Checks a program whole, then begins it: InvalidInput with line and column,
         Refused unless the machine stands enabled and trusted."""
-        self._operated().begin(program, name)
+        self._operated().start_program(program, name)
 
     def hold(self) -> None:
         """Comes to rest along the path."""
@@ -192,17 +192,17 @@ class Machine:
         """Jogs by a distance, mm or deg, at ``speed`` per s (> 0)."""
         self._operated().jog_by(axis, distance, speed)
 
-    def declare_position(self, axis: str, position: float) -> None:
-        """Says where an axis stands, mm or deg; it is trusted then. Refused while something moves."""
-        self._operated().declare_position(axis, position)
+    def set_position(self, axis: str, position: float) -> None:
+        """Sets the position of a stationary axis, mm or deg, which is valid then. Refused while an axis moves."""
+        self._operated().set_position(axis, position)
 
     def set_overrides(self, feed: float = 1.0, rapid: float = 1.0) -> None:
         """Parts of the programmed speeds: feed more than 0 up to 2, rapid more than 0 up to 1."""
         self._operated().set_overrides(feed, rapid)
 
-    def acknowledge(self, alarm: int) -> bool:
+    def acknowledge_alarm(self, alarm: int) -> bool:
         """Acknowledges an alarm by its number; False if there is none."""
-        return self._operated().acknowledge(alarm)
+        return self._operated().acknowledge_alarm(alarm)
 
     # ---- the machine ----
 

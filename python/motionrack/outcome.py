@@ -22,33 +22,33 @@ class AxisOutcome:
     servo: bool  #: it follows a voltage: pulses are those of its encoder, none are sent
     min_position: float
     max_position: float
-    max_speed: float
+    max_velocity: float
     max_accel: float
     pulses_sent: int  #: of both directions
     pulses_net: int  #: forward less backward
     pulse_position: int  #: the card's counter LP at the end
     pulse_start: int  #: and when the program began
-    counts_read: int  #: by which the card's encoder counter EP has changed
-    counts_expected: int  #: and would have if every pulse had moved the motor
+    encoder_counts: int  #: by which the card's encoder counter EP has changed
+    expected_counts: int  #: and would have if every pulse had moved the motor
     lost_pulses: int  #: pulses that the motor did not follow
     planned_end: float
-    real_end: float  #: where the machine is, by the positions of the last homing
-    top_speed: float
-    top_accel: float  #: over 4 samples without a jump
-    top_jump: float  #: greatest change of speed at once
+    actual_end: float  #: where the machine is, by the positions of the last homing
+    peak_velocity: float
+    peak_accel: float  #: over 4 samples without a jump
+    peak_velocity_step: float  #: largest change of velocity at once
 
 
 @dataclass(frozen=True)
-class Block:
+class ExecutedMove:
     """A planned move as it was driven: length in mm (deg), speeds per s, start and end in s since the rack's start."""
 
-    block: int
+    move: int
     line: int
-    kind: str  #: traverse, feed, arc or dwell
+    kind: str  #: rapid, feed, arc or dwell
     length: float
-    entry_speed: float
-    cruise_speed: float
-    exit_speed: float
+    entry_velocity: float
+    cruise_velocity: float
+    exit_velocity: float
     start: float
     end: float
     deviation_mm: float  #: the worst in it
@@ -64,13 +64,13 @@ class Warning:
 
 
 @dataclass(frozen=True)
-class Worst:
-    """Where the machine was farthest from the programmed path."""
+class MaxDeviation:
+    """The point of the largest distance from the programmed path."""
 
     mm: float
     seconds: float  #: since the rack's start
     line: int
-    place: tuple[float, float, float]  #: where the machine was, mm
+    position: tuple[float, float, float]  #: true position, mm
 
 
 @dataclass(frozen=True)
@@ -88,32 +88,32 @@ class Outcome:
 
     ok: bool
     error: Error | None
-    seconds: float  #: virtual time of the job
+    duration_s: float  #: virtual time of the job
     ticks: int  #: the same in ticks of 100 ps
-    planned_seconds: float
+    planned_duration_s: float
     path_mm: float  #: planned path of X, Y, Z
     moves: int  #: planned
     dwells: int
     stops: int  #: moves that end at rest
-    top_path_speed: float  #: mm/s, planned
+    peak_path_velocity: float  #: mm/s, planned
     lines: int  #: read
     moves_read: int  #: of the program, without dwells
     program_ended: bool  #: by M2 or M30
     axes: Mapping[str, AxisOutcome]
-    worst: Worst
+    max_deviation: MaxDeviation
     tolerance_mm: float  #: the greatest deviation that the program allows somewhere
     warnings: list[Warning]
     faults_not_done: list[str]  #: planned faults: the run ended before, or the part refused them
     program_events: list[ProgramEvent]
     program_events_left_out: int
-    blocks: list[Block]
-    blocks_left_out: int
+    executed_moves: list[ExecutedMove]
+    executed_moves_left_out: int
     chip_segments: int  #: commands that the card was given
     events: int  #: of the kernel: what the run cost
-    trace_hash: str  #: of the history, 16 digits; see Trace.hash
+    trace_hash: str  #: of the event trace, 16 digits; see Trace.hash
     rest_axis: str | None  #: of the servos the one that stands farthest from where it was sent
     rest_off: float  #: and how far, mm or deg
-    position_trusted: bool  #: False once steps were lost
+    position_valid: bool  #: False once steps were lost
     trace: Trace = field(repr=False)
     _ran: Any = field(repr=False, compare=False)
 
@@ -136,15 +136,15 @@ class Outcome:
         return str(self._ran.svg(perspective))
 
     def write_report(self, path: str) -> None:
-        """The page that ``motionrack run`` writes: one HTML file. FileTrouble."""
+        """The page that ``motionrack run`` writes: one HTML file. FileError."""
         self._ran.write_report(path)
 
     def write_csv(self, path: str) -> None:
-        """Position, speed and deviation of every sample as CSV. FileTrouble."""
+        """Position, velocity and deviation of every sample as CSV. FileError."""
         self._ran.write_csv(path)
 
     def write_events(self, path: str) -> None:
-        """What happened (blocks, warnings, the stop) as CSV. FileTrouble."""
+        """What happened (moves, warnings, the stop) as CSV. FileError."""
         self._ran.write_events(path)
 
     def _repr_html_(self) -> str:
@@ -161,19 +161,22 @@ def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
     error = ran.error()
     ticks, signals = ran.samples()
     trace = Trace(ticks, signals, job_units(signals, axes), data["trace_hash"], title)
-    worst = Worst(
-        data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), data.pop("worst_place")
+    deviation = MaxDeviation(
+        data.pop("max_deviation_mm"),
+        seconds_of(data.pop("max_deviation_ticks")),
+        data.pop("max_deviation_line"),
+        data.pop("max_deviation_position"),
     )
     return Outcome(
-        ok=error is None and data["position_trusted"],
+        ok=error is None and data["position_valid"],
         error=error,
-        seconds=seconds_of(data["ticks"]),
+        duration_s=seconds_of(data["ticks"]),
         axes=axes,
-        worst=worst,
+        max_deviation=deviation,
         warnings=[Warning(seconds_of(at), line, text) for at, line, text in data.pop("warnings")],
         faults_not_done=world.not_done(),
         program_events=[ProgramEvent(*event) for event in data.pop("program_events")],
-        blocks=[Block(**block) for block in data.pop("blocks")],
+        executed_moves=[ExecutedMove(**move) for move in data.pop("executed_moves")],
         trace=trace,
         _ran=ran,
         **data,
@@ -182,7 +185,7 @@ def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
 
 def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) -> dict[str, str]:
     """Units of the samples of a job."""
-    ends = {"position": "", "speed": "/s", "accel": "/s2"}
+    ends = {"position": "", "velocity": "/s", "accel": "/s2"}
     out = {"deviation": "mm"}
     for name in signals:
         axis, _, what = name.partition(".")
@@ -198,7 +201,7 @@ class Homing:
 
     ok: bool
     error: Error | None
-    seconds: float
+    duration_s: float
     axes: Mapping[str, dict[str, Any]]
     pictures: Mapping[str, str] = field(
         repr=False
@@ -233,7 +236,7 @@ def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, 
     return Homing(
         ok=bool(data["homed"]),
         error=error,
-        seconds=float(data["seconds"]),
+        duration_s=float(data["duration_s"]),
         axes={axis["axis"]: axis for axis in data["axes"]},
         pictures=pictures,
         _text=text,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, MutableMapping
 
 from . import _core
-from .errors import BadInput, NoSuchName
+from .errors import InvalidInput, NoSuchName
 
 
 class Wires(MutableMapping[str, float]):
     """Every wire: ``CARD.PIN``, ``NAME.END`` or ``estop``. A digital wire is 0 or 1, an analog one is V.
 
-    Setting one drives it from outside, and cuts off what drove it; ``del`` or None releases it. BadInput (no such
+    Setting one drives it from outside, and cuts off what drove it; ``del`` or None releases it. InvalidInput (no such
     wire), Refused (an output, another value).
     """
 
@@ -21,7 +21,7 @@ class Wires(MutableMapping[str, float]):
     def __getitem__(self, name: str) -> float:
         try:
             return self._world.wire(name)
-        except BadInput as error:
+        except InvalidInput as error:
             raise NoSuchName(error.message) from None
 
     def __setitem__(self, name: str, value: float | None) -> None:

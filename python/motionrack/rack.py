@@ -9,7 +9,7 @@ from types import TracebackType
 from . import _core
 from ._time import seconds_of, ticks_of
 from .cards import Cards
-from .errors import BadInput, FileTrouble, Refused, Timeout
+from .errors import InvalidInput, FileError, Refused, Timeout
 from .outcome import Homing, Outcome, homing_of, outcome_of
 from .parts import Parts, Wires
 from .recording import Recording, Waves
@@ -22,7 +22,7 @@ class Rack:
     nowhere else.
 
     One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give
-    the same history, bit for bit. As a context manager it is closed at the end of the block.
+    the same event trace, bit for bit. As a context manager it is closed at the end of the block.
     """
 
     def __init__(self, world: _core.RackHandle, warnings: Iterable[str] = ()) -> None:
@@ -37,30 +37,30 @@ class Rack:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Rack:
-        """The rack of a rack file. BadInput with ``problems``, each with its line and column; FileTrouble."""
+        """The rack of a rack file. InvalidInput with ``problems``, each with its line and column; FileError."""
         return cls(*_core.open_file(os.fspath(path)))
 
     @classmethod
     def from_text(cls, text: str, name: str = "") -> Rack:
         """The rack of a rack file's text; ``name`` stands in the errors. ``'card.c1 = "mcx314"'`` is a whole rack.
-        BadInput."""
+        InvalidInput."""
         return cls(*_core.open_text(text, name))
 
     @classmethod
     def template(cls, name: str = "router") -> Rack:
-        """A rack to begin with: one of :func:`motionrack.templates`. BadInput."""
+        """A rack to begin with: one of :func:`motionrack.templates`. InvalidInput."""
         return cls(*_core.open_text(_core.template_text(name), ""))
 
-    def fresh(self) -> Rack:
+    def new_instance(self) -> Rack:
         """Another rack of the same file, at time 0."""
-        return Rack(self._world.fresh(), self.warnings)
+        return Rack(self._world.new_instance(), self.warnings)
 
     def change_card(self, name: str, **settings: float) -> None:
         """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file:
         ``change_card("host", period_us=250)``.
 
         Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked
-        at, as it is in a rack file: for experiments with what a rack file refuses. BadInput, Refused.
+        at, as it is in a rack file: for experiments with what a rack file refuses. InvalidInput, Refused.
         """
         for key, value in settings.items():
             self._world.set_card(name, key, float(value))
@@ -110,12 +110,12 @@ class Rack:
         Refused beyond that."""
         self._world.advance(ticks_of(seconds, ms, us, ns))
 
-    def wait(self, condition: Callable[[], object], timeout: float, every: float = 1e-3) -> None:
-        """Runs until ``condition()`` is true, which is asked now and every ``every`` s (> 0);
+    def wait(self, condition: Callable[[], object], timeout: float, poll: float = 1e-3) -> None:
+        """Runs until ``condition()`` is true, which is checked now and each ``poll`` s (> 0);
         Timeout after ``timeout`` s."""
-        step, end = ticks_of(every), self.ticks + ticks_of(timeout)
+        step, end = ticks_of(poll), self.ticks + ticks_of(timeout)
         if step <= 0:
-            raise Refused(f"The condition is to be asked every {every} s; that must be more than 0. Nothing was run.")
+            raise Refused(f"poll is {poll} s; it must be more than 0. Nothing was run.")
         while not condition():
             if self.ticks >= end:
                 raise Timeout(
@@ -125,10 +125,10 @@ class Rack:
 
     def wait_wire(self, name: str, level: int, timeout: float) -> None:
         """Runs until a digital wire has that level, and stands at the very instant; Timeout after ``timeout`` s.
-        BadInput.
+        InvalidInput.
 
         A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for,
-        and is part of the history then.
+        and is part of the event trace then.
         """
         if level not in (0, 1):
             raise Refused(f"The level of a wire is 0 or 1, not {level}. Nothing was run.")
@@ -138,12 +138,13 @@ class Rack:
     # ---- looking ----
 
     def peek(self, name: str) -> int:
-        """A register or value of a card, ``"c1.x.LP"``, without any effect; takes no time. BadInput."""
+        """A register or value of a card, ``"c1.x.LP"``, without any effect; takes no time. InvalidInput."""
         card, _, value = name.partition(".")
         return _core.peek(self._world, card, value)
 
     def get(self, name: str) -> float:
-        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is its name's end. BadInput."""
+        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is its name's end.
+        InvalidInput."""
         return self._world.quantity(name)
 
     def set(self, name: str, value: float) -> None:
@@ -151,7 +152,7 @@ class Rack:
         of a belt or table ``speed_mm_s`` (``speed_deg_s``).
 
         A motor in step goes to the nearest place of the same electrical phase,
-        so read the quantity to see where it came to. BadInput, Refused.
+        so read the quantity to see where it came to. InvalidInput, Refused.
         """
         self._world.set_quantity(name, float(value))
 
@@ -170,7 +171,7 @@ class Rack:
         return _core.frame_picture(self._world, frame)
 
     def trace_hash(self) -> str:
-        """The hash of the history so far, 16 digits: every change of a wire and every condition at its tick.
+        """The hash of the event trace so far, 16 digits: every change of a wire and every condition at its tick.
         See :meth:`Trace.hash`."""
         return self._world.trace_hash()
 
@@ -189,7 +190,8 @@ class Rack:
         """Breaks something at this instant, or mends it: ``fault("X", "encoder.broken_a")``, ``fault("X",
         "motor.lose_steps", 64)``.
 
-        Without a value it is 1; 0 mends what can be mended. BadInput (names), Refused (the part is missing, the value).
+        Without a value it is 1; 0 mends what can be mended. InvalidInput (names), Refused (the part is missing, the
+        value).
         """
         self._world.fault(fault if value is None else f"{fault}={value:.17g}", target)
 
@@ -222,14 +224,15 @@ class Rack:
     ) -> Outcome:
         """Runs a part program to standstill: its text, or the file at ``path``, beside which its subprograms lie.
         It begins where the axes stand: where the rack file says, or after other programs and :meth:`home` where the
-        pulses since have led, by whatever order. G-code modes begin anew.
+        pulses since have led, by whatever command. G-code modes begin anew.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
         :meth:`plan_fault`. ``sample_period``: of the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line,
         lines)`` is called about every 50 ms of virtual time and may look, not move.
 
-        BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved.
+        InvalidInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing
+        moved.
         Refused on a rack that has no axes, while an axis moves, and where an earlier program or :meth:`home` has lost a
         position, until that axis is homed. What the machine did wrong is the outcome's ``error``.
         """
@@ -257,25 +260,26 @@ class Rack:
 
     # ---- recordings ----
 
-    def record(self, *signals: str, every: float = 1e-3, most: int = 1_000_000) -> Recording:
+    def record(self, *signals: str, period: float = 1e-3, max_samples: int = 1_000_000) -> Recording:
         """Begins to look at wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities
-        (``"X.position_mm"``) every ``every`` s (1e-6 to 3600).
+        (``"X.position_mm"``) each ``period`` s (1e-6 to 3600).
 
             with rack.record("X.position_mm", "c1.x.LP") as recording:
                 rack.advance(1)
             recording.trace.plot()
 
-        Of more than ``most`` instants every second one is left out, and the period doubled. One recording at a time.
-        BadInput, Refused.
+        Of more than ``max_samples`` instants every second one is left out, and the period doubled. One recording at a
+        time.
+        InvalidInput, Refused.
         """
-        return Recording(self._world, signals, ticks_of(every), most, self.name)
+        return Recording(self._world, signals, ticks_of(period), max_samples, self.name)
 
     def waves(self, path: str | os.PathLike[str], *signals: str) -> Waves:
         """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd``, ``.csv``
         or ``.h5``, until :meth:`Waves.stop` or the end of the block.
 
         ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand.
-        Refused, BadInput, FileTrouble.
+        Refused, InvalidInput, FileError.
         """
         return Waves(self._world, os.fspath(path), signals)
 
@@ -304,7 +308,7 @@ def _text_of(path: str | os.PathLike[str]) -> str:
         with open(path, encoding="utf-8", errors="replace", newline="") as file:  # a comment may be in anything
             return file.read()
     except OSError as error:
-        raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
+        raise FileError(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
 
 
 def _program(
@@ -316,7 +320,7 @@ def _program(
 ) -> tuple[_core.Program, str]:
     """A program with what goes with it, and its name in messages."""
     if (program is None) == (path is None):
-        raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
+        raise InvalidInput("A program is given as text or by its path, one of the two. Nothing was moved.")
     folder = "" if path is None else os.path.dirname(os.fspath(path)) or "."
     text = program if path is None else _text_of(path)
     name = name if name is not None else "" if path is None else os.fspath(path)

@@ -88,7 +88,7 @@ class Waves(_Open):
         return self
 
     def stop(self) -> None:
-        """Ends the file. FileTrouble."""
+        """Ends the file. FileError."""
         if self._runs:
             self._runs = False
             self._world.end_waves()

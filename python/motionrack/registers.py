@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any
 
-from .errors import BadInput, Refused
+from .errors import InvalidInput, Refused
 
 
 def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
@@ -14,7 +14,7 @@ def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
         if field[0].lower() == name.lower():
             return field[0], field[1], field[2]
     known = ", ".join(field[0] for field in reg["fields"])
-    raise BadInput(f"Register {reg['name']} has no field {name}; it has: {known or 'none'}. Nothing was done.")
+    raise InvalidInput(f"Register {reg['name']} has no field {name}; it has: {known or 'none'}. Nothing was done.")
 
 
 def _shift(mask: int) -> int:
@@ -36,7 +36,7 @@ class Word(int):
             raise AttributeError(name)
         try:
             _, mask, _ = _field(self._reg, name)
-        except BadInput as error:
+        except InvalidInput as error:
             raise AttributeError(str(error)) from None
         return (int(self) & mask) >> _shift(mask)
 
@@ -94,7 +94,7 @@ class Register:
         return str(self._reg["access"])
 
     def peek(self) -> Word:
-        """What it holds, without any effect; takes no time. BadInput where the card keeps no such word."""
+        """What it holds, without any effect; takes no time. InvalidInput where the card keeps no such word."""
         return Word(self._card.peek(self._name), self._reg)
 
     def read(self) -> Word:
@@ -136,7 +136,7 @@ class Register:
             raise AttributeError(name)
         try:
             _field(self._reg, name)
-        except BadInput as error:
+        except InvalidInput as error:
             raise AttributeError(str(error)) from None
         return int(getattr(self.peek(), name))
 
@@ -158,7 +158,7 @@ class Register:
     def __repr__(self) -> str:
         try:
             return f"<{self.peek()!r}: {self.meaning}>"
-        except BadInput:
+        except InvalidInput:
             return f"<{self._name}: {self.meaning}>"
 
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._time import TICKS_PER_SECOND
-from .errors import BadInput, FileTrouble, NoSuchName
+from .errors import InvalidInput, FileError, NoSuchName
 
 Values = npt.NDArray[np.int64] | npt.NDArray[np.float64]
 _LOOKS = "xyzabcd"
@@ -29,13 +29,13 @@ class Trace(Mapping[str, Values]):
         ticks: npt.NDArray[np.int64],
         signals: Mapping[str, Values],
         units: Mapping[str, str],
-        history: str,
+        trace_hash: str,
         title: str = "",
     ) -> None:
         self._ticks = ticks
         self._signals = dict(signals)
         self._units = dict(units)
-        self._history = history
+        self._trace_hash = trace_hash
         self.title = title
 
     # ---- values ----
@@ -79,17 +79,17 @@ class Trace(Mapping[str, Values]):
         return len(self._signals)
 
     def hash(self) -> str:
-        """The hash of the rack's history when the trace ended: 16 digits.
+        """The hash of the rack's event trace when this one ended: 16 digits.
 
         Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, whether
         it is recorded or not: the same programs on the same rack have the same hash, in C++, C,
         on the command line and here.
         """
-        return self._history
+        return self._trace_hash
 
     def __repr__(self) -> str:
         span = f"{self.time[0]:.6g} .. {self.time[-1]:.6g} s" if len(self._ticks) else "empty"
-        return f"<trace of {len(self._signals)} signals, {len(self._ticks)} instants, {span}, history {self._history}>"
+        return f"<trace of {len(self._signals)} signals, {len(self._ticks)} instants, {span}, hash {self._trace_hash}>"
 
     # ---- pictures ----
 
@@ -116,7 +116,7 @@ class Trace(Mapping[str, Values]):
             for title, members in charts
         ]
         if not drawn or len(self._ticks) < 2:
-            raise BadInput("There is nothing to draw: a picture needs two instants and a signal.")
+            raise InvalidInput("There is nothing to draw: a picture needs two instants and a signal.")
         return _core.svg_timeline(self.title, self.time, drawn, [], width, height or min(10000, 60 + 160 * len(drawn)))
 
     def plot(self, *names: str, path: str | None = None) -> Any:
@@ -130,7 +130,7 @@ class Trace(Mapping[str, Values]):
         except ImportError:
             if path is not None:
                 if not os.fspath(path).endswith(".svg"):
-                    raise BadInput(
+                    raise InvalidInput(
                         f"Without matplotlib pictures are SVG files, and {os.fspath(path)} does not end in .svg. "
                         "Nothing was written; choose such a name, or install matplotlib."
                     ) from None
@@ -138,7 +138,7 @@ class Trace(Mapping[str, Values]):
             return self
         charts = self._charts(names)
         if not charts:
-            raise BadInput("There is nothing to draw: the trace has no signals.")
+            raise InvalidInput("There is nothing to draw: the trace has no signals.")
         figure = Figure(figsize=(9, 1.2 + 1.9 * len(charts)), layout="constrained")
         axes = figure.subplots(len(charts), 1, sharex=True, squeeze=False)[:, 0]
         for plot, (title, members) in zip(axes, charts):
@@ -163,7 +163,7 @@ class Trace(Mapping[str, Values]):
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
         except OSError as error:
-            raise FileTrouble(f"{path} cannot be written: {error}.") from None
+            raise FileError(f"{path} cannot be written: {error}.") from None
 
     def _repr_svg_(self) -> str | None:
         return self.svg() if self._signals and len(self._ticks) >= 2 else None

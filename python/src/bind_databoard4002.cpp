@@ -144,7 +144,7 @@ py::dict motion_of(const db::SlopeTable& table, Wide distance, int rate, const d
         legs.append(py::make_tuple(leg.rate, leg.speed, leg.from, leg.to, leg.start_s, leg.duration_s));
     py::dict out;
     out["legs"] = legs;
-    out["seconds"] = motion.duration_s;
+    out["duration_s"] = motion.duration_s;
     out["top_speed"] = motion.top_speed;
     out["distance"] = motion.distance;
     out["accelerating"] = motion.accelerating;
@@ -206,7 +206,8 @@ void bind_slopes(py::module_& m) {
             },
             "The 48 intervals: (rate, counts).")
         .def("motion", &motion_of, py::arg("distance"), py::arg("rate"), py::arg("scale"),
-             "What the card does with it for a move of so many counts with that rate, before anything moves: seconds, "
+             "What the card does with it for a move of so many counts with that rate, before anything moves: "
+             "duration_s, "
              "top_speed (counts/s), legs.");
 }
 

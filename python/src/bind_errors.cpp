@@ -10,13 +10,13 @@ const char* class_of(const PythonError& raised) {
     if (raised.timeout) return "Timeout";
     switch (raised.error.kind) {
         case ErrorKind::invalid_input:
-            return "BadInput";
+            return "InvalidInput";
         case ErrorKind::refused:
             return "Refused";
         case ErrorKind::machine:
             return "MachineFault";
         case ErrorKind::io:
-            return "FileTrouble";
+            return "FileError";
         case ErrorKind::stopped:
             return "Stopped";
     }

@@ -206,7 +206,7 @@ void bind_images(FlexClass& c) {
                  "that the array keeps and does not look at.");
     c.def_static("image_info", &image_info, py::arg("image"),
                  "What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it "
-                 "(fits). BadInput for one that the card would refuse.");
+                 "(fits). InvalidInput for one that the card would refuse.");
 }
 
 std::optional<std::pair<double, double>> estimate(const io::SpeedEstimate& it) {

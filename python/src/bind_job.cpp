@@ -50,7 +50,7 @@ py::tuple samples_of(const Ran& ran) {
     for (const rack::AxisOutcome& axis : ran.outcome.axes) {
         const auto i = static_cast<std::size_t>(axis.index);
         add(axis.index, "position", [i](const rack::Sample& sample) { return sample.position[i]; });
-        add(axis.index, "speed", [i](const rack::Sample& sample) { return sample.speed[i]; });
+        add(axis.index, "velocity", [i](const rack::Sample& sample) { return sample.speed[i]; });
         add(axis.index, "accel", [i](const rack::Sample& sample) { return sample.accel[i]; });
         if (axis.servo) add(axis.index, "volts", [i](const rack::Sample& sample) { return sample.volts[i]; });
     }
@@ -67,35 +67,35 @@ py::dict dict_of(const rack::AxisOutcome& axis) {
     out["servo"] = axis.servo;
     out["min_position"] = axis.limits.min_position;
     out["max_position"] = axis.limits.max_position;
-    out["max_speed"] = axis.limits.max_velocity;
+    out["max_velocity"] = axis.limits.max_velocity;
     out["max_accel"] = axis.limits.max_accel;
     out["pulses_sent"] = axis.pulses_sent;
     out["pulses_net"] = axis.pulses_net;
     out["pulse_position"] = axis.pulse_position;
     out["pulse_start"] = axis.pulse_start;
-    out["counts_read"] = axis.counts_read;
-    out["counts_expected"] = axis.counts_expected;
+    out["encoder_counts"] = axis.encoder_counts;
+    out["expected_counts"] = axis.expected_counts;
     out["lost_pulses"] = axis.lost_pulses;
     out["planned_end"] = axis.planned_end;
-    out["real_end"] = axis.real_end;
-    out["top_speed"] = axis.top.peak_velocity;
-    out["top_accel"] = axis.top.peak_accel;
-    out["top_jump"] = axis.top.peak_velocity_step;
+    out["actual_end"] = axis.actual_end;
+    out["peak_velocity"] = axis.top.peak_velocity;
+    out["peak_accel"] = axis.top.peak_accel;
+    out["peak_velocity_step"] = axis.top.peak_velocity_step;
     return out;
 }
 
 py::list blocks_of(const rack::Monitor& monitor) {
-    static constexpr const char* kinds[] = {"traverse", "feed", "arc", "dwell"};
+    static constexpr const char* kinds[] = {"rapid", "feed", "arc", "dwell"};
     py::list out;
     for (const rack::ExecutedMove& block : monitor.blocks()) {
         py::dict one;
-        one["block"] = block.block;
+        one["move"] = block.block;
         one["line"] = block.line;
         one["kind"] = kinds[static_cast<std::size_t>(block.kind)];
         one["length"] = block.length;
-        one["entry_speed"] = block.entry_velocity;
-        one["cruise_speed"] = block.cruise_velocity;
-        one["exit_speed"] = block.exit_velocity;
+        one["entry_velocity"] = block.entry_velocity;
+        one["cruise_velocity"] = block.cruise_velocity;
+        one["exit_velocity"] = block.exit_velocity;
         one["start"] = to_seconds(block.start);
         one["end"] = to_seconds(block.end);
         one["deviation_mm"] = block.deviation_mm;
@@ -105,11 +105,11 @@ py::list blocks_of(const rack::Monitor& monitor) {
 }
 
 void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
-    out["planned_seconds"] = outcome.run.plan.seconds;
+    out["planned_duration_s"] = outcome.run.plan.seconds;
     out["moves"] = outcome.run.plan.moves;
     out["dwells"] = outcome.run.plan.dwells;
     out["stops"] = outcome.run.plan.stops;
-    out["top_path_speed"] = outcome.run.plan.peak_velocity;
+    out["peak_path_velocity"] = outcome.run.plan.peak_velocity;
     out["lines"] = outcome.run.lines;
     out["moves_read"] = outcome.run.moves;
     out["program_ended"] = outcome.run.ended;
@@ -130,10 +130,11 @@ py::dict dict_of(const Ran& ran) {
     py::list axes, warnings;
     for (const rack::AxisOutcome& axis : outcome.axes) axes.append(dict_of(axis));
     out["axes"] = axes;
-    out["worst_mm"] = outcome.worst.mm;
-    out["worst_ticks"] = outcome.worst.at.count();
-    out["worst_line"] = outcome.worst.line;
-    out["worst_place"] = py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
+    out["max_deviation_mm"] = outcome.worst.mm;
+    out["max_deviation_ticks"] = outcome.worst.at.count();
+    out["max_deviation_line"] = outcome.worst.line;
+    out["max_deviation_position"] =
+        py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
     out["tolerance_mm"] = outcome.tolerance_mm;
     for (const rack::JobWarning& warning : outcome.warnings)
         warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
@@ -144,9 +145,9 @@ py::dict dict_of(const Ran& ran) {
     out["rest_axis"] =
         outcome.rest_axis < 0 ? py::object(py::none()) : py::object(py::str(letter_of(outcome.rest_axis)));
     out["rest_off"] = outcome.rest_off;
-    out["position_trusted"] = outcome.position_trusted;
-    out["blocks"] = blocks_of(ran.world->job()->monitor());
-    out["blocks_left_out"] = ran.world->job()->monitor().blocks_left_out();
+    out["position_valid"] = outcome.position_valid;
+    out["executed_moves"] = blocks_of(ran.world->job()->monitor());
+    out["executed_moves_left_out"] = ran.world->job()->monitor().blocks_left_out();
     return out;
 }
 
@@ -206,7 +207,7 @@ void bind_job(py::module_& m) {
              [](const Ran& ran) -> py::object {
                  if (ran.outcome.ended) return py::none();
                  const Error& error = ran.outcome.ended.error();
-                 static constexpr const char* names[] = {"BadInput", "Refused", "MachineFault", "FileTrouble",
+                 static constexpr const char* names[] = {"InvalidInput", "Refused", "MachineFault", "FileError",
                                                          "Stopped"};
                  return py::module_::import("motionrack.errors")
                      .attr(names[static_cast<std::size_t>(error.kind)])(error.message, error.file, error.place.line,

@@ -94,9 +94,9 @@ std::string doc_of(const FunctionInfo& function) {
         "{}) -> {}\n\n{} {}.\n\n{}{}Errors: {}.", head, number ? "int" : "str", function.meaning,
         function.own ? "The source names it without listing it" : fmt::format("Source: {}", function.group), said,
         number ? fmt::format("Gives: {}.\n", function.returns) : std::string("Gives: a sentence.\n"),
-        function.waits ? "BadInput, Refused, Timeout or MachineFault where it does not end well, Stopped, "
-                         "FileTrouble"
-                       : "BadInput, Refused, Stopped, FileTrouble");
+        function.waits ? "InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, "
+                         "FileError"
+                       : "InvalidInput, Refused, Stopped, FileError");
 }
 
 }  // namespace
@@ -106,10 +106,11 @@ void bind_library(py::module_& m) {
         m, "Mcx314Library",
         "The 57 functions of the MCX314's source under their names and with their arguments, then those that it names "
         "without listing them; the same on a virtual card and on a real one. Arguments are whole numbers, by place or "
-        "by name. `axis` is a mask, X 1, Y 2, Z 4, U 8 and their sums, also where one axis is asked for.\n\nBadInput: "
+        "by name. `axis` is a mask, X 1, Y 2, Z 4, U 8 and their sums, also where one axis is asked "
+        "for.\n\nInvalidInput: "
         "an argument is missing, not known, or out of its range. Refused: the card cannot take it now, such as while "
         "an axis drives, or another thread uses the card. Stopped: a stop came, or holds. MachineFault: a limit, an "
-        "alarm or the emergency input stopped an axis. FileTrouble: the computer refuses an access to a real card. "
+        "alarm or the emergency input stopped an axis. FileError: the computer refuses an access to a real card. "
         "The first two are raised before anything is written.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
               const RackLock turn(*world, RackLock::Access::run);

@@ -10,7 +10,7 @@ void bind_live(py::module_& m) {
         m, "LivePort",
         "A real card behind a live port, with a stop that holds; motionrack.LiveCard has its registers by their names.")
         .def(py::init<const std::string&, const std::string&>(), py::arg("place"), py::arg("type"),
-             "Opens the port; no register is touched. BadInput, FileTrouble, Refused.")
+             "Opens the port; no register is touched. InvalidInput, FileError, Refused.")
         .def(
             "map", [](const LiveCard& card) { return map_dict(card.map()); }, "What is declared of the card.")
         .def(

@@ -22,7 +22,7 @@ template <class Work>
 auto ordered(SteppedMachine& self, Work work) {
     auto result = [&] {
         const py::gil_scoped_release free;
-        return self.order(work);
+        return self.execute(work);
     }();
     return value_of(std::move(result));
 }
@@ -50,11 +50,11 @@ void advance(SteppedMachine& self, std::int64_t time) {
 py::dict dict_of(const operate::AxisStatus& axis) {
     py::dict out;
     out["unit"] = axis.rotary ? "deg" : "mm";
-    out["trusted"] = axis.position_valid;
+    out["position_valid"] = axis.position_valid;
     out["enabled"] = axis.enabled;
     out["commanded"] = axis.commanded;
     out["actual"] = axis.actual;
-    out["place"] = axis.true_position;
+    out["true_position"] = axis.true_position;
     out["speed"] = axis.speed;
     out["pulses"] = axis.pulses;
     out["counts"] = axis.counts;
@@ -71,7 +71,7 @@ py::dict dict_of(const operate::Status& status) {
     out["seconds"] = to_seconds(status.at);
     out["ticks"] = status.at.count();
     out["state"] = std::string(operate::name_of(status.state));
-    out["why"] = status.reason;
+    out["reason"] = status.reason;
     out["axes"] = axes;
     out["program"] = status.program;
     out["line"] = status.line;
@@ -85,9 +85,9 @@ py::dict dict_of(const operate::Status& status) {
 }
 
 void bind_orders(Class& c) {
-    const auto plain = [&](const char* name, auto order) {
-        c.def(name, [order](SteppedMachine& self) {
-            ordered(self, [order](Machine& machine) -> Done { return order(machine); });
+    const auto plain = [&](const char* name, auto command) {
+        c.def(name, [command](SteppedMachine& self) {
+            ordered(self, [command](Machine& machine) -> Done { return command(machine); });
         });
     };
     plain("hold", [](Machine& machine) { return machine.hold(); });
@@ -101,7 +101,7 @@ void bind_orders(Class& c) {
         },
         py::arg("on"), py::arg("axes"));
     c.def(
-        "begin",
+        "start_program",
         [](SteppedMachine& self, const std::string& program, const std::string& name) {
             ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
         },
@@ -127,7 +127,7 @@ void bind_orders(Class& c) {
         },
         py::arg("axis"), py::arg("distance"), py::arg("speed"));
     c.def(
-        "declare_position",
+        "set_position",
         [](SteppedMachine& self, const std::string& axis, double position) {
             ordered(self,
                     [&, which = only_letter(axis)](Machine& machine) { return machine.set_position(which, position); });
@@ -144,9 +144,9 @@ void bind_orders(Class& c) {
         },
         py::arg("feed"), py::arg("rapid"));
     c.def(
-        "acknowledge",
+        "acknowledge_alarm",
         [](SteppedMachine& self, std::int64_t alarm) {
-            return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge(alarm)); });
+            return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge_alarm(alarm)); });
         },
         py::arg("alarm"));
 }

@@ -131,7 +131,7 @@ py::dict planned(const mcx314::CurvePlan& plan) {
     py::dict out;
     const auto part = [&](const char* name, const mcx314::CurvePart& it) {
         py::dict one;
-        one["seconds"] = to_seconds(it.time());
+        one["duration_s"] = to_seconds(it.time());
         one["pulses"] = it.pulses;
         one["from_hz"] = plan.hz(it.from_v);
         one["to_hz"] = plan.hz(it.to_v);
@@ -142,7 +142,7 @@ py::dict planned(const mcx314::CurvePlan& plan) {
     part("cruise", plan.cruise);
     part("fall", plan.fall);
     part("creep", plan.creep);
-    out["seconds"] = to_seconds(plan.time());
+    out["duration_s"] = to_seconds(plan.time());
     out["pulses"] = plan.pulses;
     out["top_hz"] = plan.top_hz();
     out["end_hz"] = plan.hz(plan.end_v);

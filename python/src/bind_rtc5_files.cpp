@@ -151,17 +151,18 @@ void bind_rtc5_files(Rtc5Class& c) {
     c.def(
         "load_correction_file", &load_correction_file, py::arg("Name"), py::arg("No"), py::arg("Dim") = 2,
         "Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives "
-        "0. BadInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), "
-        "FileTrouble "
+        "0. InvalidInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), "
+        "FileError "
         "where it cannot be read; the table is then as before. A UserWarning where it is of a program before version "
         "4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125.");
     c.def("table_note", &table_note, py::arg("TableNo"),
           "What is worth knowing of the file of table TableNo 1 to 4: that its checksum is not known; \"\": nothing.");
-    c.def("load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),
-          "Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. "
-          "Gives 0. No 0 to 4294967295. BadInput with the line where it is wrong, FileTrouble where it cannot be read; "
-          "the "
-          "table is then as before. Source: the RTC5 manual 1.9 e, page 185.");
+    c.def(
+        "load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),
+        "Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. "
+        "Gives 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; "
+        "the "
+        "table is then as before. Source: the RTC5 manual 1.9 e, page 185.");
     c.def(
         "set_mcbsp_out_ptr",
         [](Rtc5& self, const std::vector<std::uint32_t>& signals) {

@@ -209,7 +209,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
                  poll_python(*out);
                  return out;
              })
-        .def("fresh",
+        .def("new_instance",
              [](RackHandle& w) {
                  Shared out = inspect_rack(w, [&] { return std::make_shared<RackHandle>(w.config()); });
                  poll_python(*out);

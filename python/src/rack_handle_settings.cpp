@@ -14,7 +14,7 @@ Result<void> RackHandle::plan_faults(const std::vector<std::string>& texts) {
         return fail(
             ErrorKind::refused,
             "Faults are planned before the rack's time begins, and it has begun; nothing was planned. Advance to the "
-            "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.fresh().");
+            "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.new_instance().");
     rack::Rack other(config_);
     MOTIONRACK_CHECK(rack::FaultSchedule::create(other, texts));
     fault_texts_.insert(fault_texts_.end(), texts.begin(), texts.end());
@@ -56,7 +56,7 @@ Result<void> RackHandle::set_card(const std::string& name, const std::string& ke
     if (rack().started())
         return fail(ErrorKind::refused,
                     "The rack's time has begun, and its cards are as they are; nothing was changed. Change the card of "
-                    "Rack.fresh().");
+                    "Rack.new_instance().");
     const auto card = std::find_if(config_.cards.begin(), config_.cards.end(),
                                    [&](const rack::RackCard& each) { return each.name == name; });
     if (card == config_.cards.end())

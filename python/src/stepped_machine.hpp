@@ -27,7 +27,7 @@ class SteppedMachine {
     void advance(Duration time, const std::function<bool()>& look);
     /// Runs `work` on the motion thread at the gate and returns its result.
     template <class Work>
-    auto order(Work work) {
+    auto execute(Work work) {
         using Value = decltype(work(*machine_));
         std::optional<Value> out;
         bool done = false;

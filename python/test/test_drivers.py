@@ -28,7 +28,7 @@ class Mcx314(unittest.TestCase):
         begun = self.rack.ticks
         self.card.TCurve_F(X, 100, 2000, 200, 12000)
         self.card.wait(X, timeout=10)
-        self.assertAlmostEqual((self.rack.ticks - begun) * 1e-10, plan["seconds"], delta=1e-3)
+        self.assertAlmostEqual((self.rack.ticks - begun) * 1e-10, plan["duration_s"], delta=1e-3)
         self.assertEqual(self.card.ReadLPS(0), 12000)
         self.assertAlmostEqual(self.rack.parts["X"].position_mm, 12000 / 640, places=6)
 
@@ -105,7 +105,7 @@ class DataBoard(unittest.TestCase):
         board.set_rate(16383)
         begun = rack.time
         board.move_to(10000, timeout=60)
-        self.assertAlmostEqual(rack.time - begun, motion["seconds"], delta=0.1 * motion["seconds"])
+        self.assertAlmostEqual(rack.time - begun, motion["duration_s"], delta=0.1 * motion["duration_s"])
         self.assertEqual((board.position(), board.position_mm()), (10000, 100.0))
 
     def test_time_outs_stops_and_refusals_are_told_apart(self) -> None:
@@ -201,7 +201,7 @@ class Ioflex(unittest.TestCase):
             make(project="a name that is too long")
         with self.assertRaises(Refused):
             make(ident=256)
-        with self.assertRaises(motionrack.BadInput):
+        with self.assertRaises(motionrack.InvalidInput):
             motionrack.Ioflex02.image_info(b"hello")
 
     def test_the_image_of_a_rack_file_runs_from_the_start_and_is_what_init_loads(self) -> None:
@@ -213,7 +213,7 @@ class Ioflex(unittest.TestCase):
         self.assertEqual(rack.peek("p1.1.POSITION"), -1)
         old = Rack.from_text(text.format(motionrack.Ioflex02.make_image(ident=0x24).hex()))
         self.assertEqual(old.cards["p1"].driver.Init(0x2300), 3)
-        with self.assertRaises(motionrack.BadInput) as raised:
+        with self.assertRaises(motionrack.InvalidInput) as raised:
             Rack.from_text(text.format("78zz"))
         self.assertIn("hexadecimal", str(raised.exception))
 
@@ -234,7 +234,7 @@ class Grating(unittest.TestCase):
         rack = Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 2, 9"\n')
         about = rack.cards["c1"].driver.open()
         self.assertEqual((about["scales"], about["first"], about["addresses"]), (3, 5, [5, 2, 9]))
-        with self.assertRaises(motionrack.BadInput) as raised:
+        with self.assertRaises(motionrack.InvalidInput) as raised:
             Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 5"\n')
         self.assertIn("twice", str(raised.exception))
 
@@ -316,7 +316,7 @@ class Wrong(unittest.TestCase):
                 if not isinstance(card.driver if card.type != "grating_decoder" else None, kind):
                     with self.assertRaises(Refused):
                         kind(rack._world, card.name)
-            with self.assertRaises(motionrack.BadInput):
+            with self.assertRaises(motionrack.InvalidInput):
                 kind(rack._world, "nothing")
         with self.assertRaises(Refused):
             rack.cards["decoder"].open()

@@ -1,7 +1,7 @@
 """Every numbered example has a Python form that gives the same history as its C, C++, Pascal or command-line form,
 and prints the same.
 
-    example ──MOTIONRACK_HISTORY──► lines of "hash ticks", one a rack ◄──MOTIONRACK_HISTORY── run.py
+    example ──MOTIONRACK_TRACE_HASH──► lines of "hash ticks", one a rack ◄──MOTIONRACK_TRACE_HASH── run.py
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def history(folder: str, commands: list[list[str]], environment: dict[str, str])
             ran = subprocess.run(
                 command,
                 cwd=EXAMPLES / folder,
-                env=os.environ | environment | {"MOTIONRACK_HISTORY": str(told)},
+                env=os.environ | environment | {"MOTIONRACK_TRACE_HASH": str(told)},
                 capture_output=True,
                 text=True,
                 timeout=300,

@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import motionrack
-from motionrack import BadInput, FileTrouble, LiveCard, Rack, Refused, Stopped, Timeout
+from motionrack import InvalidInput, FileError, LiveCard, Rack, Refused, Stopped, Timeout
 
 ROOT = Path(__file__).resolve().parents[2]
 STOPPED = 0x0F27  # quick stop of all axes
@@ -123,7 +123,7 @@ class Functions(OnAFile):
                 ),
             )
             for act, sentence in acts:
-                with self.assertRaises(BadInput) as caught:
+                with self.assertRaises(InvalidInput) as caught:
                     act()
                 self.assertEqual(caught.exception.message, sentence)
             with self.assertRaises(TypeError):
@@ -142,7 +142,7 @@ class Functions(OnAFile):
         self.assertEqual(call.moving(15), 1)
         call.wait(1, 10000)
         self.assertEqual((call.ReadLPS(1), call.ReadLPS(axis=2)), (2000, 0))
-        with self.assertRaises(BadInput) as caught:
+        with self.assertRaises(InvalidInput) as caught:
             call.SetV(1, 9000)
         self.assertIn("SetV: data is 9000, but must be 1 to 8000", caught.exception.message)
         scan = Rack.from_file(ROOT / "examples" / "14_line" / "line.toml").cards["scan"]
@@ -167,17 +167,17 @@ class Opening(OnAFile):
 
     def test_says_what_is_wrong_with_a_place_and_with_a_type(self) -> None:
         for place, kind, sentence in (
-            ("/dev/uio0", BadInput, "it has no ':'"),
-            (f"port:{self.path},width=7", BadInput, "width is 7, but may be 8 to 16"),
-            ("uio:/dev/uio-that-is-not", FileTrouble, "There is no /dev/uio-that-is-not"),
-            (f"port:{self.path},offset=2", FileTrouble, "has 16 bytes, but the card's registers end at byte 18"),
+            ("/dev/uio0", InvalidInput, "it has no ':'"),
+            (f"port:{self.path},width=7", InvalidInput, "width is 7, but may be 8 to 16"),
+            ("uio:/dev/uio-that-is-not", FileError, "There is no /dev/uio-that-is-not"),
+            (f"port:{self.path},offset=2", FileError, "has 16 bytes, but the card's registers end at byte 18"),
         ):
             with self.assertRaisesRegex(kind, sentence):
                 LiveCard(place)
         for other in ("databoard4002", "ioflex02", "grating_bus", "rtc5"):
-            with self.assertRaisesRegex(BadInput, f"A real {other} cannot be opened.*Real cards can be: mcx314"):
+            with self.assertRaisesRegex(InvalidInput, f"A real {other} cannot be opened.*Real cards can be: mcx314"):
                 LiveCard(self.place, other)
-        with self.assertRaisesRegex(BadInput, "There is no type of card rtc6"):
+        with self.assertRaisesRegex(InvalidInput, "There is no type of card rtc6"):
             LiveCard(self.place, "rtc6")
 
     def test_library_and_driver_are_not_for_one_card_at_a_time(self) -> None:
@@ -211,16 +211,16 @@ class RegistersByHand(OnAFile):
     def test_refuse_what_they_are_not(self) -> None:
         with LiveCard(self.place) as card:
             acts: tuple[tuple[type[Exception], str, Act], ...] = (
-                (BadInput, "cannot be looked at without an access", lambda: card.RR0.peek()),
-                (BadInput, "without an access", lambda: card.RR0.DRV),
+                (InvalidInput, "cannot be looked at without an access", lambda: card.RR0.peek()),
+                (InvalidInput, "without an access", lambda: card.RR0.DRV),
                 (AttributeError, "has no register RR9", lambda: card.RR9),
                 (AttributeError, "has no register RR9", lambda: setattr(card, "RR9", 1)),
                 (Refused, "can only be written", lambda: card.WR0.read()),
                 (Refused, "can only be read", lambda: card.RR0.write(1)),
-                (BadInput, "no register that is read at 20h", lambda: card.read(0x20)),
-                (BadInput, "no register that is written at 01h", lambda: card.write(1, 0)),
+                (InvalidInput, "no register that is read at 20h", lambda: card.read(0x20)),
+                (InvalidInput, "no register that is written at 01h", lambda: card.write(1, 0)),
                 (Refused, "70000 does not fit into 16 bits", lambda: card.write(0, 70000)),
-                (BadInput, "have 16 bits, not 8", lambda: card.read(0, 8)),
+                (InvalidInput, "have 16 bits, not 8", lambda: card.read(0, 8)),
                 (Refused, "has no interrupt here", lambda: card.wait_interrupt(1)),
             )
             for kind, sentence, act in acts:
@@ -231,14 +231,14 @@ class RegistersByHand(OnAFile):
     def test_an_access_that_the_computer_refuses_is_raised_and_is_the_last(self) -> None:
         card = LiveCard(self.place)
         os.truncate(self.path, 4)
-        with self.assertRaisesRegex(FileTrouble, "The register at 0Ch could not be read"):
+        with self.assertRaisesRegex(FileError, "The register at 0Ch could not be read"):
             card.RR6.read()
         os.truncate(self.path, 16)
-        with self.assertRaisesRegex(FileTrouble, "0Ch"):
+        with self.assertRaisesRegex(FileError, "0Ch"):
             card.library.SetV(1, 1)
-        with self.assertRaisesRegex(FileTrouble, "0Ch"):
+        with self.assertRaisesRegex(FileError, "0Ch"):
             card.quick_stop()
-        with self.assertRaisesRegex(FileTrouble, "No access is made from here on"):
+        with self.assertRaisesRegex(FileError, "No access is made from here on"):
             card.close()
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)

@@ -1,4 +1,4 @@
-"""A machine operated step by step: hold and resume, jogs, homing, alarms; the same orders give the same history."""
+"""A machine operated step by step: hold and resume, jogs, homing, alarms; the same commands give the same trace."""
 
 from __future__ import annotations
 
@@ -22,10 +22,11 @@ def ready() -> Machine:
     machine = Machine.template("router")
     machine.enable()
     for letter, axis in machine.wait("standstill", timeout=1).axes.items():
-        if not axis.trusted:
-            machine.declare_position(letter, axis.commanded)
+        if not axis.position_valid:
+            machine.set_position(letter, axis.commanded)
     machine.wait(
-        lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1
+        lambda status: status.state == "standstill" and all(axis.position_valid for axis in status.axes.values()),
+        timeout=1,
     )
     return machine
 
@@ -33,7 +34,7 @@ def ready() -> Machine:
 def operated() -> tuple[str, float, str]:
     """A program with a hold, and a jog."""
     with ready() as machine:
-        machine.begin(TEXT, "there.ngc")
+        machine.start_program(TEXT, "there.ngc")
         machine.advance(0.5)
         machine.hold()
         machine.wait("hold", timeout=1)
@@ -43,9 +44,9 @@ def operated() -> tuple[str, float, str]:
         machine.resume()
         machine.wait("standstill", timeout=10)
         machine.jog_by("Y", 5, 10)
-        machine.wait(lambda status: status.axes["Y"].place > 4.999, timeout=5)
+        machine.wait(lambda status: status.axes["Y"].true_position > 4.999, timeout=5)
         status = machine.wait("standstill", timeout=1)
-        return machine.trace_hash(), place, f"{status.axes['Y'].place:.3f} {status.ticks}"
+        return machine.trace_hash(), place, f"{status.axes['Y'].true_position:.3f} {status.ticks}"
 
 
 class Operating(unittest.TestCase):
@@ -67,7 +68,7 @@ class Operating(unittest.TestCase):
     def test_orders_that_do_not_fit_are_refused(self) -> None:
         machine = Machine.template("router")
         acts: Acts = (
-            lambda: machine.begin(TEXT),
+            lambda: machine.start_program(TEXT),
             lambda: machine.resume(),
             lambda: machine.jog("X", 5),
             lambda: machine.set_overrides(9),
@@ -78,43 +79,44 @@ class Operating(unittest.TestCase):
                 act()
         machine = ready()
         with self.assertRaises(motionrack.Error) as caught:
-            machine.begin("G21\nG1 X999 F100\n", "bad.ngc")
+            machine.start_program("G21\nG1 X999 F100\n", "bad.ngc")
         self.assertEqual(caught.exception.line, 2)
-        with self.assertRaises(motionrack.BadInput):
+        with self.assertRaises(motionrack.InvalidInput):
             machine.wire("no.such")
 
     def test_a_limit_switch_is_an_error_stop_with_an_alarm(self) -> None:
         machine = ready()
-        machine.begin(TEXT, "there.ngc")
+        machine.start_program(TEXT, "there.ngc")
         machine.advance(0.5)
         machine.set_wire("X.limit_plus", 0)
         status = machine.wait("error stop", timeout=2)
-        self.assertIn("limit", status.why + " ".join(alarm.text for alarm in status.alarms))
+        self.assertIn("limit", status.reason + " ".join(alarm.text for alarm in status.alarms))
         machine.set_wire("X.limit_plus", None)
-        machine.acknowledge(status.alarms[-1].number)
+        machine.acknowledge_alarm(status.alarms[-1].number)
         machine.reset()
         machine.wait(lambda status: status.state in ("standstill", "disabled"), timeout=2)
 
     def test_homing_makes_positions_trusted(self) -> None:
         with Machine.from_file(HOMING) as machine:
-            self.assertFalse(all(axis.trusted for axis in machine.status.axes.values()))
+            self.assertFalse(all(axis.position_valid for axis in machine.status.axes.values()))
             machine.enable()
             machine.home()
             machine.wait(
-                lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()),
+                lambda status: status.state == "standstill"
+                and all(axis.position_valid for axis in status.axes.values()),
                 timeout=60,
             )
 
     def test_a_machine_may_end_in_the_midst_of_a_drive(self) -> None:
         machine = ready()
-        machine.begin(TEXT)
+        machine.start_program(TEXT)
         machine.advance(0.3)
         machine.close()
         machine.close()
         with self.assertRaises(Refused):
             machine.advance(1)
         left = ready()
-        left.begin(TEXT)
+        left.start_program(TEXT)
         left.advance(0.3)
         del left
         gc.collect()

@@ -46,7 +46,7 @@ class Stubs(unittest.TestCase):
             user = Path(folder) / "user.py"
             user.write_text(
                 "import motionrack\nrack = motionrack.Rack.template()\n"
-                'reveal_type(rack.run("M2").axes["X"].real_end)\n'
+                'reveal_type(rack.run("M2").axes["X"].actual_end)\n'
                 'reveal_type(rack.run("M2").trace["x.position"])\n'
                 'card: motionrack.Mcx314 = rack.cards["motion"].driver\nreveal_type(card.ReadLPS(0))\n',
                 encoding="utf-8",

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import motionrack
-from motionrack import BadInput, MachineFault, Rack, Refused, Timeout
+from motionrack import InvalidInput, MachineFault, Rack, Refused, Timeout
 
 CARD = 'card.c1 = "mcx314"'
 Acts = tuple[Callable[[], object], ...]
@@ -39,18 +39,18 @@ class Making(unittest.TestCase):
                 self.assertEqual(Rack.from_text(motionrack.template_text(name)).name, rack.name)
 
     def test_a_wrong_rack_file_tells_every_problem_with_its_place(self) -> None:
-        with self.assertRaises(BadInput) as caught:
+        with self.assertRaises(InvalidInput) as caught:
             Rack.from_text('[card.c1]\ntype = "mcx999"\n\n[axis.X]\ncard = "c2"\n', "my.toml")
         self.assertGreaterEqual(len(caught.exception.problems), 2)
         self.assertEqual((caught.exception.file, caught.exception.line), ("my.toml", 2))
         self.assertTrue(str(caught.exception).startswith("my.toml:2:"))
 
     def test_a_file_that_is_not_there_is_file_trouble(self) -> None:
-        with self.assertRaises(motionrack.FileTrouble):
+        with self.assertRaises(motionrack.FileError):
             Rack.from_file("/no/such.toml")
 
     def test_all_errors_are_of_one_kind(self) -> None:
-        for kind in (BadInput, Refused, MachineFault, Timeout, motionrack.FileTrouble, motionrack.Stopped):
+        for kind in (InvalidInput, Refused, MachineFault, Timeout, motionrack.FileError, motionrack.Stopped):
             self.assertTrue(issubclass(kind, motionrack.Error))
         self.assertTrue(issubclass(Timeout, TimeoutError))
 
@@ -96,14 +96,14 @@ class Time(unittest.TestCase):
     def test_waiting_for_a_condition_ends_when_it_is_true_or_in_time(self) -> None:
         rack = Rack.from_text(CARD)
         drive(rack.cards["c1"], 20000)
-        rack.wait(lambda: rack.peek("c1.x.LP") >= 1000, timeout=1, every=1e-4)
+        rack.wait(lambda: rack.peek("c1.x.LP") >= 1000, timeout=1, poll=1e-4)
         self.assertLess(rack.peek("c1.x.LP"), 1000 + 40000 * 1e-4 + 1)
         before = rack.ticks
         with self.assertRaises(Timeout):
             rack.wait(lambda: False, timeout=0.25)
         self.assertEqual(rack.ticks - before, 2_500_000_000)
         with self.assertRaises(Refused):
-            rack.wait(lambda: True, timeout=1, every=0)
+            rack.wait(lambda: True, timeout=1, poll=0)
 
     def test_waiting_for_a_wire_stands_at_the_very_instant(self) -> None:
         """The referee looks at the same rack in steps of a tick of the chip."""
@@ -122,7 +122,7 @@ class Time(unittest.TestCase):
         self.assertEqual(referee.wires["motion.int_n"], 0)
         with self.assertRaises(Timeout):
             rack.wait_wire("estop", 0, timeout=1e-3)
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             rack.wait_wire("no.such", 0, timeout=1e-3)
 
     def test_an_interrupt_is_waited_for(self) -> None:
@@ -162,7 +162,7 @@ class Registers(unittest.TestCase):
         for wrong in ({"CODE": 1000}, {"CODE": -1}):
             with self.assertRaises(Refused):
                 card.WR0.write(**wrong)
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             card.WR0.write(NOPE=1)
         for value in (-1, 0x10000):
             with self.assertRaises(Refused):
@@ -210,7 +210,7 @@ class Registers(unittest.TestCase):
                     with self.subTest(f"{card.name}.{register.name}"):
                         try:
                             shown = register.peek()
-                        except BadInput:
+                        except InvalidInput:
                             continue
                         self.assertIn(register.read(), (shown, register.peek()))
 
@@ -225,7 +225,7 @@ class Machine(unittest.TestCase):
         del rack.wires["X.limit_plus"]
         self.assertEqual(rack.wires["X.limit_plus"], 1)
         self.assertIn("estop", rack.wires.drivable)
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             rack.wires["X.nothing"] = 1
         with self.assertRaises(Refused):
             rack.wires["estop"] = 0.5
@@ -242,7 +242,7 @@ class Machine(unittest.TestCase):
             x.top_speed_mm_s = 1
         with self.assertRaises(AttributeError):
             x.nothing
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             rack.parts["Q"]
         for part in rack.parts.values():
             for quantity in part.quantities:
@@ -260,7 +260,7 @@ class Machine(unittest.TestCase):
         self.assertEqual(driver.ReadLPS(0), 6400)
         self.assertTrue(any("X" in text for _, text in rack.conditions))
         for target, fault in (("X", "no.such"), ("Q", "motor.stall")):
-            with self.assertRaises(BadInput):
+            with self.assertRaises(InvalidInput):
                 rack.fault(target, fault)
 
     def test_planned_faults_happen_at_their_instant(self) -> None:
@@ -275,8 +275,8 @@ class Machine(unittest.TestCase):
         self.assertEqual(rack.wires["X.limit_plus"], 1)
         with self.assertRaises(Refused):
             rack.plan_fault("estop=0@2s")
-        with self.assertRaises(BadInput):
-            rack.fresh().plan_fault("X.nothing=0@2s")
+        with self.assertRaises(InvalidInput):
+            rack.new_instance().plan_fault("X.nothing=0@2s")
 
     def test_a_card_is_changed_before_its_time_begins(self) -> None:
         rack = Rack.from_text('[card.d]\ntype = "grating_decoder"\n[card.h]\ntype = "grating_bus"\n')
@@ -288,7 +288,7 @@ class Machine(unittest.TestCase):
         for value in (float("nan"), -1, 1e12):
             with self.assertRaises(Refused):
                 fresh.change_card("h", period_us=value)
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             fresh.change_card("h", nothing=1)
 
 

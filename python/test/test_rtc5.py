@@ -15,7 +15,7 @@ from typing import Any
 
 import motionrack
 import numpy as np
-from motionrack import BadInput, FileTrouble, Rack, Refused
+from motionrack import InvalidInput, FileError, Rack, Refused
 
 ROOT = Path(__file__).resolve().parents[2]
 HEADER = ROOT / "motionrack" / "frontends" / "rtc5sim" / "rtc5sim.h"
@@ -370,11 +370,11 @@ class Files(unittest.TestCase):
         )
         for how in wrong:
             path = self.file(**how)
-            with self.assertRaises(BadInput) as caught:
+            with self.assertRaises(InvalidInput) as caught:
                 self.rtc.load_correction_file(path, 1)
             self.assertRegex(str(caught.exception), r"table\.ct5: .*(damaged|0 bits/mm|inverted).*was not loaded")
             self.assertEqual((self.rtc.get_last_error(), self.rtc.get_table_para(1, 1)), (PARAM_ERROR, K))
-        with self.assertRaises(FileTrouble):
+        with self.assertRaises(FileError):
             self.rtc.load_correction_file("/no/such.ct5", 1)
 
     def test_a_checksum_that_is_not_known_is_a_warning(self) -> None:

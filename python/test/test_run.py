@@ -12,7 +12,7 @@ from pathlib import Path
 
 import motionrack
 import numpy as np
-from motionrack import BadInput, MachineFault, Rack, Refused
+from motionrack import InvalidInput, MachineFault, Rack, Refused
 
 PROGRAM = str(Path(os.environ["MOTIONRACK_BUILD"]) / "bin" / "motionrack")
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -30,8 +30,8 @@ class Outcomes(unittest.TestCase):
         told = json.loads(referee("run", "-", "--no-report", "--json").stdout)
         self.assertEqual(json.loads(outcome.json()), told)
         self.assertEqual(
-            (outcome.ok, outcome.seconds, outcome.planned_seconds, outcome.path_mm),
-            (told["ok"], told["seconds"], told["planned_seconds"], told["path_mm"]),
+            (outcome.ok, outcome.duration_s, outcome.planned_duration_s, outcome.path_mm),
+            (told["ok"], told["duration_s"], told["planned_duration_s"], told["path_mm"]),
         )
         self.assertEqual(
             (outcome.trace_hash, outcome.events, outcome.chip_segments),
@@ -40,8 +40,14 @@ class Outcomes(unittest.TestCase):
         for axis in told["axes"]:
             mine = outcome.axes[axis["axis"]]
             self.assertEqual(
-                (mine.pulses_sent, mine.counts_read, mine.lost_pulses, mine.real_end, mine.top_speed),
-                (axis["pulses_sent"], axis["counts_read"], axis["lost_pulses"], axis["end"], axis["top_speed"]),
+                (mine.pulses_sent, mine.encoder_counts, mine.lost_pulses, mine.actual_end, mine.peak_velocity),
+                (
+                    axis["pulses_sent"],
+                    axis["encoder_counts"],
+                    axis["lost_pulses"],
+                    axis["actual_end"],
+                    axis["peak_velocity"],
+                ),
             )
         self.assertEqual(outcome.summary(), referee("run", "-", "--no-report").stdout)
         self.assertIs(outcome.check(), outcome)
@@ -57,7 +63,7 @@ class Outcomes(unittest.TestCase):
         self.assertEqual(len(rows), len(outcome.trace.ticks))
         for column, signal in (
             ("x_position_mm", "x.position"),
-            ("y_speed_mm_s", "y.speed"),
+            ("y_velocity_mm_s", "y.velocity"),
             ("deviation_mm", "deviation"),
         ):
             np.testing.assert_allclose([float(row[column]) for row in rows], outcome.trace[signal], atol=1e-4)
@@ -70,16 +76,16 @@ class Outcomes(unittest.TestCase):
         for name in trace:
             self.assertEqual((len(trace[name]), trace[name].dtype), (len(trace.ticks), np.dtype(np.float64)))
         self.assertEqual(
-            (trace.units["X.position"], trace.units["A.speed"], trace.units["deviation"]), ("mm", "deg/s", "mm")
+            (trace.units["X.position"], trace.units["A.velocity"], trace.units["deviation"]), ("mm", "deg/s", "mm")
         )
         self.assertIs(trace["X.POSITION"], trace["X.position"])
-        self.assertIn("x.speed", trace)
-        with self.assertRaises(BadInput):
+        self.assertIn("x.velocity", trace)
+        with self.assertRaises(InvalidInput):
             trace["q.position"]
         # The speed is that of the pulses; over a slow move it is the slope of the position.
         slow = (trace.time > 0.4) & (trace.time < 0.9)
         np.testing.assert_allclose(
-            np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.speed"][slow].mean(), rtol=0.01
+            np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.velocity"][slow].mean(), rtol=0.01
         )
 
     def test_a_longer_sample_period_gives_fewer_samples_and_the_same_history(self) -> None:
@@ -107,7 +113,7 @@ class Outcomes(unittest.TestCase):
     def test_blocks_and_events_are_told(self) -> None:
         outcome = Rack.template().run("G21 G90\nM3 S1000\nG1 X10 F600\nG4 P0.1\nG0 X0\nM2\n")
         self.assertEqual(
-            [(block.kind, block.line) for block in outcome.blocks], [("feed", 3), ("dwell", 4), ("traverse", 5)]
+            [(block.kind, block.line) for block in outcome.executed_moves], [("feed", 3), ("dwell", 4), ("rapid", 5)]
         )
         self.assertIn("spindle", outcome.program_events[0].text)
         self.assertEqual((outcome.moves, outcome.dwells, outcome.program_ended), (2, 1, True))
@@ -117,7 +123,7 @@ class Outcomes(unittest.TestCase):
             outcome.write_report(f"{folder}/r.html")
             outcome.write_events(f"{folder}/e.csv")
             self.assertIn("<html", Path(f"{folder}/r.html").read_text(encoding="utf-8"))
-            with self.assertRaises(motionrack.FileTrouble):
+            with self.assertRaises(motionrack.FileError):
                 outcome.write_csv(f"{folder}/no/such/folder.csv")
 
 
@@ -144,10 +150,10 @@ class Mistakes(unittest.TestCase):
         rack = Rack.template()
         rack.fault("X", "motor.lose_steps", 64)
         lost = rack.run(TEXT)
-        self.assertFalse(lost.position_trusted)
+        self.assertFalse(lost.position_valid)
         with self.assertRaisesRegex(Refused, "position of axis X is not trusted"):
             rack.run(TEXT)
-        self.assertTrue(rack.fresh().run(TEXT).ok)
+        self.assertTrue(rack.new_instance().run(TEXT).ok)
 
     def test_a_rack_without_axes_runs_no_program(self) -> None:
         with self.assertRaises(Refused):
@@ -155,9 +161,9 @@ class Mistakes(unittest.TestCase):
 
     def test_text_or_path_one_of_the_two(self) -> None:
         for program, path in ((None, None), ("M2", "x.ngc")):
-            with self.assertRaises(BadInput):
+            with self.assertRaises(InvalidInput):
                 Rack.template().run(program, path=path)
-        with self.assertRaises(motionrack.FileTrouble):
+        with self.assertRaises(motionrack.FileError):
             Rack.template().run(path="/no/such.ngc")
 
     def test_what_the_machine_does_wrong_is_the_outcomes_error(self) -> None:
@@ -185,7 +191,7 @@ class Mistakes(unittest.TestCase):
         outcome = Rack.template().run("G21 G90\nG1 X20 F1200\nM2\n", faults=["X.motor.lose_steps=64@500ms"])
         self.assertIsNone(outcome.error)
         self.assertFalse(outcome.ok)
-        self.assertFalse(outcome.position_trusted)
+        self.assertFalse(outcome.position_valid)
         self.assertEqual(outcome.axes["X"].lost_pulses, 64)
         self.assertTrue(outcome.warnings)
 
@@ -249,8 +255,8 @@ class Programs(unittest.TestCase):
         second = rack.run("G21 G91\nG1 X5 F1200\nM2\n").check()
         self.assertEqual((round(first.path_mm, 9), round(second.path_mm, 9)), (10, 5))
         self.assertEqual(second.axes["X"].pulses_net * 2, first.check().axes["X"].pulses_net)
-        self.assertLess(second.worst.mm, 0.02)
-        self.assertAlmostEqual(second.axes["X"].real_end, 15, delta=0.01)
+        self.assertLess(second.max_deviation.mm, 0.02)
+        self.assertAlmostEqual(second.axes["X"].actual_end, 15, delta=0.01)
         self.assertAlmostEqual(float(second.trace["x.position"][0]), 10, delta=0.01)
         self.assertEqual(first.svg(), picture, "what came of the first one stays")
         self.assertEqual(copy.run("G21 G91\nG1 X5 F1200\nM2\n").trace_hash, second.trace_hash)
@@ -259,7 +265,7 @@ class Programs(unittest.TestCase):
         rack = Rack.from_file(EXAMPLES / "08_homing" / "machine.toml")
         self.assertTrue(rack.home().ok)
         outcome = rack.run("G21 G90\nG1 X20 F1200\nM2\n").check()
-        self.assertLess(outcome.worst.mm, 0.02)
+        self.assertLess(outcome.max_deviation.mm, 0.02)
         self.assertAlmostEqual(outcome.axes["X"].planned_end, 20, delta=0.01)
 
     def test_have_tools_and_the_subprograms_beside_them(self) -> None:
@@ -268,15 +274,15 @@ class Programs(unittest.TestCase):
             Path(folder, "side.ngc").write_text("o<side> sub\nG1 X#1 Z0\no<side> endsub\n", encoding="utf-8")
             Path(folder, "tools.tbl").write_text("T3 P1 Z2.5\n", encoding="utf-8")
             rack = Rack.template("router")
-            with self.assertRaisesRegex(BadInput, "no tool table"):
+            with self.assertRaisesRegex(InvalidInput, "no tool table"):
                 rack.check(path=f"{folder}/part.ngc")
-            with self.assertRaisesRegex(BadInput, "came without a folder"):
+            with self.assertRaisesRegex(InvalidInput, "came without a folder"):
                 rack.check(Path(folder, "part.ngc").read_text(encoding="utf-8"), tools=f"{folder}/tools.tbl")
-            with self.assertRaisesRegex(motionrack.FileTrouble, "nowhere.tbl"):
+            with self.assertRaisesRegex(motionrack.FileError, "nowhere.tbl"):
                 rack.check(path=f"{folder}/part.ngc", tools=f"{folder}/nowhere.tbl")
             outcome = rack.run(path=f"{folder}/part.ngc", tools=f"{folder}/tools.tbl")
             self.assertIsNone(outcome.error)
-            self.assertEqual((outcome.axes["X"].real_end, outcome.axes["Z"].real_end), (7, 2.5))
+            self.assertEqual((outcome.axes["X"].actual_end, outcome.axes["Z"].actual_end), (7, 2.5))
 
 
 if __name__ == "__main__":

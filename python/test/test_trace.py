@@ -11,7 +11,7 @@ from pathlib import Path
 
 import motionrack
 import numpy as np
-from motionrack import BadInput, Rack, Refused
+from motionrack import InvalidInput, Rack, Refused
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SIGNALS = ("X.position_mm", "X.position_pulses", "motion.x.LP", "motion.x.CV", "X.limit_plus", "motion.RR0")
@@ -35,7 +35,7 @@ class Recordings(unittest.TestCase):
     def test_a_recording_is_a_look_at_each_instant_and_disturbs_nothing(self) -> None:
         rack = moving()
         referee = rack.copy()
-        with rack.record(*SIGNALS, every=1e-3) as recording:
+        with rack.record(*SIGNALS, period=1e-3) as recording:
             rack.advance(ms=150)
             rack.cards["motion"].driver.wait(1, timeout=10)  # a driver's waiting is recorded, too
             rack.advance(ms=10)
@@ -68,7 +68,7 @@ class Recordings(unittest.TestCase):
     def test_a_program_may_be_recorded_and_has_the_same_history(self) -> None:
         text = "G21 G90\nG1 X5 F600\nM2\n"
         rack = Rack.template()
-        with rack.record("X.position_mm", every=5e-4) as recording:
+        with rack.record("X.position_mm", period=5e-4) as recording:
             outcome = rack.run(text)
         self.assertEqual(outcome.trace_hash, Rack.template().run(text).trace_hash)
         self.assertEqual(recording.trace.hash(), outcome.trace_hash)
@@ -79,7 +79,7 @@ class Recordings(unittest.TestCase):
 
     def test_too_many_instants_are_thinned_and_stay_even(self) -> None:
         rack = moving()
-        with rack.record("motion.x.LP", every=1e-4, most=100) as recording:
+        with rack.record("motion.x.LP", period=1e-4, max_samples=100) as recording:
             rack.advance(ms=200)
         ticks = recording.trace.ticks
         self.assertLessEqual(len(ticks), 101)
@@ -88,13 +88,13 @@ class Recordings(unittest.TestCase):
 
     def test_one_recording_at_a_time_and_only_what_is_there(self) -> None:
         rack = moving()
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             rack.record("X.nothing")
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             rack.record("nothing")
         for every in (0, -1, 1e-9, 1e9):
             with self.assertRaises(Refused):
-                rack.record("X.position_mm", every=every)
+                rack.record("X.position_mm", period=every)
         recording = rack.record("X.position_mm")
         with self.assertRaises(Refused):
             rack.record("X.position_mm")
@@ -123,10 +123,10 @@ class Pictures(unittest.TestCase):
 
     def test_the_projects_own_picture_is_sound_svg(self) -> None:
         trace = self.trace()
-        for svg in (trace.svg("x.position", "x.speed"), trace._repr_svg_()):
+        for svg in (trace.svg("x.position", "x.velocity"), trace._repr_svg_()):
             root = xml.etree.ElementTree.fromstring(svg or "")
             self.assertTrue(root.tag.endswith("svg"))
-        with self.assertRaises(BadInput):
+        with self.assertRaises(InvalidInput):
             trace.svg("nothing")
         with self.assertRaises(Refused):
             trace.svg("x.position", width=1)
@@ -140,7 +140,7 @@ trace = motionrack.Rack.template().run("G1 X5 F600\\n").trace
 assert trace.plot("x.position", path=sys.argv[1]) is trace and "<svg" in trace._repr_svg_()
 try:
     trace.plot("x.position", path=sys.argv[1] + ".png")
-except motionrack.BadInput as error:
+except motionrack.InvalidInput as error:
     assert "does not end in .svg" in str(error)
 else:
     raise AssertionError("an SVG file was called .png")
@@ -155,7 +155,7 @@ else:
         except ImportError:
             self.skipTest("matplotlib is not there")
         with tempfile.TemporaryDirectory() as folder:
-            figure = self.trace().plot("x.position", "x.speed", "deviation", path=f"{folder}/a.png")
+            figure = self.trace().plot("x.position", "x.velocity", "deviation", path=f"{folder}/a.png")
             self.assertIsInstance(figure, Figure)
             self.assertEqual(len(figure.axes), 3)
             self.assertGreater(Path(f"{folder}/a.png").stat().st_size, 1000)

@@ -57,7 +57,7 @@ class Worlds(unittest.TestCase):
 class Threads(unittest.TestCase):
     def test_other_threads_go_on_and_may_not_touch_a_running_rack(self) -> None:
         rack = Rack.template("router")
-        rack.record("X.position_mm", every=1e-5)  # keeps it busy
+        rack.record("X.position_mm", period=1e-5)  # keeps it busy
         refused: list[BaseException] = []
         done = threading.Event()
 
@@ -109,7 +109,7 @@ try:
 except KeyboardInterrupt:
     print("interrupted in a program")
 rack = motionrack.Rack.from_text('card.c1 = "mcx314"')
-rack.record("c1.x.LP", every=1e-6)
+rack.record("c1.x.LP", period=1e-6)
 timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)); timer.start()
 try:
     rack.advance(3600 * 24 * 1000)

@@ -58,7 +58,7 @@ class AServedRackOnABadDisk : public InFolder {
     /// While a position is declared nothing begins.
     static json begin(Served& served, const std::string& name, const std::string& text) {
         json answer;
-        do answer = served.post("begin", {{"name", name}, {"text", text}});
+        do answer = served.post("start_program", {{"name", name}, {"text", text}});
         while (answer.dump().find("try again at once") != std::string::npos);
         return answer;
     }
@@ -81,7 +81,7 @@ class AServedRackOnABadDisk : public InFolder {
         if (out.started) {
             took(served.post("take_control"), "take_control");
             took(served.post("enable", {{"on", true}}), "enable on=true");
-            took(served.post("declare_position", {{"axis", "X"}, {"position", 0}}), "declare_position");
+            took(served.post("set_position", {{"axis", "X"}, {"position", 0}}), "set_position");
         }
         const std::string name = "to_" + json(x).dump() + ".ngc";
         if (out.started && took(begin(served, name, "G1 F6000 X" + json(x).dump() + "\nM30\n"), name))
@@ -102,7 +102,7 @@ class AServedRackOnABadDisk : public InFolder {
         if (!lies) {
             auto book = journal::Journal::open(at("data/table.journal"));
             ASSERT_TRUE(book) << book.error().message;
-            const auto read = (*book)->read({0, "order", 10000});
+            const auto read = (*book)->read({0, "command", 10000});
             ASSERT_TRUE(read);
             std::string orders;
             for (const journal::Entry& entry : *read) orders += entry.text + " " + entry.data + "\n";
@@ -118,7 +118,7 @@ class AServedRackOnABadDisk : public InFolder {
         }
         const json status = next.status();
         ASSERT_TRUE(status.contains("axes")) << next.said;
-        if (status["axes"][0]["trusted"].get<bool>()) {
+        if (status["axes"][0]["position_valid"].get<bool>()) {
             EXPECT_TRUE(session.code == 0 || !session.started);
             EXPECT_EQ(status["axes"][0]["commanded"], session.started ? x : before);
         } else if (!lies) {
@@ -133,7 +133,7 @@ TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndTrustsNoPlaceAfterwards) 
         Served served(arguments());
         EXPECT_TRUE(is_done(served.post("take_control")));
         EXPECT_TRUE(is_done(served.post("enable", {{"on", true}})));
-        EXPECT_TRUE(is_done(served.post("declare_position", {{"axis", "X"}, {"position", 0}})));
+        EXPECT_TRUE(is_done(served.post("set_position", {{"axis", "X"}, {"position", 0}})));
         EXPECT_TRUE(is_done(begin(served, "a.ngc", "G1 X500 F3000\nX0\nM30\n")));
         while (served.status()["axes"][0]["commanded"].get<double>() < 2) continue;
         write("full", "");
@@ -148,13 +148,13 @@ TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndTrustsNoPlaceAfterwards) 
         std::filesystem::remove(folder / "full");
         for (const char* order : {"resume", "home"}) EXPECT_FALSE(is_done(served.post(order))) << order;
         EXPECT_TRUE(is_done(served.post("stop")));
-        EXPECT_FALSE(is_done(served.post("begin", {{"name", "b.ngc"}, {"text", "G1 X0 F3000\n"}})));
+        EXPECT_FALSE(is_done(served.post("start_program", {{"name", "b.ngc"}, {"text", "G1 X0 F3000\n"}})));
         EXPECT_EQ(served.end(SIGTERM), 5);
     }
     Served served(arguments());
     EXPECT_THAT(served.said, HasSubstr("cut off"));
     const json status = served.status();
-    EXPECT_FALSE(status["axes"][0]["trusted"]);
+    EXPECT_FALSE(status["axes"][0]["position_valid"]);
     EXPECT_EQ(status["alarms"].size(), 1u);
 }
 

@@ -74,7 +74,7 @@ void AFault::run_program() const {
     for (const json& warning : summary["warnings"]) said += "\n" + warning["text"].get<std::string>();
     expect_words(said);
     if (fault().trusted) {
-        EXPECT_EQ(summary["position_trusted"], *fault().trusted) << said;
+        EXPECT_EQ(summary["position_valid"], *fault().trusted) << said;
     }
     if (!fault().within_ms) {
         EXPECT_FALSE(summary.contains("error")) << "it was to go on to its end: " << said;
@@ -110,7 +110,7 @@ void AFault::look_at_recording(const json& summary) const {
     }
     if (fault().within_ms) {
         EXPECT_LE(to_seconds(last), to_seconds(last_motion())) << "the last motion";
-        EXPECT_LE(summary["seconds"].get<double>(), to_seconds(last_motion()) + 1) << "the program's end";
+        EXPECT_LE(summary["duration_s"].get<double>(), to_seconds(last_motion()) + 1) << "the program's end";
     }
     look_at_values(*recording);
 }
@@ -141,7 +141,7 @@ void AFault::home() const {
         EXPECT_EQ(axis["homed"], *fault().trusted);
     }
     if (fault().within_ms) {
-        EXPECT_LE(axis["seconds"].get<double>(), to_seconds(last_motion()));
+        EXPECT_LE(axis["duration_s"].get<double>(), to_seconds(last_motion()));
     }
 }
 

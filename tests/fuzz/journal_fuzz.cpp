@@ -28,7 +28,7 @@ const ScratchFile& file() {
 /// Returns the number of the entry, or the write error.
 Result<std::int64_t> write(Journal& journal, const std::string& text) {
     std::promise<Result<std::int64_t>> number;
-    journal.write(Instant{7}, "order", text, "{}", [&](const Result<std::int64_t>& done) { number.set_value(done); });
+    journal.write(Instant{7}, "command", text, "{}", [&](const Result<std::int64_t>& done) { number.set_value(done); });
     return number.get_future().get();
 }
 

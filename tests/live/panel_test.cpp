@@ -153,11 +153,9 @@ TEST_F(ThePanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
 
 TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
     const std::vector<std::pair<const char*, json>> orders = {
-        {"stop", json::object()},
-        {"service", {{"card", "bench"}, {"on", false}}},
-        {"enable", {{"on", false}}},
-        {"release_control", json::object()},
-        {"press_estop", {{"pressed", true}}},
+        {"stop", json::object()},           {"service", {{"card", "bench"}, {"on", false}}},
+        {"enable", {{"on", false}}},        {"release_control", json::object()},
+        {"set_estop", {{"pressed", true}}},
     };
     for (const auto& [order, fields] : orders) {
         drive_x();
@@ -166,7 +164,7 @@ TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
         until_stopped(*served);
         EXPECT_TRUE(alarm(*served).is_null()) << order;
         if (served->status()["state"] != "error stop") continue;
-        served->post("press_estop", {{"pressed", false}});
+        served->post("set_estop", {{"pressed", false}});
         served->post("take_control");
         until("it is reset", [&] {
             served->post("reset");

@@ -18,7 +18,13 @@ from found import files_of, finish, text_of, version_of
 ROOT = Path(sys.argv[1])
 VERSION = version_of(ROOT)
 # Where a version of this project may stand as a number, and lists of other projects' versions.
-RECORDS = {"CMakeLists.txt", "CHANGELOG.md", "bench/measured.json", "docs/reference/performance.md"}
+RECORDS = {
+    "CMakeLists.txt",
+    "CHANGELOG.md",
+    "bench/measured.json",
+    "docs/reference/performance.md",
+    "motionrack/trace/former_version.hpp",
+}
 OTHERS = {"hmi/package-lock.json", "docs/reference/third-party.md"}
 
 

@@ -191,7 +191,7 @@ class Lives {
     }
 
     void look_for_taken() {
-        const auto entries = journal_->read({0, "order", 10'000});
+        const auto entries = journal_->read({0, "command", 10'000});
         if (!entries) return;  // the disk fails
         for (const Taken& one : taken_) {
             const auto there = std::find_if(entries->begin(), entries->end(),
@@ -265,7 +265,7 @@ class Lives {
     void acknowledge(const std::string& text) {
         if (!journal_) return;
         std::promise<Result<std::int64_t>> written;
-        journal_->write(machine_->now(), "order", text, {},
+        journal_->write(machine_->now(), "command", text, {},
                         [&written](const Result<std::int64_t>& number) { written.set_value(number); });
         const Result<std::int64_t> number = written.get_future().get();
         if (number) taken_.push_back({*number, text});
@@ -306,7 +306,7 @@ class Lives {
                 (void)machine_->enable(true);
                 laws.ordered(Order::enable);
                 machine_->set_overrides(1, 1);
-                machine_->set_single_step(false);
+                machine_->set_single_block(false);
                 return;
             case 3:
                 for (const operate::AxisStatus& axis : machine_->status().axes) {

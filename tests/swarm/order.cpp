@@ -119,8 +119,8 @@ Result<void> set_overrides(Machine& machine, Draws& draws) {
     machine.set_overrides(draws.number(0.01, 2), draws.number(0.01, 1));
     return {};
 }
-Result<void> single_step(Machine& machine, Draws& draws) {
-    machine.set_single_step(draws.one_in(2));
+Result<void> single_block(Machine& machine, Draws& draws) {
+    machine.set_single_block(draws.one_in(2));
     return {};
 }
 Result<void> coolant(Machine& machine, Draws& draws) {
@@ -128,11 +128,11 @@ Result<void> coolant(Machine& machine, Draws& draws) {
     return {};
 }
 Result<void> acknowledge(Machine& machine, Draws& draws) {
-    machine.acknowledge(1 + draws.pick(5));
+    machine.acknowledge_alarm(1 + draws.pick(5));
     return {};
 }
-Result<void> set_work_zero(Machine& machine, Draws& draws) {
-    return machine.set_work_zero(some_letter(machine, draws), draws.number(-20, 20));
+Result<void> touch_off(Machine& machine, Draws& draws) {
+    return machine.touch_off(some_letter(machine, draws), draws.number(-20, 20));
 }
 
 /// A card of the machine: every rack has one with motion and a library.
@@ -185,12 +185,12 @@ constexpr std::array orders = {DrawnOrder{"begin_program", 14, Order::motion, be
                                DrawnOrder{"cancel", 3, {}, cancel},
                                DrawnOrder{"reset", 10, Order::reset, reset},
                                DrawnOrder{"enable", 8, Order::enable, enable},
-                               DrawnOrder{"declare_position", 8, Order::position, declare},
+                               DrawnOrder{"set_position", 8, Order::position, declare},
                                DrawnOrder{"set_overrides", 5, {}, set_overrides},
-                               DrawnOrder{"set_single_step", 3, {}, single_step},
+                               DrawnOrder{"set_single_block", 3, {}, single_block},
                                DrawnOrder{"set_coolant", 1, {}, coolant},
-                               DrawnOrder{"acknowledge", 3, {}, acknowledge},
-                               DrawnOrder{"set_work_zero", 2, {}, set_work_zero},
+                               DrawnOrder{"acknowledge_alarm", 3, {}, acknowledge},
+                               DrawnOrder{"touch_off", 2, {}, touch_off},
                                DrawnOrder{"service", 6, Order::motion, service},
                                DrawnOrder{"call", 14, Order::motion, call}};
 

@@ -1,6 +1,6 @@
 // Belt, table or stage: its position, and the button that restarts it after a stop.
 import type { JSX } from 'preact';
-import { mayOperate, order } from '../link/commands';
+import { mayOperate, command } from '../link/commands';
 import { fixed, unitName } from '../parts/numbers';
 import { Button } from '../parts/ui';
 
@@ -20,7 +20,7 @@ export function Carrier({ part }: { part: CarrierState }): JSX.Element {
       <dd class="tabular">
         {fixed(part.position, 2)} {unit}, {fixed(part.speed, 1)} {unit}/s{' '}
         {part.stopped && (
-          <Button why={mayOperate()} icon="run" onClick={() => void order('start_part', { part: part.name })}>
+          <Button why={mayOperate()} icon="run" onClick={() => void command('start_part', { part: part.name })}>
             Start {part.name}
           </Button>
         )}

@@ -1,7 +1,7 @@
 // Manual bus accesses to a card: reads and writes ports and registers with all side effects.
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
-import { whyNot, orderFor, notice } from '../link/commands';
+import { whyNot, commandFor, notice } from '../link/commands';
 import { inControl, standsStill } from '../link/state';
 import type { CardInfo, CommandInfo } from '../link/rack';
 import { hex } from '../parts/numbers';
@@ -65,11 +65,11 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
   const chosen = place.value === '' ? (places[0]?.offset ?? 0) : Number(place.value);
   const add = (text: string, answer: string): void => void (log.value = [...log.value, { text, answer }].slice(-40));
   const write = async (address: number, what: number, name: string): Promise<void> => {
-    if ((await orderFor('write_register', { card: card.name, bits, address, value: what })) !== null)
+    if ((await commandFor('write_register', { card: card.name, bits, address, value: what })) !== null)
       add(name, hex(what, bits));
   };
   const read = async (): Promise<void> => {
-    const reply = await orderFor('read_register', { card: card.name, bits, address: card.bus.base + chosen });
+    const reply = await commandFor('read_register', { card: card.name, bits, address: card.bus.base + chosen });
     if (reply !== null) add(`read ${namesAt(card, chosen)}`, hex(reply.value as number, bits));
   };
   const why = mayAccess(card);

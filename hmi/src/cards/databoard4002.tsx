@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import uPlot from 'uplot';
-import { notice, orderFor } from '../link/commands';
+import { notice, commandFor } from '../link/commands';
 import type { CardInfo, CommandInfo } from '../link/rack';
 import { fixed, typed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
@@ -71,11 +71,11 @@ function busOf(card: CardInfo, answer: CardAnswer | null): Bus {
     card.bus.base +
     (card.registers.find((one) => one.name === name || (name === 'DATA' && one.name === 'OUT'))?.offset ?? 0);
   const write = async (name: string, value: number): Promise<boolean> =>
-    (await orderFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null;
+    (await commandFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null;
   return {
     choose: async () => answer?.pins.csb === 1 || (await write('CS', valueOf(answer, 'SELECT') ?? 0)),
     read: async (name) =>
-      ((await orderFor('read_register', { card: card.name, bits: 8, address: port(name) }))?.value as
+      ((await commandFor('read_register', { card: card.name, bits: 8, address: port(name) }))?.value as
         number | undefined) ?? null,
     write,
     rest: () => new Promise((done) => setTimeout(done, 5)),

@@ -28,7 +28,7 @@ interface Bus {
   name: string;
   published: number;
   agree: boolean;
-  why: string;
+  reason: string;
   cards: BusCard[];
 }
 interface FramesAnswer {
@@ -46,7 +46,7 @@ function Table({ bus }: { bus: Bus }): JSX.Element {
     <>
       <p class={`agreement ${bus.agree ? 'yes' : 'no'}`}>
         <Icon name={bus.agree ? 'check' : 'alarm'} />
-        <strong>{bus.agree ? 'All cards hold the same frame' : bus.why}</strong>
+        <strong>{bus.agree ? 'All cards hold the same frame' : bus.reason}</strong>
         <span class="tabular">{whole(bus.published)} frames published</span>
       </p>
       <div class="scroll" tabIndex={0} role="region" aria-label="Cards of the bus">

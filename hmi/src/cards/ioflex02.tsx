@@ -2,7 +2,7 @@
 // encoder faults.
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
-import { orderFor } from '../link/commands';
+import { commandFor } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { fixed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
@@ -51,7 +51,7 @@ export function speedOf({ now, before }: Seen, axis: number): number | null {
 function write(card: CardInfo, register: string, value: number): void {
   const found = card.registers.find((one) => one.name === register);
   if (found === undefined) return;
-  void orderFor('write_register', { card: card.name, bits: 16, address: card.bus.base + found.offset, value });
+  void commandFor('write_register', { card: card.name, bits: 16, address: card.bus.base + found.offset, value });
 }
 
 function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }): JSX.Element {

@@ -41,9 +41,9 @@ function note(card: string, line: Line): void {
 }
 
 /** Sends a command and adds its sentence to the calls. */
-async function give(card: string, text: string, order: string, fields: Record<string, unknown>): Promise<void> {
+async function give(card: string, text: string, command: string, fields: Record<string, unknown>): Promise<void> {
   try {
-    const reply = await ask({ ...fields, order }, GIVE_UP_MS);
+    const reply = await ask({ ...fields, command }, GIVE_UP_MS);
     note(card, { text, answer: typeof reply.text === 'string' ? reply.text : 'done', bad: false });
   } catch (why) {
     note(card, { text, answer: sentence(why), bad: true });

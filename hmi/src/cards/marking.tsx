@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useId } from 'preact/hooks';
-import { mayOperate, notice, order, orderFor } from '../link/commands';
+import { mayOperate, notice, command, commandFor } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { Button, Choice, Panel } from '../parts/ui';
 
@@ -22,7 +22,7 @@ const start = signal<'now' | 'parts'>('parts');
 
 async function mark(card: string): Promise<void> {
   localStorage.setItem('motionrack.job', job.value);
-  const reply = await orderFor('mark', { card, job: job.value, start: start.value });
+  const reply = await commandFor('mark', { card, job: job.value, start: start.value });
   if (reply === null) return;
   const notes = Array.isArray(reply.notes) ? (reply.notes as string[]) : [];
   notice(
@@ -59,7 +59,7 @@ export function Marking({ card }: { card: CardInfo }): JSX.Element {
         <Button why={why} kind="main" icon="run" onClick={() => void mark(card.name)}>
           Mark
         </Button>
-        <Button why={why} icon="standstill" onClick={() => void order('mark_stop', { card: card.name })}>
+        <Button why={why} icon="standstill" onClick={() => void command('mark_stop', { card: card.name })}>
           Stop marking
         </Button>
       </div>

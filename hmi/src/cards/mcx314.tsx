@@ -5,7 +5,7 @@ import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
 import { channelNames, type CardInfo } from '../link/rack';
-import { mayOperate, notice, order, whyInService } from '../link/commands';
+import { mayOperate, notice, command, whyInService } from '../link/commands';
 import { axisOf } from '../link/state';
 import { typed, unitName, whole } from '../parts/numbers';
 import { Button, Choice, Field, Led, Panel } from '../parts/ui';
@@ -101,7 +101,7 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
   const move = (direction: 1 | -1): void => {
     const [by, at] = [typed(distance.value), typed(speed.value)];
     if (by === null || at === null) notice('refused', 'Distance and speed must be numbers. Nothing was moved.');
-    else void order('jog_by', { axis: letter, distance: direction * by, speed: at });
+    else void command('jog_by', { axis: letter, distance: direction * by, speed: at });
   };
   return (
     <Panel title="Moves and homing" class="moves">
@@ -134,7 +134,7 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
         </Button>
       </div>
       <div class="row">
-        <Button machine icon="home" why={why} onClick={() => void order('home', { axes: letter })}>
+        <Button machine icon="home" why={why} onClick={() => void command('home', { axes: letter })}>
           Home {letter}
         </Button>
       </div>

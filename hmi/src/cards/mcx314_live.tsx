@@ -37,7 +37,7 @@ function Counters({ card, seen }: { card: CardInfo; seen: CardAnswer }): JSX.Ele
 export function LiveMcx({ card, place }: { card: CardInfo; place: string }): JSX.Element {
   const { data, why } = usePoll<CardAnswer>('card', { name: card.name }, EVERY_MS);
   const seen = data.value;
-  const none = why.value !== '' ? why.value : (seen?.why ?? '');
+  const none = why.value !== '' ? why.value : (seen?.reason ?? '');
   const main = card.registers.find((one) => one.name === 'RR0');
   const moves = status.value?.service === card.name;
   return (

@@ -15,7 +15,7 @@ export interface CardAnswer {
   quantities: { name: string; value: number }[];
   pins: Record<string, number>;
   /** Reason why a real card has no values. */
-  why?: string;
+  reason?: string;
 }
 
 export const wordOf = (answer: CardAnswer | null, name: string): number | null =>

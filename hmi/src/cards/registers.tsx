@@ -75,9 +75,9 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
     <>
       <Field label="Find" value={filter.value} wide placeholder="RR0, LP …" onInput={(text) => (filter.value = text)} />
       {why.value !== '' && <p class="why">{why.value}</p>}
-      {data.value?.why !== undefined && <p class="why">{data.value.why}</p>}
+      {data.value?.reason !== undefined && <p class="why">{data.value.reason}</p>}
       {data.value !== null &&
-        data.value.why === undefined &&
+        data.value.reason === undefined &&
         registers.length + values.length + numbers.length === 0 && (
           <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>
         )}

@@ -10,7 +10,7 @@
 // The program itself stops an axis that was not renewed for 250 ms; this page only reacts faster.
 import { signal } from '@preact/signals';
 import { axisOf } from '../link/state';
-import { order } from '../link/commands';
+import { command } from '../link/commands';
 import { ask, whenLost } from '../link/socket';
 
 export const RENEW_MS = 80;
@@ -49,13 +49,13 @@ let sequence = 0;
 let timer: ReturnType<typeof setInterval> | undefined;
 
 const speedOf = (axis: string, rapid: boolean): number =>
-  (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
+  (axisOf(axis)?.max_velocity ?? 0) * (rapid ? 1 : speedPart.value);
 
 const speedFor = (one: Held): number => one.direction * speedOf(one.axis, one.rapid);
 
 function renew(): void {
   for (const [who, one] of held)
-    ask({ order: 'jog', axis: one.axis, speed: speedFor(one), sequence: ++sequence, renews: true }).catch(() =>
+    ask({ command: 'jog', axis: one.axis, speed: speedFor(one), sequence: ++sequence, renews: true }).catch(() =>
       drop(who, one),
     );
 }
@@ -76,14 +76,14 @@ export function begin(who: string, axis: string, direction: 1 | -1, rapid = fals
   if (axisOf(axis) === undefined || held.has(who)) return;
   const step = STEPS[stepIndex.value];
   if (step !== null && step !== undefined) {
-    void order('jog_by', { axis, distance: direction * step, speed: speedOf(axis, rapid) });
+    void command('jog_by', { axis, distance: direction * step, speed: speedOf(axis, rapid) });
     return;
   }
   for (const [other, one] of held) if (one.axis === axis) held.delete(other);
   const one: Held = { axis, direction, rapid };
   held.set(who, one);
   tell();
-  void order('jog', { axis, speed: speedFor(one), sequence: ++sequence }).then((taken) => {
+  void command('jog', { axis, speed: speedFor(one), sequence: ++sequence }).then((taken) => {
     if (!taken) drop(who, one);
   });
   timer ??= setInterval(renew, RENEW_MS);
@@ -93,7 +93,7 @@ export function end(who: string): void {
   const one = held.get(who);
   if (one === undefined) return;
   held.delete(who);
-  if (held.size > 0) ask({ order: 'jog', axis: one.axis, speed: 0, sequence: ++sequence }).catch(() => undefined);
+  if (held.size > 0) ask({ command: 'jog', axis: one.axis, speed: 0, sequence: ++sequence }).catch(() => undefined);
   settle();
 }
 
@@ -113,7 +113,7 @@ export function endAll(): void {
 function settle(): void {
   tell();
   if (held.size > 0) return;
-  ask({ order: 'jog_stop', sequence: ++sequence }).catch(() => undefined);
+  ask({ command: 'jog_stop', sequence: ++sequence }).catch(() => undefined);
   clearInterval(timer);
   timer = undefined;
 }

@@ -32,14 +32,14 @@ export function sentence(why: unknown): string {
 }
 
 /** Sends a command. Returns false if it was rejected; the sentence is on the screen. */
-export async function order(name: string, fields: Fields = {}): Promise<boolean> {
-  return (await orderFor(name, fields)) !== null;
+export async function command(name: string, fields: Fields = {}): Promise<boolean> {
+  return (await commandFor(name, fields)) !== null;
 }
 
-/** As order, with the answer; null if rejected. */
-export async function orderFor(name: string, fields: Fields = {}): Promise<Reply | null> {
+/** As command, with the answer; null if rejected. */
+export async function commandFor(name: string, fields: Fields = {}): Promise<Reply | null> {
   try {
-    return await ask({ ...fields, order: name });
+    return await ask({ ...fields, command: name });
   } catch (why) {
     notice('refused', sentence(why));
     return null;
@@ -52,7 +52,7 @@ export const query = async <T>(name: string, fields: Fields = {}): Promise<T> =>
 
 /** Sends STOP over the stream and over HTTP. It needs neither token nor lease; a token identifies the user. */
 export function stop(): void {
-  ask({ order: 'stop' }).catch(() => undefined);
+  ask({ command: 'stop' }).catch(() => undefined);
   const token = localStorage.getItem(TOKEN_KEY);
   const headers: Record<string, string> = token === null ? {} : { authorization: `Bearer ${token}` };
   fetch('api/stop', { method: 'POST', keepalive: true, headers }).then(

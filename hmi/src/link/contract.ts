@@ -35,7 +35,7 @@ export type LedName = (typeof LEDS)[number];
 export interface AxisStatus {
   letter: string;
   unit: string;
-  trusted: boolean;
+  position_valid: boolean;
   enabled: boolean;
   can_home: boolean;
   commanded: number;
@@ -46,7 +46,7 @@ export interface AxisStatus {
   counts: number;
   min: number;
   max: number;
-  max_speed: number;
+  max_velocity: number;
   leds: Partial<Record<LedName, boolean>>;
 }
 
@@ -63,11 +63,11 @@ export interface Status {
   at: number;
   sequence: number;
   state: string;
-  why: string;
+  reason: string;
   /** Card whose functions are called manually; empty: none. */
   service?: string;
   simulation: boolean;
-  clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
+  clock: { mode: 'real' | 'unthrottled' | 'paused'; factor: number; late_ms: number };
   estop: { wired: boolean; pressed: boolean };
   control: { holder: string | null; holder_session?: string; since?: number };
   axes: AxisStatus[];
@@ -77,7 +77,7 @@ export interface Status {
     line: number;
     lines: number;
     remaining_s: number | null;
-    single_step: boolean;
+    single_block: boolean;
   };
   overrides: { feed: number; rapid: number };
   alarms: Alarm[];
@@ -102,7 +102,7 @@ export interface MachineEvent {
 }
 
 export interface ErrorBody {
-  trouble: string;
+  kind: string;
   message: string;
   line?: number;
   column?: number;

@@ -1,6 +1,6 @@
 // Control lease: taken and released manually, kept while this tab is open; the page never takes it by itself.
 import { ask } from './socket';
-import { order, whyNot } from './commands';
+import { command, whyNot } from './commands';
 import { holder, inControl, link, mayBeTakenOver, user } from './state';
 
 const KEEP_MS = 3000;
@@ -18,12 +18,12 @@ export function whyNotControl(): string {
 /** Takes control by force, except from the same user during motion, which passes it on unchanged. */
 export function takeControl(): void {
   const force = holder.value !== '' && !(own() && !mayBeTakenOver.value);
-  void order('take_control', force ? { force } : {});
+  void command('take_control', force ? { force } : {});
 }
-export const releaseControl = (): void => void order('release_control');
+export const releaseControl = (): void => void command('release_control');
 
 export function keepControl(): void {
   setInterval(() => {
-    if (inControl.value && link.value === 'open') ask({ order: 'keep_control' }).catch(() => undefined);
+    if (inControl.value && link.value === 'open') ask({ command: 'renew_control' }).catch(() => undefined);
   }, KEEP_MS);
 }

@@ -25,7 +25,7 @@ export async function pair(code: string, name: string): Promise<void> {
   if (!answer.ok || body.token === undefined)
     throw new Refusal(
       body.error ?? {
-        trouble: 'denied',
+        kind: 'denied',
         message: `The program answered ${answer.status}; this browser is not paired.`,
       },
     );

@@ -48,7 +48,7 @@ export function ask(fields: Fields, give_up_ms = GIVE_UP_MS): Promise<Reply> {
   const open = socket;
   if (open?.readyState !== WebSocket.OPEN)
     return Promise.reject(
-      new Refusal({ trouble: 'io', message: 'There is no connection to the program. Nothing was sent.' }),
+      new Refusal({ kind: 'io', message: 'There is no connection to the program. Nothing was sent.' }),
     );
   const id = next++;
   return new Promise((resolve, reject) => {
@@ -56,7 +56,7 @@ export function ask(fields: Fields, give_up_ms = GIVE_UP_MS): Promise<Reply> {
       waiting.delete(id);
       reject(
         new Refusal({
-          trouble: 'io',
+          kind: 'io',
           message: `The program has not answered for ${give_up_ms / 1000} s. Look at the machine's state before you try again.`,
         }),
       );
@@ -129,7 +129,7 @@ export async function showToken(): Promise<void> {
       state.role.value = reply.role as Role;
       state.user.value = (reply.user as string | undefined) ?? '';
     } catch (why) {
-      if (why instanceof Refusal && why.body.trouble === 'denied') localStorage.removeItem(TOKEN_KEY);
+      if (why instanceof Refusal && why.body.kind === 'denied') localStorage.removeItem(TOKEN_KEY);
     }
   for (const call of onOpen) call();
 }
@@ -143,7 +143,7 @@ function gone(which: WebSocket): void {
   state.link.value = 'lost';
   for (const call of onLost) call();
   const why = new Refusal({
-    trouble: 'io',
+    kind: 'io',
     message:
       "The connection to the program was lost before it answered. Look at the machine's state before you try again.",
   });

@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { actions } from '../actions';
-import { mayMaintain, notice, order } from '../link/commands';
+import { mayMaintain, notice, command } from '../link/commands';
 import { status } from '../link/state';
 import { fixed, typed } from '../parts/numbers';
 import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
@@ -11,7 +11,7 @@ import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
 const MODES = [
   { value: 'paused', text: 'Pause' },
   ...[0.1, 0.5, 1, 2, 10].map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })),
-  { value: 'free', text: 'Free' },
+  { value: 'unthrottled', text: 'Free' },
 ];
 
 export function Clock(): JSX.Element {
@@ -19,8 +19,8 @@ export function Clock(): JSX.Element {
   const step = useSignal('0.002');
   const why = mayMaintain();
   const set = (mode: string): void => {
-    if (mode === 'free' || mode === 'paused') void order('set_clock', { mode });
-    else void order('set_clock', { mode: 'real', factor: Number(mode) });
+    if (mode === 'unthrottled' || mode === 'paused') void command('set_clock', { mode });
+    else void command('set_clock', { mode: 'real', factor: Number(mode) });
   };
   const stepBy = (): void => {
     const seconds = typed(step.value);
@@ -29,7 +29,7 @@ export function Clock(): JSX.Element {
         'refused',
         `The clock cannot be stepped by "${step.value}"; a number of seconds above 0 is needed. Nothing was done.`,
       );
-    else void order('step_clock', { seconds });
+    else void command('advance_clock', { duration_s: seconds });
   };
   const now = clock === undefined ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
   return (

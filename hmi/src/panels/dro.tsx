@@ -2,7 +2,7 @@
 import type { JSX } from 'preact';
 import { actions, axisLetter, chosenAxis, placeText } from '../actions';
 import { LEDS, type AxisStatus, type LedName } from '../link/contract';
-import { mayOperate, order } from '../link/commands';
+import { mayOperate, command } from '../link/commands';
 import * as state from '../link/state';
 
 import { Icon } from '../parts/icons';
@@ -52,20 +52,20 @@ function Letter({ axis, chosen }: { axis: AxisStatus; chosen: boolean }): JSX.El
 }
 
 function Homed({ axis }: { axis: AxisStatus }): JSX.Element {
-  const meaning = axis.trusted
-    ? 'The position is trusted: homed or declared'
-    : 'The position is not trusted: home the axis, or declare where it stands';
+  const meaning = axis.position_valid
+    ? 'The position is valid: homed or set'
+    : 'The position is not valid: home the axis, or set its position';
   return (
-    <span class={`homed ${axis.trusted ? 'yes' : 'no'}`} title={meaning}>
-      <Icon name={axis.trusted ? 'check' : 'alarm'} size={14} />
-      {axis.trusted ? 'homed' : 'not homed'}
+    <span class={`homed ${axis.position_valid ? 'yes' : 'no'}`} title={meaning}>
+      <Icon name={axis.position_valid ? 'check' : 'alarm'} size={14} />
+      {axis.position_valid ? 'homed' : 'not homed'}
     </span>
   );
 }
 
 /** Enable and home of one axis. */
 function Ways({ axis }: { axis: AxisStatus }): JSX.Element {
-  const noHome = axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`;
+  const noHome = axis.can_home ? '' : `Axis ${axis.letter} has no home switch; set its position instead.`;
   return (
     <div class="ways">
       <Button
@@ -74,7 +74,7 @@ function Ways({ axis }: { axis: AxisStatus }): JSX.Element {
         pressed={axis.enabled}
         why={mayOperate()}
         label={`Axis ${axis.letter} enabled`}
-        onClick={() => void order('enable', { on: !axis.enabled, axes: axis.letter })}>
+        onClick={() => void command('enable', { on: !axis.enabled, axes: axis.letter })}>
         {''}
       </Button>
       <Button
@@ -82,7 +82,7 @@ function Ways({ axis }: { axis: AxisStatus }): JSX.Element {
         icon="home"
         why={mayOperate() || noHome}
         label={`Home axis ${axis.letter}`}
-        onClick={() => void order('home', { axes: axis.letter })}>
+        onClick={() => void command('home', { axes: axis.letter })}>
         {''}
       </Button>
     </div>
@@ -155,7 +155,7 @@ export function Dro(): JSX.Element {
           </span>
           <span title="In machine coordinates; the position is trusted then">
             <ActionButton action={actions.declare} icon="check">
-              Declare {axisLetter()}
+              Set {axisLetter()}
             </ActionButton>
           </span>
         </div>

@@ -62,7 +62,7 @@ export function Alarms(): JSX.Element {
   );
 }
 
-const KINDS = ['all', 'alarm', 'state', 'job', 'order', 'stop', 'setting'] as const;
+const KINDS = ['all', 'alarm', 'state', 'job', 'command', 'stop', 'setting'] as const;
 const kind = signal<(typeof KINDS)[number]>('all');
 
 export function Events(): JSX.Element {

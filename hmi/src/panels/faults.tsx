@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
-import { mayMaintain, notice, orderFor } from '../link/commands';
+import { mayMaintain, notice, commandFor } from '../link/commands';
 import { rack } from '../link/rack';
 import { fixed, typed } from '../parts/numbers';
 import { Button, Empty, Field, Led, Panel, Select } from '../parts/ui';
@@ -20,7 +20,7 @@ const target = signal('');
 const value = signal('1');
 
 async function inject(which: string, fault: string, amount: string): Promise<void> {
-  if ((await orderFor('inject_fault', { target: which, fault: `${fault}=${amount}` })) === null) return;
+  if ((await commandFor('inject_fault', { target: which, fault: `${fault}=${amount}` })) === null) return;
   const others = broken.value.filter((one) => one.target !== which || one.fault !== fault);
   broken.value = typed(amount) === 0 ? others : [...others, { target: which, fault, value: amount }];
 }
@@ -83,7 +83,7 @@ const found = computed(() =>
 );
 
 async function drive(name: string, level: number | null): Promise<void> {
-  if ((await orderFor('set_wire', { name, value: level })) === null) return;
+  if ((await commandFor('set_wire', { name, value: level })) === null) return;
   const { [name]: _, ...others } = driving.value;
   driving.value = level === null ? others : { ...others, [name]: level };
 }

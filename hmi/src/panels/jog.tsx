@@ -70,7 +70,7 @@ function Pad(): JSX.Element {
 function speedHint(): string {
   const first = state.axes.value[0];
   if (first === undefined) return '';
-  const speed = first.max_speed * speedPart.value;
+  const speed = first.max_velocity * speedPart.value;
   return `${fixed(speed, speed < 10 ? 2 : 0)} ${unitName(first.unit)}/s on ${first.letter}`;
 }
 

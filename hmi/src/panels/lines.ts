@@ -27,7 +27,7 @@ export async function send(): Promise<void> {
   localStorage.setItem(KEY, JSON.stringify(history.value));
   const one: Sent = { text, answer: '…', good: true };
   log.value = [...log.value, one].slice(-KEPT);
-  const answer = await ask({ order: 'line', text }).then(
+  const answer = await ask({ command: 'mdi', text }).then(
     () => ({ answer: 'ok', good: true }),
     (why: unknown) => ({ answer: sentence(why), good: false }),
   );

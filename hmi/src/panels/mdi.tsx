@@ -17,7 +17,7 @@ export function Mdi(): JSX.Element {
     event.preventDefault();
   };
   return (
-    <Panel title="Console" class="mdi">
+    <Panel title="MDI" class="mdi">
       <div class="log" role="log" aria-label="Lines sent and their answers" tabIndex={0}>
         {log.value.length === 0 && <Empty>Lines of G-code, driven one by one: G0 X10, G92 X0, M3 S1000.</Empty>}
         {log.value.slice(-30).map((one, i) => (

@@ -1,6 +1,6 @@
 // Feed and rapid overrides: a slider, its value, and reset to 100 %.
 import type { JSX } from 'preact';
-import { mayOperate, notice, order } from '../link/commands';
+import { mayOperate, notice, command } from '../link/commands';
 import { status } from '../link/state';
 import { percent } from '../parts/numbers';
 import { Button, Panel } from '../parts/ui';
@@ -9,7 +9,7 @@ function Override(props: { name: 'feed' | 'rapid'; label: string; most: number }
   const value = status.value?.overrides[props.name] ?? 1;
   const why = mayOperate();
   const set = (part: number): void =>
-    why === '' ? void order('set_overrides', { [props.name]: part }) : notice('refused', why);
+    why === '' ? void command('set_overrides', { [props.name]: part }) : notice('refused', why);
   return (
     <div class="override">
       <span class="name">{props.label}</span>

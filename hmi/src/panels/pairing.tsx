@@ -1,7 +1,7 @@
 // Dialog that asks for a pairing code, and dialog that creates codes for others.
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
-import { orderFor, sentence, whyNot } from '../link/commands';
+import { commandFor, sentence, whyNot } from '../link/commands';
 import { codeText, dialogOpen, inviteOpen, nameText, pair, whyNotPaired } from '../link/pairing';
 import { Dialog } from '../parts/dialog';
 import { Button, Choice, Field } from '../parts/ui';
@@ -61,7 +61,7 @@ const role = signal<(typeof ROLES)[number]>('operate');
 const made = signal('');
 
 async function invite(): Promise<void> {
-  const reply = await orderFor('invite', { role: role.value });
+  const reply = await commandFor('invite', { role: role.value });
   if (reply !== null) made.value = String(reply.code);
 }
 

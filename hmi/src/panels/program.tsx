@@ -3,7 +3,7 @@ import { useSignal, type Signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { actions, perform } from '../actions';
-import { mayOperate, notice, order, sentence, whyNot } from '../link/commands';
+import { mayOperate, notice, command, sentence, whyNot } from '../link/commands';
 import { ask } from '../link/socket';
 import { status } from '../link/state';
 import { duration, fixed } from '../parts/numbers';
@@ -18,7 +18,7 @@ const mayCheck = (): string => whyNot(program.value.length > SHORT ? 'operate' :
 
 async function check(): Promise<void> {
   try {
-    checked.value = (await ask({ order: 'check', name: programName.value, text: program.value })) as unknown as Check;
+    checked.value = (await ask({ command: 'check', name: programName.value, text: program.value })) as unknown as Check;
   } catch (why) {
     checked.value = null;
     notice('refused', sentence(why));
@@ -44,7 +44,7 @@ function Findings({ result }: { result: Check }): JSX.Element {
           </div>
           <div>
             <dt>takes</dt>
-            <dd class="tabular">{duration(result.seconds)}</dd>
+            <dd class="tabular">{duration(result.duration_s)}</dd>
           </div>
           <div>
             <dt>path</dt>
@@ -130,7 +130,7 @@ function Editor(): JSX.Element {
 /** Opens another text, edits, runs the dry check, and selects single block. */
 function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
   const file = useRef<HTMLInputElement>(null);
-  const single = status.value?.program.single_step === true;
+  const single = status.value?.program.single_block === true;
   return (
     <div class="row">
       <input
@@ -153,9 +153,9 @@ function Work({ editing }: { editing: Signal<boolean> }): JSX.Element {
       </Button>
       <Switch
         on={single}
-        label="Single step"
+        label="Single block"
         why={mayOperate()}
-        onChange={(on) => void order('set_single_step', { on })}
+        onChange={(on) => void command('set_single_block', { on })}
       />
     </div>
   );

@@ -44,7 +44,7 @@ function Stop(): JSX.Element {
 
 function StateChip(): JSX.Element {
   const look = lookOf(state.machineState.value);
-  const why = state.status.value?.why ?? '';
+  const why = state.status.value?.reason ?? '';
   return (
     <div class={`state ${look.tone}`} role="status" aria-live="polite">
       <Icon name={look.icon} size={22} />

@@ -7,7 +7,7 @@ export interface Check {
   more_problems?: number;
   lines: number;
   moves?: number;
-  seconds?: number;
+  duration_s?: number;
   length_mm?: number;
   least?: Record<string, number>;
   greatest?: Record<string, number>;

@@ -1,6 +1,6 @@
 // Scope: channels, trigger and pre-trigger; run, single, stop; two cursors; export.
 import type { JSX } from 'preact';
-import { notice, order, whyNot } from '../link/commands';
+import { notice, command, whyNot } from '../link/commands';
 import { usePoll } from '../parts/poll';
 import { Button, Empty, Field, Panel, Select } from '../parts/ui';
 import { Chart, Legend } from './chart';
@@ -13,7 +13,7 @@ import { armFields, MOST_CHANNELS, set, settings } from './settings';
 function arm(mode: 'run' | 'single'): void {
   const fields = armFields(settings.value, mode);
   if (fields === null) notice('refused', 'Level and times must be numbers. The scope was not armed.');
-  else void order('scope_arm', fields);
+  else void command('scope_arm', fields);
 }
 
 function save(names: readonly string[], rows: Rows): void {
@@ -46,7 +46,7 @@ function Tools({ state }: { state: string }): JSX.Element {
       <Button icon="step" why={why} onClick={() => arm('single')}>
         Single
       </Button>
-      <Button icon="standstill" why={whyNot('operate')} onClick={() => void order('scope_stop')}>
+      <Button icon="standstill" why={whyNot('operate')} onClick={() => void command('scope_stop')}>
         Stop
       </Button>
       <Button

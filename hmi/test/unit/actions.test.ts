@@ -1,4 +1,4 @@
-// Actions of buttons and keys: the orders that they send, and the reason where they may not.
+// Actions of buttons and keys: the commands that they send, and the reason where they may not.
 import { describe, expect, test } from 'vitest';
 import { settled } from './browser';
 import { axis, connected, type Program } from './program';
@@ -15,44 +15,44 @@ async function opened(
 }
 
 const STORED = { stored: { 'motionrack.program': 'G0 X1\nM2', 'motionrack.program.name': 'part.ngc' } };
-const orders = (program: Program): unknown[] => program.heard.map((one) => one.order).filter(Boolean);
+const commands = (program: Program): unknown[] => program.heard.map((one) => one.command).filter(Boolean);
 
 describe('run', () => {
   test('begins the text that is in the panel', async () => {
     const { actions, program } = await opened(STORED);
     actions.perform(actions.actions.run);
-    expect(program.asked('begin')).toEqual([{ order: 'begin', name: 'part.ngc', text: 'G0 X1\nM2' }]);
+    expect(program.asked('start_program')).toEqual([{ command: 'start_program', name: 'part.ngc', text: 'G0 X1\nM2' }]);
   });
 
   test('resumes a program that is held', async () => {
     const { actions, program } = await opened({ ...STORED, machine: { state: 'hold' } });
     actions.perform(actions.actions.run);
-    expect(orders(program)).toEqual(['resume']);
+    expect(commands(program)).toEqual(['resume']);
   });
 
   test('without a program asks for one', async () => {
     const { actions, notices, program } = await opened();
     actions.perform(actions.actions.run);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
     expect(await notices()).toEqual(['There is no program to run. Open one, or type one, first.']);
   });
 });
 
-describe('a single step', () => {
+describe('a single block', () => {
   test('is chosen first, then the program is run', async () => {
     const { actions, program } = await opened(STORED);
-    program.answers.set_single_step = {};
+    program.answers.set_single_block = {};
     actions.perform(actions.actions.step);
     await settled();
-    expect(orders(program)).toEqual(['set_single_step', 'begin']);
+    expect(commands(program)).toEqual(['set_single_block', 'start_program']);
   });
 
   test('that is refused runs nothing', async () => {
     const { actions, program } = await opened(STORED);
-    program.answers.set_single_step = 'Not while it homes.';
+    program.answers.set_single_block = 'Not while it homes.';
     actions.perform(actions.actions.step);
     await settled();
-    expect(orders(program)).toEqual(['set_single_step']);
+    expect(commands(program)).toEqual(['set_single_block']);
   });
 });
 
@@ -62,21 +62,21 @@ describe('the place of an axis', () => {
     actions.chosenAxis.value = 'Y';
     actions.placeText.value = '12,5';
     actions.perform(actions.actions.declare);
-    expect(program.asked('declare_position')).toEqual([{ order: 'declare_position', axis: 'Y', position: 12.5 }]);
+    expect(program.asked('set_position')).toEqual([{ command: 'set_position', axis: 'Y', position: 12.5 }]);
   });
 
   test('is touched off in work coordinates', async () => {
     const { actions, program } = await opened();
     actions.placeText.value = '−3';
     actions.perform(actions.actions.touchOff);
-    expect(program.asked('set_work_zero')).toEqual([{ order: 'set_work_zero', axis: 'X', value: -3 }]);
+    expect(program.asked('touch_off')).toEqual([{ command: 'touch_off', axis: 'X', value: -3 }]);
   });
 
   test.each(['declare', 'touchOff'] as const)('that is no number is not sent (%s)', async (name) => {
     const { actions, notices, program } = await opened();
     actions.placeText.value = 'here';
     actions.perform(actions.actions[name]);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
     expect(await notices()).toEqual(['"here" is no position. Nothing was changed.']);
   });
 
@@ -94,19 +94,19 @@ describe('switches', () => {
   ])('the drives of a machine that is %s are enabled: %s', async (state, on) => {
     const { actions, program } = await opened({ machine: { state } });
     actions.perform(actions.actions.enable);
-    expect(program.asked('enable')).toEqual([{ order: 'enable', on }]);
+    expect(program.asked('enable')).toEqual([{ command: 'enable', on }]);
   });
 
   test.each([true, false])('the emergency stop that is pressed: %s, is turned over', async (pressed) => {
     const { actions, program } = await opened({ machine: { estop: { wired: true, pressed } } });
     actions.perform(actions.actions.estop);
-    expect(program.asked('press_estop')).toEqual([{ order: 'press_estop', pressed: !pressed }]);
+    expect(program.asked('set_estop')).toEqual([{ command: 'set_estop', pressed: !pressed }]);
   });
 
   test('an emergency stop that is not wired cannot be pressed', async () => {
     const { actions, notices, program } = await opened({ machine: { estop: { wired: false, pressed: false } } });
     actions.perform(actions.actions.estop);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
     expect((await notices()).join()).toMatch(/wires no emergency stop/);
   });
 });
@@ -118,23 +118,23 @@ describe('who may', () => {
     const { actions, notices, program } = await opened({ ...STORED, machine: { control: { holder: 'bert' } } });
     for (const name of names) actions.perform(actions.actions[name]);
     actions.setFeed(0.5);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
     expect((await notices()).at(-1)).toBe('Feed override: bert holds control.');
   });
 
   test('hold needs no control, and STOP not even a role', async () => {
     const { actions, program } = await opened({ role: 'operate', machine: { control: { holder: 'bert' } } });
     actions.perform(actions.actions.hold);
-    expect(orders(program)).toEqual(['hold']);
+    expect(commands(program)).toEqual(['hold']);
     const observing = await opened({ role: 'observe' });
     observing.actions.perform(observing.actions.actions.hold);
     observing.actions.perform(observing.actions.actions.stop);
-    expect(orders(observing.program)).toEqual(['stop']);
+    expect(commands(observing.program)).toEqual(['stop']);
   });
 
   test('an alarm is acknowledged by its number', async () => {
     const { actions, program } = await opened({ machine: { control: { holder: 'bert' } } });
     actions.perform(actions.acknowledge(7));
-    expect(program.asked('acknowledge')).toEqual([{ order: 'acknowledge', alarm: 7 }]);
+    expect(program.asked('acknowledge_alarm')).toEqual([{ command: 'acknowledge_alarm', alarm: 7 }]);
   });
 });

@@ -5,7 +5,7 @@ import { axis, connected, type Program } from './program';
 
 type Lease = typeof import('../../src/jog/lease');
 const HOLD = { 'motionrack.jog.step': '5' };
-const AXES = [axis('X', { max_speed: 50 }), axis('Y', { max_speed: 20 }), axis('Z', { max_speed: 10 })];
+const AXES = [axis('X', { max_velocity: 50 }), axis('Y', { max_velocity: 20 }), axis('Z', { max_velocity: 10 })];
 
 async function opened(settings: Settings = {}): Promise<{ browser: Browser; program: Program; lease: Lease }> {
   const { browser, program } = await connected({ stored: HOLD, ...settings, machine: { axes: AXES } });
@@ -111,7 +111,7 @@ describe('a jog', () => {
   });
 });
 
-describe('the orders of a jog', () => {
+describe('the commands of a jog', () => {
   test('are numbered upwards, and only the first one can begin a motion', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1);
@@ -223,7 +223,7 @@ describe('a step', () => {
     lease.begin('key', 'X', -1);
     await after(1000);
     lease.end('key');
-    expect(program.asked('jog_by')).toEqual([{ order: 'jog_by', axis: 'X', distance: -0.1, speed: 10 }]);
+    expect(program.asked('jog_by')).toEqual([{ command: 'jog_by', axis: 'X', distance: -0.1, speed: 10 }]);
     expect([jogs(program), stops(program)]).toEqual([[], 0]);
   });
 });

@@ -38,7 +38,7 @@ async function listening(
   return all;
 }
 
-const orders = (program: Program): unknown[] => program.heard.map((one) => one.order).filter(Boolean);
+const commands = (program: Program): unknown[] => program.heard.map((one) => one.command).filter(Boolean);
 
 describe('the table', () => {
   test('has each key once', async () => {
@@ -96,13 +96,13 @@ describe('a key', () => {
     ['p', 'hold'],
     ['!', 'hold'],
     ['s', 'resume'],
-    ['F1', 'press_estop'],
+    ['F1', 'set_estop'],
     ['F2', 'enable'],
-    ['End', 'set_work_zero'],
-  ])('"%s" gives the order %s', async (name, order) => {
+    ['End', 'touch_off'],
+  ])('"%s" sends the command %s', async (name, command) => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', name)).toBe(true);
-    expect(orders(program)).toEqual([order]);
+    expect(commands(program)).toEqual([command]);
   });
 
   test.each([
@@ -113,7 +113,7 @@ describe('a key', () => {
   ])('"%s" sets the feed override to %d', async (name, feed) => {
     const { browser, program } = await listening();
     key(browser, 'keydown', name);
-    expect(program.asked('set_overrides')).toEqual([{ order: 'set_overrides', feed }]);
+    expect(program.asked('set_overrides')).toEqual([{ command: 'set_overrides', feed }]);
   });
 
   test('of the table with Ctrl acts only with Ctrl, and the others only without', async () => {
@@ -121,19 +121,19 @@ describe('a key', () => {
     expect(key(browser, 'keydown', 'Home')).toBe(false);
     expect(key(browser, 'keydown', 's', { ctrlKey: true })).toBe(false);
     expect(key(browser, 'keydown', 'Home', { ctrlKey: true })).toBe(true);
-    expect(orders(program)).toEqual(['home']);
+    expect(commands(program)).toEqual(['home']);
   });
 
   test.each([{ altKey: true }, { metaKey: true }])('with %o is the browser’s', async (modifier) => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', 's', modifier)).toBe(false);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 
   test('that is written with AltGr, which some systems call Ctrl and Alt, acts', async () => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', '~', { altGraph: true, ctrlKey: true, altKey: true })).toBe(true);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
     const { notices } = await import('../../src/link/commands');
     expect(notices.value[0]?.text).toMatch(/no program to run/);
   });
@@ -144,13 +144,13 @@ describe('a key that is held, or not of the table,', () => {
     const { browser, program } = await listening();
     key(browser, 'keydown', ' ');
     expect(key(browser, 'keydown', ' ', { repeat: true })).toBe(true);
-    expect(orders(program)).toEqual(['hold']);
+    expect(commands(program)).toEqual(['hold']);
   });
 
   test('does nothing while it composes a letter', async () => {
     const { browser, program } = await listening();
     key(browser, 'keydown', 's', { isComposing: true });
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 
   test('is the page’s where the table does not have it', async () => {
@@ -180,7 +180,7 @@ describe('a key of the page itself', () => {
     const { dialogOpen, inviteOpen } = await import('../../src/link/pairing');
     dialogOpen.value = inviteOpen.value = true;
     key(browser, 'keydown', 'Escape');
-    expect([dialogOpen.value, inviteOpen.value, orders(program)]).toEqual([false, false, ['stop']]);
+    expect([dialogOpen.value, inviteOpen.value, commands(program)]).toEqual([false, false, ['stop']]);
   });
 
   test('i goes through the steps and leaves continuous jogging out; c is that', async () => {
@@ -204,7 +204,7 @@ describe('while a field is typed in', () => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', 's', { target })).toBe(false);
     for (const name of ['Escape', 'F1', 'F2']) expect(key(browser, 'keydown', name, { target })).toBe(true);
-    expect(orders(program)).toEqual(['stop', 'press_estop', 'enable']);
+    expect(commands(program)).toEqual(['stop', 'set_estop', 'enable']);
   });
 
   test.each([
@@ -213,14 +213,14 @@ describe('while a field is typed in', () => {
   ])('%s takes none', async (_, target) => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', 's', { target })).toBe(true);
-    expect(orders(program)).toEqual(['resume']);
+    expect(commands(program)).toEqual(['resume']);
   });
 
   test('arrows move the cursor, not the machine', async () => {
     const { browser, program } = await listening(HOLD);
     (await lease()).setArmed(true);
     expect(key(browser, 'keydown', 'ArrowLeft', { target: new FakeInput() })).toBe(false);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 });
 
@@ -228,7 +228,7 @@ describe('a jog key', () => {
   test('does nothing before the keyboard is armed', async () => {
     const { browser, program } = await listening(HOLD);
     expect(key(browser, 'keydown', 'ArrowRight')).toBe(false);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 
   test('jogs while it is held, once armed', async () => {
@@ -236,7 +236,7 @@ describe('a jog key', () => {
     (await lease()).setArmed(true);
     expect(key(browser, 'keydown', 'ArrowRight')).toBe(true);
     key(browser, 'keydown', 'ArrowRight', { repeat: true });
-    expect(program.asked('jog')).toEqual([{ order: 'jog', axis: 'X', speed: 10, sequence: 1 }]);
+    expect(program.asked('jog')).toEqual([{ command: 'jog', axis: 'X', speed: 10, sequence: 1 }]);
     key(browser, 'keyup', 'ArrowRight');
     expect(program.asked('jog_stop')).toHaveLength(1);
   });
@@ -246,7 +246,7 @@ describe('a jog key', () => {
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight');
     for (let i = 0; i < 5; ++i) expect(key(browser, 'keydown', 'ArrowRight', { repeat: true })).toBe(true);
-    expect(orders(program)).toEqual(['jog_by']);
+    expect(commands(program)).toEqual(['jog_by']);
   });
 
   test('with Shift jogs at the greatest speed until Shift is let go', async () => {
@@ -274,7 +274,7 @@ describe('a jog key that may not jog', () => {
     (await lease()).setArmed(true);
     for (const modifier of [{ ctrlKey: true }, { altKey: true }, { metaKey: true }])
       key(browser, 'keydown', 'ArrowRight', modifier);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 
   test('says why it does not jog, once', async () => {
@@ -284,6 +284,6 @@ describe('a jog key that may not jog', () => {
     key(browser, 'keydown', 'ArrowRight', { repeat: true });
     const { notices } = await import('../../src/link/commands');
     expect(notices.value.map((one) => one.text)).toEqual(['Jog: bert holds control.']);
-    expect(orders(program)).toEqual([]);
+    expect(commands(program)).toEqual([]);
   });
 });

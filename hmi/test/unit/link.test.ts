@@ -98,7 +98,7 @@ describe('control', () => {
     const { takeControl, whyNotControl } = await control();
     expect(whyNotControl()).toBe('');
     takeControl();
-    expect(program.asked('take_control')).toEqual([{ order: 'take_control' }]);
+    expect(program.asked('take_control')).toEqual([{ command: 'take_control' }]);
   });
 
   test.each(['standstill', 'hold'])('is taken from another user by force, at %s', async (state) => {
@@ -106,7 +106,7 @@ describe('control', () => {
     const { takeControl, whyNotControl } = await control();
     expect(whyNotControl()).toBe('');
     takeControl();
-    expect(program.asked('take_control')).toEqual([{ order: 'take_control', force: true }]);
+    expect(program.asked('take_control')).toEqual([{ command: 'take_control', force: true }]);
   });
 
   test('is not taken from another user while the machine moves', async () => {
@@ -121,7 +121,7 @@ describe('control', () => {
     const { takeControl, whyNotControl } = await control();
     expect(whyNotControl()).toBe('');
     takeControl();
-    expect(program.asked('take_control')).toEqual([{ order: 'take_control' }]);
+    expect(program.asked('take_control')).toEqual([{ command: 'take_control' }]);
   });
 
   test('needs the role operate', async () => {
@@ -144,10 +144,10 @@ describe('control', () => {
     };
     await wait();
     await wait();
-    expect(program.asked('keep_control')).toHaveLength(2);
+    expect(program.asked('renew_control')).toHaveLength(2);
     program.show({ state: 'hold', control: { holder: 'anna', holder_session: 'another tab' } });
     await wait();
-    expect(program.asked('keep_control')).toHaveLength(2);
+    expect(program.asked('renew_control')).toHaveLength(2);
   });
 });
 

@@ -22,7 +22,7 @@ test('a code that is refused leaves the browser without a token, with the progra
   browser.http = {
     ok: false,
     status: 403,
-    body: { error: { trouble: 'denied', message: 'The code was used already.' } },
+    body: { error: { kind: 'denied', message: 'The code was used already.' } },
   };
   await expect((await pairing()).pair('X', 'carl')).rejects.toThrow('The code was used already.');
   expect(browser.store.has('motionrack.token')).toBe(false);
@@ -53,7 +53,7 @@ test('a browser without a name gets one of its own', async () => {
 
 test('a code in the address that is refused stands in the dialog, with the reason', async () => {
   const browser = openBrowser({ hash: '#pair=ABCD' });
-  browser.http = { ok: false, status: 403, body: { error: { trouble: 'denied', message: 'Too late.' } } };
+  browser.http = { ok: false, status: 403, body: { error: { kind: 'denied', message: 'Too late.' } } };
   const { codeText, dialogOpen, pairFromAddress, whyNotPaired } = await pairing();
   await pairFromAddress();
   expect([dialogOpen.value, codeText.value, whyNotPaired.value]).toEqual([true, 'ABCD', 'Too late.']);

@@ -9,7 +9,7 @@ type Answer = Record<string, unknown> | string;
 export const axis = (letter: string, part: Partial<AxisStatus> = {}): AxisStatus => ({
   letter,
   unit: letter === 'A' ? 'deg' : 'mm',
-  trusted: true,
+  position_valid: true,
   enabled: true,
   can_home: true,
   commanded: 0,
@@ -20,7 +20,7 @@ export const axis = (letter: string, part: Partial<AxisStatus> = {}): AxisStatus
   counts: 0,
   min: 0,
   max: 100,
-  max_speed: 50,
+  max_velocity: 50,
   leds: {},
   ...part,
 });
@@ -29,13 +29,13 @@ export const status = (part: Partial<Status> = {}): Status => ({
   at: 1,
   sequence: 1,
   state: 'standstill',
-  why: '',
+  reason: '',
   simulation: true,
   clock: { mode: 'real', factor: 1, late_ms: 0 },
   estop: { wired: true, pressed: false },
   control: { holder: 'anna', holder_session: 'this tab' },
   axes: ['X', 'Y', 'Z', 'A'].map((letter) => axis(letter)),
-  program: { name: '', runs: false, line: 0, lines: 0, remaining_s: null, single_step: false },
+  program: { name: '', runs: false, line: 0, lines: 0, remaining_s: null, single_block: false },
   overrides: { feed: 1, rapid: 1 },
   alarms: [],
   ...part,
@@ -54,7 +54,7 @@ const hello = (part: Partial<Hello> = {}): Hello => ({
 
 export class Program {
   readonly heard: Message[] = [];
-  /** By the name of the order or query, `token` or `subscribe`; without an answer here the page waits for one. */
+  /** By the name of the command or query, `token` or `subscribe`; without an answer here the page waits for one. */
   readonly answers: Record<string, Answer | ((message: Message) => Answer)> = { subscribe: {} };
   private now = status();
   private sequence = 0;
@@ -71,7 +71,7 @@ export class Program {
 
   private reply(message: Message, answer: Answer | ((message: Message) => Answer)): void {
     const one = typeof answer === 'function' ? answer(message) : answer;
-    this.say({ id: message.id, ...(typeof one === 'string' ? { error: { trouble: 'refused', message: one } } : one) });
+    this.say({ id: message.id, ...(typeof one === 'string' ? { error: { kind: 'refused', message: one } } : one) });
   }
 
   say(message: Record<string, unknown>): void {
@@ -97,7 +97,7 @@ export class Program {
 }
 
 const nameOf = (message: Message): string => {
-  const name = message.order ?? message.query;
+  const name = message.command ?? message.query;
   if (typeof name === 'string') return name;
   return message.token === undefined ? 'subscribe' : 'token';
 };

@@ -36,17 +36,19 @@ describe('a question', () => {
   test('that is refused throws the program’s sentence', async () => {
     const { program } = await connected();
     program.answers.home = 'The drives are disabled. Enable them first.';
-    await expect((await link()).ask({ order: 'home' })).rejects.toThrow('The drives are disabled. Enable them first.');
+    await expect((await link()).ask({ command: 'home' })).rejects.toThrow(
+      'The drives are disabled. Enable them first.',
+    );
   });
 
   test('without a connection is not sent, and says so', async () => {
     openBrowser();
-    await expect((await link()).ask({ order: 'home' })).rejects.toThrow('Nothing was sent.');
+    await expect((await link()).ask({ command: 'home' })).rejects.toThrow('Nothing was sent.');
   });
 
   test('that is not answered for 15 s is given up, and a late answer changes nothing', async () => {
     const { program } = await connected();
-    const answer = (await link()).ask({ order: 'home' });
+    const answer = (await link()).ask({ command: 'home' });
     const failed = expect(answer).rejects.toThrow('not answered for 15 s');
     for (let s = 0; s < 15; ++s) {
       program.show();
@@ -59,7 +61,7 @@ describe('a question', () => {
   test('that was answered in time is not given up later', async () => {
     const { program } = await connected();
     program.answers.home = { done: true };
-    await expect((await link()).ask({ order: 'home' })).resolves.toMatchObject({ done: true });
+    await expect((await link()).ask({ command: 'home' })).resolves.toMatchObject({ done: true });
     for (let s = 0; s < 20; ++s) {
       program.show();
       await after(1000);
@@ -69,7 +71,7 @@ describe('a question', () => {
 
   test('fails when the connection is lost before its answer', async () => {
     const { browser } = await connected();
-    const answer = (await link()).ask({ order: 'home' });
+    const answer = (await link()).ask({ command: 'home' });
     browser.socket.close();
     await expect(answer).rejects.toThrow('lost before it answered');
   });
@@ -226,14 +228,14 @@ describe('who this browser is', () => {
   });
 
   test('a token that is no longer good is forgotten; one that could not be asked about is kept', async () => {
-    for (const [trouble, left] of [
+    for (const [kind, left] of [
       ['denied', undefined],
       ['machine', 'T1'],
     ] as const) {
       const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
       (await link()).connect();
       const program = new Program(browser.socket);
-      program.answers.token = () => ({ error: { trouble, message: 'no' } });
+      program.answers.token = () => ({ error: { kind, message: 'no' } });
       program.greet();
       await settled();
       expect(browser.store.get('motionrack.token')).toBe(left);

@@ -79,9 +79,9 @@ const send = async (mdi: Awaited<ReturnType<typeof lines>>, line: string): Promi
 describe('a line by hand', () => {
   test('is sent without blanks around it, and leaves an empty field', async () => {
     const { mdi, program } = await opened();
-    program.answers.line = {};
+    program.answers.mdi = {};
     await send(mdi, '  G0 X1 ');
-    expect(program.asked('line')).toEqual([{ order: 'line', text: 'G0 X1' }]);
+    expect(program.asked('mdi')).toEqual([{ command: 'mdi', text: 'G0 X1' }]);
     expect(mdi.draft.value).toBe('');
     expect(mdi.log.value).toEqual([{ text: 'G0 X1', answer: 'ok', good: true }]);
   });
@@ -94,7 +94,7 @@ describe('a line by hand', () => {
     program.say({ id: two?.id });
     await second;
     expect(mdi.log.value.map((each) => each.answer)).toEqual(['…', 'ok']);
-    program.say({ id: one?.id, error: { trouble: 'refused', message: 'X is at its limit.' } });
+    program.say({ id: one?.id, error: { kind: 'refused', message: 'X is at its limit.' } });
     await first;
     expect(mdi.log.value[0]).toEqual({ text: 'G0 X1', answer: 'X is at its limit.', good: false });
   });
@@ -102,14 +102,14 @@ describe('a line by hand', () => {
   test('that is empty is not sent', async () => {
     const { mdi, program } = await opened();
     await send(mdi, '   ');
-    expect([program.asked('line'), mdi.log.value]).toEqual([[], []]);
+    expect([program.asked('mdi'), mdi.log.value]).toEqual([[], []]);
   });
 });
 
 describe('the history of lines', () => {
   test('comes back by walking up, and goes away by walking down', async () => {
     const { mdi, program } = await opened();
-    program.answers.line = {};
+    program.answers.mdi = {};
     for (const line of ['one', 'two', 'three']) await send(mdi, line);
     const seen = [1, 1, 1, 1, -1, -1, -1, -1].map((by) => (mdi.walk(by), mdi.draft.value));
     expect(seen).toEqual(['three', 'two', 'one', 'one', 'two', 'three', '', '']);
@@ -117,7 +117,7 @@ describe('the history of lines', () => {
 
   test('has a line that was sent again once, as the newest', async () => {
     const { mdi, program } = await opened();
-    program.answers.line = {};
+    program.answers.mdi = {};
     for (const line of ['one', 'two', 'one']) await send(mdi, line);
     const seen = [1, 1, 1].map((by) => (mdi.walk(by), mdi.draft.value));
     expect(seen).toEqual(['one', 'two', 'two']);
@@ -125,7 +125,7 @@ describe('the history of lines', () => {
 
   test('is kept over a reload; of more than 100 lines the newest', async () => {
     const { browser, mdi, program } = await opened();
-    program.answers.line = {};
+    program.answers.mdi = {};
     for (let i = 1; i <= 101; ++i) await send(mdi, `G0 X${i}`);
     expect(mdi.log.value).toHaveLength(100);
     openBrowser(stored(browser));
@@ -138,7 +138,7 @@ describe('the history of lines', () => {
 
   test('is walked from its newest line again after one was sent', async () => {
     const { mdi, program } = await opened();
-    program.answers.line = {};
+    program.answers.mdi = {};
     for (const line of ['one', 'two', 'three']) await send(mdi, line);
     mdi.walk(2);
     await mdi.send();

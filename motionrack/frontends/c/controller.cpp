@@ -11,8 +11,8 @@ using motionrack::ErrorKind;
 using motionrack::Result;
 using motionrack::rack::HomingOutcome;
 using motionrack::rack::JobProgress;
-using motionrack::rack::ProgramOrder;
 using motionrack::rack::ProgramReport;
+using motionrack::rack::ProgramRequest;
 
 constexpr const char* no_program = "The part program is a null pointer. Nothing was moved.";
 
@@ -33,8 +33,8 @@ int code_of_end(const Result<void>& ended) {
     return code_of(ended.error().kind);
 }
 
-ProgramOrder order_of(const char* path_or_text, const mr_run_options* options) {
-    ProgramOrder out;
+ProgramRequest order_of(const char* path_or_text, const mr_run_options* options) {
+    ProgramRequest out;
     out.path_or_text = path_or_text;
     if (options == nullptr) return out;
     if (options->tools != nullptr) out.tools = options->tools;

@@ -32,7 +32,7 @@ nlohmann::ordered_json mark_json(const mark::Marked& m) {
                                   {"worst_at_s", m.deviation.worst_s},
                                   {"missing_mm", m.deviation.missing_mm},
                                   {"marked_mm", m.marked_mm},
-                                  {"seconds", m.seconds},
+                                  {"duration_s", m.seconds},
                                   {"duty", m.duty},
                                   {"energy_j", m.energy_j},
                                   {"overflows", nlohmann::ordered_json::array()}};

@@ -130,7 +130,7 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
 
 void print_json(const Plans& plans, const rack::RackConfig& config) {
     const auto planned = [](const Planned& one) {
-        return nlohmann::json{{"seconds", one.seconds}, {"stops", one.stops}};
+        return nlohmann::json{{"duration_s", one.seconds}, {"stops", one.stops}};
     };
     nlohmann::json out = {{"program", plans.name},
                           {"rack", config.name},
@@ -138,7 +138,7 @@ void print_json(const Plans& plans, const rack::RackConfig& config) {
                           {"stopping", planned(plans.stopping)},
                           {"trapezoids", planned(plans.trapezoids)},
                           {"jerk_limited", planned(plans.ride)},
-                          {"bound", {{"seconds", plans.ride.bound}}},
+                          {"bound", {{"duration_s", plans.ride.bound}}},
                           {"axes", nlohmann::json::object()}};
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];

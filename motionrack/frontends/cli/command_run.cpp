@@ -23,7 +23,7 @@ struct RunOptions {
     std::string program, rack, record, vcd;
     ReadingOptions reading;
     ResultFiles files;
-    std::vector<std::string> signals, faults, orders;
+    std::vector<std::string> signals, faults, commands;
     double unit_ns = 0;  ///< 0: as fine as the signals require
     bool json = false, quiet = false, stream = false;
 };
@@ -50,10 +50,10 @@ int read_request(const RunOptions& options, rack::JobRequest& request) {
     request.version = MOTIONRACK_VERSION;
     auto faults = rack::read_faults(options.faults);
     if (!faults) return report(faults.error());
-    auto orders = rack::read_orders(options.orders);
-    if (!orders) return report(orders.error());
+    auto commands = rack::read_commands(options.commands);
+    if (!commands) return report(commands.error());
     request.faults = std::move(*faults);
-    request.orders = std::move(*orders);
+    request.commands = std::move(*commands);
     return exit_done;
 }
 
@@ -160,8 +160,8 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
         ->allow_extra_args(false);
     command
         ->add_option(
-            "--at", options->orders,
-            "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
+            "--at", options->commands,
+            "a command while the program runs, COMMAND@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
     add_reading_options(*command, options->reading);
     command->add_flag("--stream", options->stream,

@@ -69,7 +69,7 @@ class Serving {
             return fail(ErrorKind::invalid_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
         server::ServedSettings settings;
         settings.clock = options_.paused ? operate::ClockMode::paused
-                         : options_.free ? operate::ClockMode::free
+                         : options_.free ? operate::ClockMode::unthrottled
                                          : operate::ClockMode::real;
         settings.factor = options_.speed;
         settings.meanwhile = [this] { stop_if_asked(); };
@@ -157,7 +157,7 @@ class Serving {
         tell_service_manager("STOPPING=1");
         // A stopped clock would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
-        if (pacer.mode() != operate::ClockMode::free)
+        if (pacer.mode() != operate::ClockMode::unthrottled)
             (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
     }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -11,6 +12,8 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <new>
+#include <string_view>
+#include <utility>
 
 namespace {
 
@@ -67,6 +70,22 @@ const std::terminate_handler terminate_before = std::get_terminate();
     std::abort();
 }
 
+/// Names the present options for former ones, on a command line that was refused.
+void name_renamed_options(int argc, char** argv) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> renamed = {
+        {{"--speed", "--time-scale"},
+         {"--free", "--unthrottled"},
+         {"--no-pairing", "--no-auth"},
+         {"--for", "--duration"},
+         {"--every", "--interval"},
+         {"--fresh", "--restart"}}};
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view given = argv[i], name = given.substr(0, given.find('='));
+        for (const auto& [old, now] : renamed)
+            if (name == old) motionrack::cli::print_error(fmt::format("'{}' is now '{}'.", old, now));
+    }
+}
+
 int run_command(int argc, char** argv) {
     using namespace motionrack::cli;
     CLI::App app{"Motionrack: a rack of motion-control cards, in software.", "motionrack"};
@@ -102,7 +121,9 @@ int run_command(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         // Help and version are not errors; all others are usage errors.
-        return app.exit(e) == 0 ? exit_done : exit_usage;
+        if (app.exit(e) == 0) return exit_done;
+        name_renamed_options(argc, argv);
+        return exit_usage;
     }
     return chosen ? flushed(chosen()) : exit_usage;
 }

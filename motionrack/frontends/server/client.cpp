@@ -85,15 +85,20 @@ void Client::message(std::string_view text, bool is_text) {
         return refuse(nullptr, 400, "invalid_input",
                       "The id of a message is a whole number or a text of at most 64 bytes. Nothing was done.");
     const auto says = [&](const char* what) { return object->contains(what) && (*object)[what].is_string(); };
-    if (says("order")) {
-        const std::string name = (*object)["order"];
+    // The key was "order" once; a stop is done under that name too, for it is never refused.
+    const bool former = says("order") && !says("command");
+    if (former && (*object)["order"] != "stop")
+        return refuse(request.id, 400, "invalid_input", "'order' is now 'command'. Nothing was done.");
+    if (former) (*object)["command"] = "stop";
+    if (says("command")) {
+        const std::string name = (*object)["command"];
         if (name == "stop") {
             service_.stop(caller(), peer_.address);
             return answer(request.id, panel::done());
         }
         if (!counted)
             return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
-        request.fields = without(std::move(*object), {"id", "order"});
+        request.fields = without(std::move(*object), {"id", "command"});
         return ask(request, name, false);
     }
     if (!counted) return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
@@ -105,7 +110,8 @@ void Client::message(std::string_view text, bool is_text) {
     request.fields = std::move(*object);
     if (request.fields.contains("token")) return token(request);
     if (request.fields.contains("subscribe")) return subscribe(request);
-    refuse(request.id, 400, "invalid_input", "A message has one of token, subscribe, order, query. Nothing was done.");
+    refuse(request.id, 400, "invalid_input",
+           "A message has one of token, subscribe, command, query. Nothing was done.");
 }
 
 void Client::token(const Request& request) {
@@ -173,14 +179,12 @@ void Client::subscribe(const Request& request) {
 void Client::ask(const Request& request, const std::string& name, bool query) {
     const panel::OperationSpec* row = panel::find_row(name);
     if (row == nullptr || query != is_query(*row))
-        return refuse(
-            request.id, 404, "invalid_input",
-            fmt::format("There is no such {}; /api/openapi.json says what there is.", query ? "query" : "order"));
+        return refuse(request.id, 404, "invalid_input", panel::unknown_operation(query ? "query" : "command", name));
     if (asks_ >= service_.settings().limits.asks_waiting)
         return refuse(
             request.id, 429, "limit",
             fmt::format(
-                "{} orders and queries wait for their answers, which is the most. Nothing was done; wait for some.",
+                "{} commands and queries wait for their answers, which is the limit. Nothing was done; wait for some.",
                 asks_));
     ++asks_;
     service_.ask(caller(), peer_.address, *row, request.fields,

@@ -83,7 +83,7 @@ void ServedRack::stop() {
 /// On the network thread.
 void ServedRack::write_down(const AuditEntry& entry) {
     const nlohmann::json data = {
-        {"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
+        {"user", entry.user}, {"address", entry.address}, {"command", entry.what}, {"status", entry.status}};
     std::string text = fmt::format("{} from {}: {}: {}", entry.user.empty() ? "a stranger" : entry.user, entry.address,
                                    entry.what, entry.outcome);
     journal_->write(panel_->picture()->at(), "audit", cut(std::move(text), max_audit_bytes), panel::text_of(data));

@@ -153,12 +153,12 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     }
     out.row = panel::find_row(name);
     if (out.row == nullptr)
-        return answer(http_error(404, "invalid_input", "Unknown order or query. See /api/openapi.json for the list."));
+        return answer(http_error(404, "invalid_input", panel::unknown_operation("command or query", name)));
     const bool query = is_query(*out.row);
     if (query ? !get : !post)
         return answer(
             with(http_error(405, "invalid_input",
-                            fmt::format("{} is {} with {}.", name, query ? "a query, asked" : "an order, given",
+                            fmt::format("{} is {} with {}.", name, query ? "a query, asked" : "a command, sent",
                                         query ? "GET" : "POST")),
                  "Allow", query ? "GET" : "POST"));
     const bool long_texts =

@@ -24,7 +24,7 @@ std::map<std::string, panel::Handler, std::less<>> door_orders(auth::Authenticat
                  const auto code = door.invite(*auth::role_named(fields["role"].get<std::string>()), now);
                  return code ? panel::done({{"code", *code}}) : panel::error_answer(code.error());
              }},
-            {"unpair",
+            {"revoke_user",
              [&door](const panel::Caller&, const json& fields) {
                  const auto gone = door.revoke(fields["user"].get<std::string>());
                  return gone ? panel::done() : panel::error_answer(gone.error());

@@ -115,8 +115,8 @@ TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
 TEST_F(ADamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
     {
         const auto journal = open();
-        for (std::int64_t i = 0; i < Journal::checked_at_start + 10; ++i) journal->write(Instant{i}, "order", "o");
-        write(*journal, "order", "the last");
+        for (std::int64_t i = 0; i < Journal::checked_at_start + 10; ++i) journal->write(Instant{i}, "command", "o");
+        write(*journal, "command", "the last");
         ASSERT_TRUE(journal->close());
     }
     change("UPDATE entry SET text = 'p' WHERE number = 3");

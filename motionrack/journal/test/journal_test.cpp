@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
     auto journal = open();
     for (int i = 1; i <= 50; ++i)
-        journal->write(Instant{i}, i % 2 == 0 ? "order" : "state", "entry " + std::to_string(i));
+        journal->write(Instant{i}, i % 2 == 0 ? "command" : "state", "entry " + std::to_string(i));
     EXPECT_EQ(write(*journal, "job", "the last"), 51);
     const auto newest = journal->read({0, "", 3});
     ASSERT_TRUE(newest);
@@ -31,7 +31,7 @@ TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
     EXPECT_EQ((*newest)[2].text, "the last");
     EXPECT_EQ((*newest)[2].at, Instant{7});
     EXPECT_EQ((*newest)[2].run, 1);
-    EXPECT_EQ(journal->read({0, "order", 100})->size(), 25u);
+    EXPECT_EQ(journal->read({0, "command", 100})->size(), 25u);
     EXPECT_EQ(journal->read({48, "", 100})->front().number, 49);
     EXPECT_FALSE(journal->read({0, "", 0}));
     EXPECT_FALSE(journal->read({0, "", 10001}));
@@ -141,17 +141,17 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
         threads.emplace_back([&journal, t] {
             for (int i = 0; i < 200; ++i) {
                 if (i % 20 == 0)
-                    EXPECT_GT(write(*journal, "order", std::to_string(t) + "/" + std::to_string(i)), 0);
+                    EXPECT_GT(write(*journal, "command", std::to_string(t) + "/" + std::to_string(i)), 0);
                 else
-                    journal->write(Instant{i}, "order", std::to_string(t) + "/" + std::to_string(i));
+                    journal->write(Instant{i}, "command", std::to_string(t) + "/" + std::to_string(i));
                 if (i % 10 == 0) {
-                    EXPECT_TRUE(journal->read({0, "order", 5}));
+                    EXPECT_TRUE(journal->read({0, "command", 5}));
                 }
             }
         });
     for (std::thread& one : threads) one.join();
     write(*journal, "state", "end");
-    EXPECT_EQ(journal->read({0, "order", 1000})->size(), 800u);
+    EXPECT_EQ(journal->read({0, "command", 1000})->size(), 800u);
 }
 
 /// Writes at maximum rate and sends each number through the pipe once it is acknowledged.
@@ -159,7 +159,7 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
     auto journal = Journal::open(path);
     if (!journal) ::_exit(1);
     for (int i = 0;; ++i) {
-        (*journal)->write(Instant{i}, "order", "order " + std::to_string(i), {},
+        (*journal)->write(Instant{i}, "command", "order " + std::to_string(i), {},
                           [pipe_in, i](const Result<std::int64_t>& number) {
                               if (!number) return;  // queue full: refused, not acknowledged
                               const std::int64_t told[2] = {*number, i};

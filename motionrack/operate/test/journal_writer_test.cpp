@@ -213,24 +213,25 @@ TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },
         [this](Machine& m) {
             m.set_overrides(0.5, 1);
-            m.set_single_step(true);
+            m.set_single_block(true);
             ASSERT_TRUE(m.wires().force("estop", 0));
             quit_on(MachineState::error_stop);
         },
         [](Machine& m) { ASSERT_TRUE(m.begin_program("G1 X200 F6000\nM30\n", "part.ngc")); });
     end(true);
     open();
-    EXPECT_THAT(texts("setting"), ElementsAre("Feed override 50 %.", "Single step on."));
+    EXPECT_THAT(texts("setting"), ElementsAre("Feed override 50 %.", "Single block on."));
     EXPECT_THAT(texts("alarm"), Contains(HasSubstr("emergency stop")));
     EXPECT_THAT(texts("position"), Contains(HasSubstr("not trusted any more")));
     EXPECT_THAT(texts("job"), Contains(HasSubstr("broke off at line 1")));
 }
 
 TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
-    for (const char* kept : {"", "[]", "7", "{\"axes\": 3}",
-                             "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, "
-                             "\"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}",
-                             "{\"line\": \"x\", \"state\": 4"}) {
+    for (const char* kept :
+         {"", "[]", "7", "{\"axes\": 3}",
+          "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"true_position\": 1, "
+          "\"commanded\": 1}, {\"letter\": \"Q\", \"true_position\": 1, \"commanded\": 1}]}",
+          "{\"line\": \"x\", \"state\": 4"}) {
         const LastKnownPositions last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
         ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
         for (const InitialAxisState& one : last.axes) EXPECT_FALSE(one.position_valid) << kept;
@@ -239,7 +240,8 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
 }
 
 TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
-    const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 5, "trusted": true}]})";
+    const std::string kept =
+        R"({"axes": [{"letter": "X", "true_position": 5, "commanded": 5, "position_valid": true}]})";
     EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].position_valid);
     const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
     EXPECT_FALSE(last.axes[0].position_valid);
@@ -252,6 +254,18 @@ TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
         read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
     EXPECT_TRUE(changed.axes[0].position_valid);
     EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
+}
+
+TEST_F(ALogbook, ReadsPositionsAsFormerVersionsWroteThem) {
+    const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 6, "trusted": true},
+                                          {"letter": "Y", "place": 7, "commanded": 7, "trusted": false}]})";
+    const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table());
+    ASSERT_GE(last.axes.size(), 2u);
+    EXPECT_EQ(last.axes[0].true_position, 5);
+    EXPECT_EQ(last.axes[0].commanded, 6);
+    EXPECT_TRUE(last.axes[0].position_valid);
+    EXPECT_FALSE(last.axes[1].position_valid);
+    EXPECT_EQ(last.sentence, "");
 }
 
 TEST_F(ALogbook, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {

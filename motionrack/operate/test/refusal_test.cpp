@@ -40,8 +40,8 @@ TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
     o.at(4, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_FALSE(m.status().alarms[0].active);
-        EXPECT_TRUE(m.acknowledge(1));
-        EXPECT_FALSE(m.acknowledge(7));
+        EXPECT_TRUE(m.acknowledge_alarm(1));
+        EXPECT_FALSE(m.acknowledge_alarm(7));
         EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
     });
     o.run(5);

@@ -102,9 +102,9 @@ constexpr State states[] = {
          o.at(0.25, [](Machine& m) { EXPECT_TRUE(m.hold()); });
      }},
     {"m0", MachineState::hold, [](Operated& o, double) { program(o, "G21 G90 F1200\nG1 X104\nM0\nG1 X200\nM2\n"); }},
-    {"single_step", MachineState::hold,
+    {"single_block", MachineState::hold,
      [](Operated& o, double) {
-         o.at(0.04, [](Machine& m) { m.set_single_step(true); });
+         o.at(0.04, [](Machine& m) { m.set_single_block(true); });
          program(o, "G21 G90 F1200\nG1 X104\nG1 X200\nM2\n");
      }},
     {"probing", MachineState::moving, [](Operated& o, double) { program(o, "G21 G90\nG38.2 X290 F1200\nM2\n"); }},
@@ -152,7 +152,7 @@ void drive(Machine& m) {
 
 constexpr Source sources[] = {
     {StopSource::emergency_stop, "emergency_stop", 0, button<true>, button<false>},
-    {StopSource::stop_order, "stop_order", 0, [](Machine& m) { m.stop(); }, nothing},
+    {StopSource::stop_command, "stop_command", 0, [](Machine& m) { m.stop(); }, nothing},
     {StopSource::drive_alarm, "drive_alarm", 0, drive<true>, drive<false>},
     {StopSource::limit_switch, "limit_switch", 0, [](Machine& m) { EXPECT_TRUE(m.wires().force("Y.limit_minus", 0)); },
      nothing},
@@ -238,7 +238,7 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
     o_.at(looked, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
         EXPECT_EQ(rack().stop_latch().cause(), source().source);
-        EXPECT_EQ(m.status().alarms.size(), source().source == StopSource::stop_order ? 0u : 1u);
+        EXPECT_EQ(m.status().alarms.size(), source().source == StopSource::stop_command ? 0u : 1u);
         EXPECT_FALSE(m.line("G1 X110 F600", 1));
         EXPECT_FALSE(m.begin_program("G0 X110\n", "q"));
         EXPECT_FALSE(m.jog('X', 5));

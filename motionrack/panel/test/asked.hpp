@@ -86,7 +86,7 @@ class Asked {
     void run(double seconds) {
         at(seconds, [this] { machine->quit(); });
         machine->run();
-        EXPECT_EQ(open_, 0) << "an order was never answered";
+        EXPECT_EQ(open_, 0) << "a command was never answered";
     }
     double x() const { return machine->status().axes[0].commanded; }
 

@@ -33,16 +33,16 @@ TEST(AnOrder, IsAnsweredWhenTheJournalHasIt) {
     a.good(0.1, "take_control");
     a.at(0.2, anna, "enable", {{"on", true}}, [&](const Answer& answer) {
         EXPECT_EQ(answer.status, 200);
-        const auto entries = book.read({0, "order", 10});
+        const auto entries = book.read({0, "command", 10});
         ASSERT_TRUE(entries);
         for (const journal::Entry& entry : *entries) seen = seen || entry.text == "anna: enable on=true";
     });
-    a.good(0.3, "line", {{"text", "G1 X12 F600"}});
-    a.good(1.9, "set_single_step", {{"on", true}});  // answered when it and all earlier entries are on the disk
+    a.good(0.3, "mdi", {{"text", "G1 X12 F600"}});
+    a.good(1.9, "set_single_block", {{"on", true}});  // answered when it and all earlier entries are on the disk
     a.at(2, eve, "journal", {{"limit", 100}}, [](const Answer& answer) {
         std::string kinds;
         for (const json& entry : answer.body["journal"]) kinds += entry["kind"].get<std::string>() + " ";
-        EXPECT_THAT(kinds, HasSubstr("order"));
+        EXPECT_THAT(kinds, HasSubstr("command"));
         EXPECT_THAT(kinds, HasSubstr("state"));
         EXPECT_THAT(kinds, HasSubstr("position"));
     });
@@ -79,7 +79,7 @@ TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     };
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "begin", {{"name", "part.ngc"}, {"text", "G1 X200 F600\nX0\nM30\n"}});
+    a.good(0.3, "start_program", {{"name", "part.ngc"}, {"text", "G1 X200 F600\nX0\nM30\n"}});
     a.at(1.0, [&] { std::filesystem::remove(folder.path / "rack.journal"); });
     a.at(1.1, anna, "set_overrides", {{"feed", 0.5}}, [](const Answer& answer) {
         // On a busy computer the journal's supervision may have detected it before.
@@ -97,11 +97,11 @@ TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
         EXPECT_LT(held, 40);
     });
     a.at(2.1, anna, "resume", json::object(), refused);
-    a.at(2.2, anna, "set_clock", {{"mode", "free"}}, refused);
+    a.at(2.2, anna, "set_clock", {{"mode", "unthrottled"}}, refused);
     a.at(3.0, anna, "stop", json::object(), taken);
     a.at(3.5, anna, "reset", json::object(), taken);
-    a.at(3.6, anna, "begin", {{"name", "again.ngc"}, {"text", "G1 X0 F600\nM30\n"}}, refused);
-    a.at(3.7, anna, "line", {{"text", "G0 X0"}}, refused);
+    a.at(3.6, anna, "start_program", {{"name", "again.ngc"}, {"text", "G1 X0 F600\nM30\n"}}, refused);
+    a.at(3.7, anna, "mdi", {{"text", "G0 X0"}}, refused);
     a.at(3.8, anna, "home", json::object(), refused);
     a.at(3.9, [&] { EXPECT_EQ(a.x(), held); });
     a.at(4.0, anna, "jog_by", {{"axis", "X"}, {"distance", 1}, {"speed", 10}}, taken);
@@ -119,7 +119,7 @@ TEST(AnEvent, TellsWhatThePartsOfTheMachineReport) {
     });
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "line", {{"text", "G1 X50 F3000"}});
+    a.good(0.3, "mdi", {{"text", "G1 X50 F3000"}});
     a.good(0.5, "inject_fault", {{"target", "X"}, {"fault", "motor.lose_steps=640"}});
     a.run(4);
     EXPECT_FALSE(told.empty());

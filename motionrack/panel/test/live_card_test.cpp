@@ -69,12 +69,12 @@ TEST(ARealCardOnThePage, IsReadInServiceOnly) {
     a.at(0.05, eve, "card", {{"name", "bench"}}, [](const Answer& answer) {
         EXPECT_EQ(answer.body["registers"].size(), 0U);
         EXPECT_EQ(answer.body["values"].size(), 0U);
-        EXPECT_THAT(answer.body["why"].get<std::string>(), HasSubstr("is read while it is in service only"));
+        EXPECT_THAT(answer.body["reason"].get<std::string>(), HasSubstr("is read while it is in service only"));
     });
     a.good(0.1, "take_control");
     a.good(0.15, "service", {{"card", "bench"}, {"on", true}});
     a.at(5, eve, "card", {{"name", "bench"}}, [](const Answer& answer) {
-        ASSERT_FALSE(answer.body.contains("why")) << answer.body;
+        ASSERT_FALSE(answer.body.contains("reason")) << answer.body;
         EXPECT_EQ(answer.body["registers"][0]["name"], "RR0");
         EXPECT_EQ(answer.body["registers"][0]["fields"]["DRV"], 0);
         EXPECT_EQ(answer.body["values"].size(), 16U);
@@ -89,7 +89,7 @@ TEST(ARealCardOnThePage, IsReadInServiceOnly) {
     a.good(5.1, "service", {{"card", "bench"}, {"on", false}});
     a.at(10, eve, "card", {{"name", "bench"}}, [](const Answer& answer) {
         EXPECT_EQ(answer.body["registers"].size(), 0U);
-        EXPECT_TRUE(answer.body.contains("why"));
+        EXPECT_TRUE(answer.body.contains("reason"));
     });
     a.at(10, eve, "status", json::object(),
          [](const Answer& answer) { EXPECT_TRUE(answer.body["status"]["simulation"]); });
@@ -113,7 +113,7 @@ TEST(ARealCardOnThePage, IsTouchedByNoOrderOfTheVirtualOne) {
     a.at(0.1, anna, "write_register", {{"card", "bench"}, {"bits", 16}, {"address", 0}, {"value", 0}}, is_refused(why));
     a.at(0.1, anna, "set_wire", {{"name", "bench.xlmtp"}, {"value", 0}}, is_refused(why));
     a.at(0.1, anna, "inject_fault", {{"target", "bench"}, {"fault", "stuck=1"}}, is_refused(why));
-    for (const char* mode : {"free", "paused", "real"})
+    for (const char* mode : {"unthrottled", "paused", "real"})
         a.at(0.1, anna, "set_clock", {{"mode", mode}, {"factor", 2}},
              is_refused("The clock was not changed: card bench"));
     a.at(0.2, [&] { EXPECT_EQ(pacer.factor(), 1); });

@@ -19,8 +19,8 @@ TEST(Looking, LeavesTheTraceOfAJobAsItIs) {
         a.good(0.1, "take_control");
         a.good(0.2, "enable", {{"on", true}});
         for (const char* axis : {"X", "Y", "Z", "A"})
-            a.good(0.3, "declare_position", {{"axis", axis}, {"position", *axis == 'Z' ? 80 : 0}});
-        a.good(0.6, "begin", {{"name", "p"}, {"text", part}});
+            a.good(0.3, "set_position", {{"axis", axis}, {"position", *axis == 'Z' ? 80 : 0}});
+        a.good(0.6, "start_program", {{"name", "p"}, {"text", part}});
         if (viewer) {
             a.at(0.2, [&] {
                 a.panel->subscribe({"X.actual", "X.position_mm", "motion.x.LP", "motion.xpp", "glass.0.POSITION",
@@ -115,7 +115,7 @@ TEST(TheRack, IsDescribedWithCardsWiresPartsAndFaults) {
     a.at(0.3, eve, "frames", json::object(), [](const Answer& answer) {
         const json& bus = answer.body["buses"][0];
         EXPECT_EQ(bus["cards"].size(), 3U);
-        EXPECT_TRUE(bus["agree"].get<bool>()) << bus["why"];
+        EXPECT_TRUE(bus["agree"].get<bool>()) << bus["reason"];
         EXPECT_EQ(bus["cards"][1]["positions"].size(), 2U);
     });
     a.at(0.3, eve, "slopes", {{"name", "motion"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
@@ -143,7 +143,7 @@ TEST(AProgram, IsPlannedBeforeItRunsAndItsPathIsShown) {
         EXPECT_NEAR(answer.body["length_mm"].get<double>(), 20 + M_PI * 5, 7);
         EXPECT_GT(answer.body["path"].size(), 10U);
         EXPECT_EQ(answer.body["greatest"]["X"], 40);
-        EXPECT_GT(answer.body["seconds"].get<double>(), 1);
+        EXPECT_GT(answer.body["duration_s"].get<double>(), 1);
     });
     a.at(0.1, eve, "check", {{"text", "G1 X1\nG1 F100 X900\n"}}, [](const Answer& answer) {
         EXPECT_FALSE(answer.body["ok"].get<bool>());
@@ -151,7 +151,7 @@ TEST(AProgram, IsPlannedBeforeItRunsAndItsPathIsShown) {
     });
     a.good(0.2, "take_control");
     a.good(0.3, "enable", {{"on", true}});
-    a.good(0.4, "begin", {{"name", "p"}, {"text", part}});
+    a.good(0.4, "start_program", {{"name", "p"}, {"text", part}});
     a.at(5, eve, "path", json::object(), [](const Answer& answer) {
         EXPECT_GT(answer.body["planned"].size(), 10U);
         EXPECT_GT(answer.body["driven"].size(), 100U);
@@ -180,7 +180,7 @@ TEST(TheScope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
         EXPECT_EQ(answer.body["state"], "armed");
         EXPECT_FALSE(answer.body.contains("capture"));
     });
-    a.good(0.6, "line", {{"text", "G1 X20 F600"}});
+    a.good(0.6, "mdi", {{"text", "G1 X20 F600"}});
     a.at(1, eve, "scope", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["state"], "done");
         const json& capture = answer.body["capture"];
@@ -212,9 +212,9 @@ TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
             {"length", 0.2},
             {"pre", 0.1},
             {"mode", "run"}});
-    a.good(0.5, "line", {{"text", "G1 X20 F600"}});
-    a.good(0.5, "line", {{"text", "G1 X10 F600"}});
-    a.good(0.5, "line", {{"text", "G1 X20 F600"}});
+    a.good(0.5, "mdi", {{"text", "G1 X20 F600"}});
+    a.good(0.5, "mdi", {{"text", "G1 X10 F600"}});
+    a.good(0.5, "mdi", {{"text", "G1 X20 F600"}});
     a.at(5, eve, "scope", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["state"], "armed");
         EXPECT_EQ(answer.body["capture"]["number"], 2);
@@ -279,7 +279,7 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
             EXPECT_TRUE(status["axes"][0]["leds"].contains(led)) << led;
         EXPECT_TRUE(status["axes"][0]["leds"]["in_position"].get<bool>());
         EXPECT_FALSE(status["axes"][0]["enabled"].get<bool>());
-        EXPECT_EQ(status["clock"]["mode"], "free");
+        EXPECT_EQ(status["clock"]["mode"], "unthrottled");
         EXPECT_TRUE(status["control"]["holder"].is_null());
         EXPECT_TRUE(status["simulation"].get<bool>());
     });

@@ -35,16 +35,16 @@ class Asker {
         left_.remove_prefix(std::min(end + 1, left_.size()));
         json fields = json::parse(line, nullptr, false);
         std::string name = "status";
-        if (fields.is_object() && fields.contains("order") && fields["order"].is_string()) {
-            name = fields["order"].get<std::string>();
-            fields.erase("order");
+        if (fields.is_object() && fields.contains("command") && fields["command"].is_string()) {
+            name = fields["command"].get<std::string>();
+            fields.erase("command");
         }
         if (!fields.is_discarded()) ask(name, fields);
         if (left_.empty() || asked_ > max_lines) machine_->quit();
     }
     std::string problem() const {
         if (!problem_.empty()) return problem_;
-        return answered_ == asked_ ? "" : fmt::format("{} orders were answered {} times", asked_, answered_.load());
+        return answered_ == asked_ ? "" : fmt::format("{} commands were answered {} times", asked_, answered_.load());
     }
 
   private:

@@ -18,11 +18,11 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
         a.good(0.2, "mark", {{"card", "scan"}, {"job", slow_job}});
         look(1.0, on);
         if (by_button())
-            a.good(1.0, "press_estop", {{"pressed", true}});
+            a.good(1.0, "set_estop", {{"pressed", true}});
         else
             a.at(1.0, [this] { a.panel->stop(nobody); });
         look(1.05, off);
-        if (by_button()) a.good(1.2, "press_estop", {{"pressed", false}});
+        if (by_button()) a.good(1.2, "set_estop", {{"pressed", false}});
     }
     bool by_button() const { return GetParam(); }
     struct Seen {

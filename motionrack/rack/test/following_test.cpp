@@ -36,8 +36,8 @@ std::string warnings_of(const JobOutcome& outcome) {
 TEST(AFollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
     const JobOutcome outcome = run_with("", {"X.encoder.broken_a@0.5s", "X.encoder.broken_a=0@0.57s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
-    EXPECT_TRUE(outcome.position_trusted) << "the pulses are right";
-    EXPECT_EQ(outcome.axes[0].real_end, 40);
+    EXPECT_TRUE(outcome.position_valid) << "the pulses are right";
+    EXPECT_EQ(outcome.axes[0].actual_end, 40);
     EXPECT_THAT(warnings_of(outcome), HasSubstr("the following error of X was 0."));
     EXPECT_THAT(warnings_of(outcome), HasSubstr("above 0.5 mm"));
 }
@@ -57,7 +57,7 @@ TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndTakesTheTrust) {
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 0.2"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 0.2 mm at 1.02"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The position of X is not trusted any more"));
-    EXPECT_FALSE(outcome.position_trusted);
+    EXPECT_FALSE(outcome.position_valid);
     EXPECT_LT(to_seconds(outcome.time), 1.2);
 }
 
@@ -70,7 +70,7 @@ TEST(AFollowingError, IsNotLookedAtWhereItsLimitsAreZero) {
 TEST(AFollowingError, OfAnAxisWithoutAnEncoderIsNotKnown) {
     const JobOutcome outcome = run_with("encoder_counts_per_rev = 0\n", {"X.motor.stall@1s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
-    EXPECT_FALSE(outcome.position_trusted);
+    EXPECT_FALSE(outcome.position_valid);
 }
 
 /// Moves the carriage to 2000 mm and back, at 500 mm/s.
@@ -102,7 +102,7 @@ TEST_P(AServoThatDoesNotFollow, StopsAtItsLimit) {
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 10 mm at 1.5"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("its motor did not follow, or its encoder does not count"));
     EXPECT_THAT(outcome.ended.error().message, testing::Not(HasSubstr("steps")));
-    EXPECT_FALSE(outcome.position_trusted);
+    EXPECT_FALSE(outcome.position_valid);
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, AServoThatDoesNotFollow,

@@ -123,7 +123,7 @@ TEST(Ioflex02InARack, AnAxisEncoderIsReadBesideTheCardThatMovesIt) {
     rack.start();
     const JobOutcome out = job.run();
     ASSERT_TRUE(out.ended) << out.ended.error().message;
-    EXPECT_EQ(out.axes[0].counts_read, 10'000);
+    EXPECT_EQ(out.axes[0].encoder_counts, 10'000);
     EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 10'000) << "every edge, there and back";
     EXPECT_EQ(*rack.card("flex")->inspect("2.ILLEGAL_TRANSITIONS"), 0);
 }
@@ -137,7 +137,7 @@ TEST(Ioflex02InARack, ItsLinesCanHaveFaultsThatOtherCardsDoNotSee) {
     ASSERT_TRUE(inject_fault(rack, "encoder.dirt=3", "X"));
     const JobOutcome out = job.run();
     ASSERT_TRUE(out.ended);
-    EXPECT_EQ(out.axes[0].counts_read, 16'000);
+    EXPECT_EQ(out.axes[0].encoder_counts, 16'000);
     EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12)
         << "three lines of four counts in each of four turns";
     ASSERT_TRUE(inject_fault(rack, "encoder.noise=50", "X"));

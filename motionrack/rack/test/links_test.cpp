@@ -140,8 +140,8 @@ TEST(Rack, AJobRunsOverAnEightBitBus) {
     rack.start();
     const JobOutcome outcome = job.run();
     ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
-    EXPECT_EQ(outcome.axes[0].real_end, 2);
-    EXPECT_TRUE(outcome.position_trusted);
+    EXPECT_EQ(outcome.axes[0].actual_end, 2);
+    EXPECT_TRUE(outcome.position_valid);
 }
 
 TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
@@ -149,11 +149,11 @@ TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
     EXPECT_TRUE(ended.outcome.ended);
     const AxisOutcome& x = ended.outcome.axes[0];
     EXPECT_EQ(x.pulses_sent, 6400);
-    EXPECT_EQ(x.real_end, 0);
-    EXPECT_EQ(x.counts_read, 0);
+    EXPECT_EQ(x.actual_end, 0);
+    EXPECT_EQ(x.encoder_counts, 0);
     EXPECT_EQ(x.lost_pulses, 6400);
-    EXPECT_FALSE(ended.outcome.position_trusted);
-    EXPECT_EQ(ended.outcome.axes[1].real_end, 20);
+    EXPECT_FALSE(ended.outcome.position_valid);
+    EXPECT_EQ(ended.outcome.axes[1].actual_end, 20);
 }
 
 TEST(Links, AnOpenStepInputStopsTheJobWhereTheFollowingErrorIsWatched) {
@@ -167,19 +167,19 @@ TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
         run_wires("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
     // 20 degrees are 16,000 pulses, at 640 pulses per mm; 10 mm are 6400 pulses, at 800 per degree.
-    EXPECT_EQ(ended.outcome.axes[0].real_end, 25);
-    EXPECT_EQ(ended.outcome.axes[1].real_end, 8);
-    EXPECT_FALSE(ended.outcome.position_trusted);
+    EXPECT_EQ(ended.outcome.axes[0].actual_end, 25);
+    EXPECT_EQ(ended.outcome.axes[1].actual_end, 8);
+    EXPECT_FALSE(ended.outcome.position_valid);
 }
 
 TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
     const Ended crossed = run_wires("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n");
-    EXPECT_EQ(crossed.outcome.axes[0].counts_read, -8000);
-    EXPECT_EQ(crossed.outcome.axes[0].real_end, 10);
-    EXPECT_TRUE(crossed.outcome.position_trusted);
+    EXPECT_EQ(crossed.outcome.axes[0].encoder_counts, -8000);
+    EXPECT_EQ(crossed.outcome.axes[0].actual_end, 10);
+    EXPECT_TRUE(crossed.outcome.position_valid);
     const Ended open = run_wires("m.xeca = \"open\"\nm.xecb = \"open\"\n");
-    EXPECT_EQ(open.outcome.axes[0].counts_read, 0);
-    EXPECT_EQ(open.outcome.axes[1].counts_read, 20000);
+    EXPECT_EQ(open.outcome.axes[0].encoder_counts, 0);
+    EXPECT_EQ(open.outcome.axes[1].encoder_counts, 20000);
 }
 
 /// A comparison of the crossed encoder stops the drive at count -2000.

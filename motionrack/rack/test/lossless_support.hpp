@@ -60,7 +60,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     settings.program = program;
     settings.program_name = "test";
     if (flag_at == never)
-        settings.orders = plan->get();
+        settings.commands = plan->get();
     else
         settings.stop = &flag.flag();
     settings.on_slice = [&] {
@@ -92,7 +92,7 @@ inline void expect_lossless(const Driven& driven, double jump = 1.15) {
     EXPECT_LE(driven.worst.parts, jump) << "axis " << driven.worst.axis << ": " << driven.worst.jump.speed
                                         << " units/s at " << driven.worst.jump.seconds << " s";
     for (const Breach& breach : driven.outcome.breaches.all()) ADD_FAILURE() << sentence_of(breach);
-    EXPECT_TRUE(driven.outcome.position_trusted);
+    EXPECT_TRUE(driven.outcome.position_valid);
     for (const AxisOutcome& axis : driven.outcome.axes)
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start);
 }

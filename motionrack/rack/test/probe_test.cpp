@@ -64,7 +64,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
         // It stops beyond the edge, within the braking distance and a margin.
-        const double speed = feed / 60.0, way = out.axes[0].real_end - whole(edge);
+        const double speed = feed / 60.0, way = out.axes[0].actual_end - whole(edge);
         EXPECT_GE(way, 0);
         EXPECT_LE(way, speed * speed / 2 / 900 + speed * 0.03 + 0.01) << "F" << feed;  // at 1000 mm/s2 and 20,000 mm/s3
         EXPECT_EQ(out.axes[0].lost_pulses, 0);
@@ -94,8 +94,8 @@ TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
     EXPECT_EQ(set_probe_result(out), (std::vector{at("touched", 0, 0, edge), at("left", 0, 0, edge + 1 / pulses_per_mm),
                                                   at("touched", 0, 0, edge)}));
-    EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.01);
-    EXPECT_EQ(out.axes[0].real_end, 10);
+    EXPECT_NEAR(out.axes[2].actual_end, edge + 5, 0.01);
+    EXPECT_EQ(out.axes[0].actual_end, 10);
     EXPECT_EQ(out.run.moves, 5);
 }
 
@@ -116,9 +116,9 @@ void expect_measured(const JobOutcome& out) {
     ASSERT_TRUE(out.ended) << out.ended.error().text();
     EXPECT_TRUE(out.run.ended);
     const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
-    EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.002);
-    EXPECT_NEAR(out.axes[0].real_end, 90, 0.002);
-    EXPECT_NEAR(out.axes[1].real_end, 10, 0.002);
+    EXPECT_NEAR(out.axes[2].actual_end, edge + 5, 0.002);
+    EXPECT_NEAR(out.axes[0].actual_end, 90, 0.002);
+    EXPECT_NEAR(out.axes[1].actual_end, 10, 0.002);
     int hits = 0;
     for (const control::ProgramProbe& probe : out.run.probes) {
         hits += probe.outcome.hit;
@@ -139,7 +139,7 @@ TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
     ASSERT_TRUE(orders) << orders.error().message;
     JobSettings settings;
     settings.program = measures;
-    settings.orders = orders->get();
+    settings.commands = orders->get();
     Job job(rack, settings);
     rack.start();
     (*orders)->begin();
@@ -151,7 +151,7 @@ TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
         run_probe(rack_text("x_min_mm = 100\nx_max_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(set_probe_result(out), std::vector{at("touched", 100, 0, 80)});
-    EXPECT_EQ(out.axes[0].real_end, 120);
+    EXPECT_EQ(out.axes[0].actual_end, 120);
 }
 
 TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
@@ -160,19 +160,19 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     ASSERT_TRUE(may.ended) << may.ended.error().message;
     EXPECT_EQ(set_probe_result(may),
               std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
-    EXPECT_EQ(may.axes[0].real_end, 60);
+    EXPECT_EQ(may.axes[0].actual_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
     EXPECT_EQ(must.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(must.ended.error().message, HasSubstr("In line 2 the probe did not touch"));
-    EXPECT_EQ(must.axes[0].real_end, 50);
+    EXPECT_EQ(must.axes[0].actual_end, 50);
 }
 
 TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
     const JobOutcome touches = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
     ASSERT_FALSE(touches.ended);
     EXPECT_THAT(touches.ended.error().message, HasSubstr("touches already"));
-    EXPECT_EQ(touches.axes[0].real_end, 20);
+    EXPECT_EQ(touches.axes[0].actual_end, 20);
     const JobOutcome free = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
     ASSERT_FALSE(free.ended);
     EXPECT_THAT(free.ended.error().message, HasSubstr("does not touch before the move"));
@@ -183,7 +183,7 @@ TEST(Probing, GoesWithLimitedJerkToo) {
                                      "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(187.123), 20, 80)});
-    EXPECT_NEAR(out.axes[1].real_end, 15, 0.002);
+    EXPECT_NEAR(out.axes[1].actual_end, 15, 0.002);
 }
 
 std::string bad(const std::string& text) {

@@ -34,8 +34,8 @@ TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
     const AxisOutcome& x = out.axes[0];
     EXPECT_TRUE(x.servo);
     EXPECT_EQ(x.planned_end, 0);
-    EXPECT_NEAR(x.real_end, 0, 0.3);
-    EXPECT_EQ(x.counts_read, std::llround((x.real_end - 100) * 100)) << "the card's counter is the machine";
+    EXPECT_NEAR(x.actual_end, 0, 0.3);
+    EXPECT_EQ(x.encoder_counts, std::llround((x.actual_end - 100) * 100)) << "the card's counter is the machine";
     EXPECT_NEAR(x.top.peak_velocity, 499, 2);
     EXPECT_GT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0);
     EXPECT_LT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0 + 2);
@@ -52,8 +52,8 @@ TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
         "500\n[axis.Z.servo]\nvelocity_per_volt_mm_s = 20\ncoulomb_friction_mm_s2 = 20\n";
     const JobOutcome out = run(two, "G90\nG0 X600 Z200\nG1 Z50 F3000\nG1 X0 F6000\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
-    EXPECT_NEAR(out.axes[0].real_end, 0, 0.3);
-    EXPECT_NEAR(out.axes[1].real_end, 50, 0.3);
+    EXPECT_NEAR(out.axes[0].actual_end, 0, 0.3);
+    EXPECT_NEAR(out.axes[1].actual_end, 50, 0.3);
     EXPECT_NEAR(out.axes[1].top.peak_velocity, 100, 1);
     const JobOutcome both = run(two, "G90 F600\nG1 X600 Z200\n");
     ASSERT_FALSE(both.ended);
@@ -74,9 +74,9 @@ TEST(ServoProgram, ASteppingMotorAtTheFrequencyOutputLosesNoSteps) {
             "G0 X300\nG1 X100 F1200\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_EQ(out.axes[0].lost_pulses, 0);
-    EXPECT_NEAR(out.axes[0].real_end, 100, 0.011);
+    EXPECT_NEAR(out.axes[0].actual_end, 100, 0.011);
     EXPECT_NEAR(out.axes[0].top.peak_velocity, 100, 1);
-    EXPECT_TRUE(out.position_trusted);
+    EXPECT_TRUE(out.position_valid);
 }
 
 TEST(ServoProgram, AMixOfPathsAndPositioningIsRefused) {

@@ -22,7 +22,7 @@ const char* const one_move = "G21 G90 F1200\nG1 X80\nM2\n";
 struct StoppedRun {
     JobOutcome outcome;
     RackConfig config;
-    double x() const { return outcome.axes[0].real_end; }
+    double x() const { return outcome.axes[0].actual_end; }
     std::string error() const { return outcome.ended ? std::string() : outcome.ended.error().message; }
 };
 
@@ -33,7 +33,7 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
     request.program = program;
     request.program_name = "part.ngc";
     request.faults = *read_faults(faults);
-    request.orders = *read_orders(orders);
+    request.commands = *read_commands(orders);
     auto job = RecordedJob::create(request, {});
     EXPECT_TRUE(job) << job.error().message;
     return {(*job)->run(nullptr, {}), request.config};
@@ -51,7 +51,7 @@ TEST(AStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.2s"});
     expect_stopped(ran, 20, "The emergency stop was pressed at 1.000 s");
     EXPECT_THAT(ran.error(), HasSubstr("in line 3"));
-    EXPECT_TRUE(ran.outcome.position_trusted) << "nothing moved, so no step can be lost";
+    EXPECT_TRUE(ran.outcome.position_valid) << "nothing moved, so no step can be lost";
     EXPECT_THAT(ran.error(), HasSubstr("The positions are kept."));
 }
 
@@ -72,7 +72,7 @@ TEST(AStop, InADwellOfAServoEndsTheProgram) {
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("emergency stop"));
     EXPECT_NEAR(ran.x(), 200, 1);
-    EXPECT_TRUE(ran.outcome.position_trusted) << "its encoder counts on";
+    EXPECT_TRUE(ran.outcome.position_valid) << "its encoder counts on";
 }
 
 TEST(AStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
@@ -80,7 +80,7 @@ TEST(AStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
     const StoppedRun ran =
         run_stopped(stop_axes, one_move, {"estop=0@1.2s", "estop=1@1.5s"}, {"hold@0.5s", "resume@2s"});
     expect_stopped(ran, moved.x(), "The emergency stop was pressed at 1.200 s");
-    EXPECT_TRUE(ran.outcome.position_trusted);
+    EXPECT_TRUE(ran.outcome.position_valid);
 }
 
 TEST(AStop, BetweenHoldAndResumeOfAJerkLimitedMachineEndsTheProgram) {
@@ -95,14 +95,14 @@ TEST(AStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("The drive of Y reported an alarm at 1.000 s"));
     EXPECT_LT(ran.x(), 30);
-    EXPECT_NEAR(ran.x() - 10, ran.outcome.axes[1].real_end, 0.02) << "on the path";
-    EXPECT_FALSE(ran.outcome.position_trusted) << "a drive that gives up does not follow its pulses";
+    EXPECT_NEAR(ran.x() - 10, ran.outcome.axes[1].actual_end, 0.02) << "on the path";
+    EXPECT_FALSE(ran.outcome.position_valid) << "a drive that gives up does not follow its pulses";
 }
 
 TEST(AStop, OfADriveAlarmInADwellKeepsThePositions) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {"m.xalarm=0@1s", "m.xalarm=1@1.1s"});
     expect_stopped(ran, 20, "The drive of X reported an alarm");
-    EXPECT_TRUE(ran.outcome.position_trusted);
+    EXPECT_TRUE(ran.outcome.position_valid);
 }
 
 TEST(AStop, OfALimitSwitchAtStandstillEndsTheProgram) {
@@ -111,7 +111,7 @@ TEST(AStop, OfALimitSwitchAtStandstillEndsTheProgram) {
     const StoppedRun moving = run_stopped(stop_axes, one_move, {"Y.limit_plus=0@1s"});
     ASSERT_FALSE(moving.outcome.ended) << "that of an axis that stands while another one moves";
     EXPECT_LT(moving.x(), 32);
-    EXPECT_TRUE(moving.outcome.position_trusted);
+    EXPECT_TRUE(moving.outcome.position_valid);
 }
 
 TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
@@ -120,7 +120,7 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("The watchdog of card board restarted it"));
     EXPECT_NEAR(ran.x(), 200, 1);
-    EXPECT_FALSE(ran.outcome.position_trusted) << "its counter begins anew";
+    EXPECT_FALSE(ran.outcome.position_valid) << "its counter begins anew";
     EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts anew"));
 }
 
@@ -134,10 +134,10 @@ TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
 TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop) {
     const StoppedRun fast = run_stopped(stop_axes, "G21 G90 F3000\nG1 X80\nM2\n", {"estop=0@1s"});
     EXPECT_FALSE(fast.outcome.ended);
-    EXPECT_FALSE(fast.outcome.position_trusted);
+    EXPECT_FALSE(fast.outcome.position_valid);
     const StoppedRun slow = run_stopped(stop_axes, "G21 G90 F60\nG1 X80\nM2\n", {"estop=0@1s"});
     EXPECT_FALSE(slow.outcome.ended);
-    EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed: it stops within a step";
+    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its start speed: it stops within a step";
 }
 
 TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
@@ -155,7 +155,7 @@ TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
         run_stopped(stop_axes, "G21 G90 F1200\nG1 X80\nM2\n", {"X.limit_minus=0@1s", "X.limit_minus=1@1.2s"});
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("The - limit switch of X became active while X moved in + direction"));
-    EXPECT_TRUE(ran.outcome.position_trusted) << "a ramp loses nothing";
+    EXPECT_TRUE(ran.outcome.position_valid) << "a ramp loses nothing";
     EXPECT_LT(ran.x(), 32);
 }
 
@@ -163,17 +163,17 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
     const std::string fast = "G21 G90\nG1 X200 F6000\nM2\n";
     const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
     ASSERT_FALSE(one_piece.outcome.ended);
-    EXPECT_TRUE(one_piece.outcome.position_trusted) << "the chip brakes within its piece";
+    EXPECT_TRUE(one_piece.outcome.position_valid) << "the chip brakes within its piece";
     // The segments of a jerk-limited path last for some milliseconds each; the chip stops at the end of one.
     const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
     for (const char* switches : {"X.limit_plus=0@1s", "Y.limit_plus=0@1s"}) {
         const StoppedRun pieces = run_stopped(jerk, fast, {switches});
         ASSERT_FALSE(pieces.outcome.ended) << switches;
-        EXPECT_FALSE(pieces.outcome.position_trusted) << switches << ": it went from 100 mm/s to 0 at once";
+        EXPECT_FALSE(pieces.outcome.position_valid) << switches << ": it went from 100 mm/s to 0 at once";
         EXPECT_THAT(pieces.error(), HasSubstr("The position of X is not trusted any more: steps may have been lost"));
     }
     const StoppedRun slow = run_stopped(jerk, "G21 G90\nG1 X200 F60\nM2\n", {"X.limit_plus=0@1s"});
-    EXPECT_TRUE(slow.outcome.position_trusted) << "1 mm/s is below its start speed";
+    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its start speed";
 }
 
 /// While the chip decelerates, moves queued behind the line must not change the acceleration.
@@ -187,7 +187,7 @@ TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
         ASSERT_FALSE(ran.outcome.ended) << when;
         EXPECT_THAT(ran.error(), HasSubstr("in line 1")) << when;
         EXPECT_LE(ran.outcome.axes[1].top.peak_accel, 500) << when;
-        EXPECT_TRUE(ran.outcome.position_trusted) << when;
+        EXPECT_TRUE(ran.outcome.position_valid) << when;
     }
 }
 
@@ -197,7 +197,7 @@ TEST(AStop, OfABrokenWireOfACardComesFromItsInput) {
     ASSERT_FALSE(behind.outcome.ended) << "the wire of the end stop behind the axis";
     EXPECT_THAT(behind.error(), HasSubstr("The - limit switch of X became active while X moved in + direction"));
     EXPECT_LT(behind.x(), 600);
-    EXPECT_TRUE(behind.outcome.position_trusted);
+    EXPECT_TRUE(behind.outcome.position_valid);
     const StoppedRun dwells =
         run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P2\nG0 X300\nM2\n", {"board.ems.broken@2s"});
     ASSERT_FALSE(dwells.outcome.ended) << "that of the emergency stop, at standstill";

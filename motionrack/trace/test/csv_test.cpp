@@ -54,7 +54,7 @@ TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
     const Scratch scratch;
     ASSERT_TRUE(write_csv(data, scratch.path("a.csv")));
     EXPECT_EQ(file_text(scratch.path("a.csv")),
-              "time_s,x_position_mm,x_speed_mm_s,x_acceleration_mm_s2,a_position_deg,deviation_mm,"
+              "time_s,x_position_mm,x_velocity_mm_s,x_acceleration_mm_s2,a_position_deg,deviation_mm,"
               "driven_x_mm,driven_y_mm,driven_z_mm\r\n"
               "0,0,0,500,90,0,0,0,0\r\n"
               "0.001,0.0125,25,500,,0.001,0.0125,0,-1\r\n");
@@ -78,9 +78,9 @@ TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
     EXPECT_EQ(file_text(scratch.path("e.csv")),
               "time_s,event,line,x_mm,y_mm,z_mm,text\r\n"
               ",warning,,,,,No instant\r\n"
-              "0,block,3,0,0,5,line\r\n"
-              "0.5,worst deviation,3,5,0.25,5,0.25 mm\r\n"
-              "1,block,4,10,0,5,arc\r\n"
+              "0,move,3,0,0,5,line\r\n"
+              "0.5,max deviation,3,5,0.25,5,0.25 mm\r\n"
+              "1,move,4,10,0,5,arc\r\n"
               "1.5,warning,4,10,2,5,\"Y, close to \"\"+\"\"\"\r\n"
               "2,stop,4,10,4,5,Limit switch\r\n"
               "7,warning,,,,,Later than the path\r\n");

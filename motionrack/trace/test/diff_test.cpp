@@ -231,7 +231,7 @@ TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
 TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     const Scratch scratch;
     std::ofstream(scratch.path("a.csv"))
-        << "time_s,x_position_mm,a_speed_deg_s,y_drive_v,deviation_mm,driven_x_mm,driven_y_mm,driven_z_mm,other\n"
+        << "time_s,x_position_mm,a_velocity_deg_s,y_drive_v,deviation_mm,driven_x_mm,driven_y_mm,driven_z_mm,other\n"
            "0,1,-7,3,0.5,1,2,3,q\n0.001,1.5,,4,,1,2,3,q\n";
     const auto data = report_from_csv(scratch.path("a.csv"));
     ASSERT_TRUE(data) << data.error().text();
@@ -247,8 +247,13 @@ TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     ASSERT_TRUE(sheet) << sheet.error().text();
     EXPECT_THAT(sheet->axes[0].position, ElementsAre(1.0F, 2.0F))
         << "a byte order mark and empty lines are a spreadsheet's";
-    std::ofstream(scratch.path("b.csv")) << "time_s,event\n0,block\n";
+    std::ofstream(scratch.path("b.csv")) << "time_s,event\n0,move\n";
     EXPECT_FALSE(report_from_csv(scratch.path("b.csv")));
+    std::ofstream(scratch.path("former.csv")) << "time_s,x_position_mm,x_speed_mm_s\n0,1,2\n";
+    const auto former = report_from_csv(scratch.path("former.csv"));
+    ASSERT_FALSE(former);
+    EXPECT_EQ(former.error().message,
+              "The column 'x_speed_mm_s' is now 'x_velocity_mm_s'. The file was not read; rename the column.");
     std::ofstream(scratch.path("c.csv")) << "time_s,x_position_mm\n1,1\n0,1\n";
     EXPECT_FALSE(report_from_csv(scratch.path("c.csv")));
 }

@@ -1,4 +1,5 @@
 // Recordings: all data is read back, also from a truncated file; damage is reported and never crashes.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 #include <sys/wait.h>
@@ -6,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <motionrack/trace/former_version.hpp>
 #include <motionrack/trace/report_json.hpp>
 #include <random>
 
@@ -227,11 +229,19 @@ TEST(Recording, RefusesWhatIsNone) {
     ASSERT_TRUE(other && other->close());
     EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message,
                 HasSubstr("no recording of motionrack"));
-    auto later = hdf5::File::create(scratch.path("later.h5"));
-    later->set("/", "format", "motionrack recording");
-    later->set("/", "format_version", recording_format + 1);
-    ASSERT_TRUE(later->close());
-    EXPECT_THAT(RecordingReader::open(scratch.path("later.h5")).error().message, HasSubstr("later one"));
+    const auto of_format = [&](std::int64_t version) {
+        auto file = hdf5::File::create(scratch.path("version.h5"));
+        file->set("/", "format", "motionrack recording");
+        file->set("/", "format_version", version);
+        EXPECT_TRUE(file->close());
+        return RecordingReader::open(scratch.path("version.h5")).error().message;
+    };
+    EXPECT_EQ(
+        of_format(1),
+        fmt::format("The recording has format 1, this program reads format 2. It was not read. Take motionrack {}, "
+                    "or the version that wrote it.",
+                    format_1_version));
+    EXPECT_THAT(of_format(recording_format + 1), HasSubstr("or a later one"));
 }
 
 TEST(Recording, TellsWhereItCannotBeMade) {

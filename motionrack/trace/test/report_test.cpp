@@ -194,7 +194,7 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     }
     data.axes[0].max_velocity = not_a_number;
     data.axes[1].max_position = infinity;
-    data.axes[0].peak_accel = data.axes[0].real_end = data.tolerance_mm = infinity;
+    data.axes[0].peak_accel = data.axes[0].actual_end = data.tolerance_mm = infinity;
     data.worst = ReportMaxDeviation{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
     data.blocks[0].duration = data.blocks[0].length = not_a_number;
     data.warnings[0].seconds = not_a_number;

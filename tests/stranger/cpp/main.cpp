@@ -13,6 +13,6 @@ int main() {
     rack.start();
     const rack::JobOutcome outcome = job.run();
 
-    for (const rack::AxisOutcome& axis : outcome.axes) std::printf("%c %.4f\n", "XYZABC"[axis.index], axis.real_end);
+    for (const rack::AxisOutcome& axis : outcome.axes) std::printf("%c %.4f\n", "XYZABC"[axis.index], axis.actual_end);
     return outcome.ended ? 0 : 1;
 }

@@ -158,11 +158,11 @@ TEST(AHostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
     });
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.order({{"query", "status"}}).value("done", false));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.exchange({{"query", "status"}}).value("done", false));
     client.say({{"id", 1}, {"query", "status"}});
     const json refused = client.receive_until([](const json& m) { return m.contains("error"); });
-    EXPECT_EQ(refused["error"]["trouble"], "limit");
-    EXPECT_TRUE(client.order({{"order", "stop"}}).value("done", false));
+    EXPECT_EQ(refused["error"]["kind"], "limit");
+    EXPECT_TRUE(client.exchange({{"command", "stop"}}).value("done", false));
 }
 
 TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
@@ -174,9 +174,9 @@ TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
     ASSERT_EQ(one.upgrade().status, 101);
     ASSERT_EQ(other.upgrade().status, 101);
     for (WebClient* client : {&one, &other, &one, &other})
-        EXPECT_TRUE(client->order({{"query", "status"}}).value("done", false));
-    EXPECT_EQ(other.order({{"query", "status"}})["error"]["trouble"], "limit");
-    EXPECT_TRUE(one.order({{"order", "stop"}}).value("done", false));
+        EXPECT_TRUE(client->exchange({{"query", "status"}}).value("done", false));
+    EXPECT_EQ(other.exchange({{"query", "status"}})["error"]["kind"], "limit");
+    EXPECT_TRUE(one.exchange({{"command", "stop"}}).value("done", false));
 }
 
 TEST(AHostileStream, ThatReadsNoAnswersIsLetGo) {
@@ -205,7 +205,7 @@ std::vector<std::array<std::int64_t, 3>> path_of_the_job(int connections, int& r
         settings.limits.of_a_network = 200;
     });
     WebClient anna = running.master("anna");
-    EXPECT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
     std::list<WebClient> others = crowd(running, connections);
     anna.receive_until(job_is_over);
     int at = 0;

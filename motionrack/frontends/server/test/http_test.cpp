@@ -73,10 +73,10 @@ TEST_F(AServer, AnswersQueriesOfThisComputerWithoutAToken) {
 }
 
 TEST_F(AServer, TakesNoOrdersWithoutAToken) {
-    for (const char* order : {"enable", "take_control", "invite", "home"}) {
-        const WebAnswer answer = client.ask("POST", std::string("/api/") + order, "{}");
-        EXPECT_EQ(answer.status, 403) << order;
-        EXPECT_THAT(answer.message(), HasSubstr("needs the role")) << order;
+    for (const char* command : {"enable", "take_control", "invite", "home"}) {
+        const WebAnswer answer = client.ask("POST", std::string("/api/") + command, "{}");
+        EXPECT_EQ(answer.status, 403) << command;
+        EXPECT_THAT(answer.message(), HasSubstr("needs the role")) << command;
     }
     EXPECT_TRUE(running.audited("enable", 403));
 }
@@ -109,7 +109,7 @@ TEST_F(AServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Authorization: Basic YTpi\r\n").status, 401);
     const std::string anna = running.token("anna"), bert = running.token("bert", Role::observe);
     EXPECT_EQ(client.ask("GET", "/api/users", "", bearer(bert)).status, 403);
-    EXPECT_EQ(client.ask("POST", "/api/unpair", "{\"user\":\"bert\"}", bearer(anna)).status, 200);
+    EXPECT_EQ(client.ask("POST", "/api/revoke_user", "{\"user\":\"bert\"}", bearer(anna)).status, 200);
     const WebAnswer revoked = client.ask("GET", "/api/status", "", bearer(bert));
     EXPECT_EQ(revoked.status, 401);
     EXPECT_THAT(revoked.message(), HasSubstr("revoked"));
@@ -141,6 +141,9 @@ TEST_F(AServer, StopsForEverybody) {
 TEST_F(AServer, SaysWhatIsWrongWithARequest) {
     const std::string anna = bearer(running.token("anna"));
     EXPECT_EQ(client.ask("GET", "/api/nothing").status, 404);
+    const WebAnswer former = client.ask("POST", "/api/begin", "", anna);
+    EXPECT_EQ(former.status, 404);
+    EXPECT_EQ(former.message(), "'begin' is now 'start_program'. Nothing was done.");
     EXPECT_EQ(client.ask("POST", "/api/status").status, 405);
     EXPECT_EQ(client.ask("GET", "/api/enable", "", anna).status, 405);
     EXPECT_EQ(client.ask("GET", "/api/stream").status, 426);

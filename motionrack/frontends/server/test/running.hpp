@@ -71,15 +71,15 @@ class Running {
         EXPECT_EQ(client.upgrade().status, 101);
         client.receive();
         if (!token.empty()) {
-            EXPECT_TRUE(client.order({{"token", token}}).value("done", false));
+            EXPECT_TRUE(client.exchange({{"token", token}}).value("done", false));
         }
         return client;
     }
     /// Opens a WebSocket that has control of the enabled machine.
     WebClient master(const std::string& name) {
         WebClient client = stream(token(name));
-        EXPECT_TRUE(client.order({{"order", "take_control"}}).value("done", false));
-        EXPECT_TRUE(client.order({{"order", "enable"}, {"on", true}}).value("done", false));
+        EXPECT_TRUE(client.exchange({{"command", "take_control"}}).value("done", false));
+        EXPECT_TRUE(client.exchange({{"command", "enable"}, {"on", true}}).value("done", false));
         return client;
     }
     bool audited(const std::string& what, int status) {

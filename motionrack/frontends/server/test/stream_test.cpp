@@ -36,18 +36,18 @@ TEST(AStream, BeginsWithHelloAndGivesPictures) {
 TEST(AStream, GivesTheChannelsThatWereAskedForInTheirOrder) {
     Running running;
     WebClient client = running.stream("");
-    EXPECT_TRUE(client.order({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}})
+    EXPECT_TRUE(client.exchange({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}})
                     .value("done", false));
     const json picture =
         client.receive_until([](const json& message) { return is_picture(message) && !message["values"].empty(); });
     EXPECT_EQ(picture["values"], json({0, 0}));
-    EXPECT_THAT(error_of(client.order({{"subscribe", {{"channels", {"X.nothing"}}}}})), HasSubstr("X.nothing"));
-    EXPECT_THAT(error_of(client.order({{"subscribe", {{"rate_hz", 101}}}})), HasSubstr("1 to 100"));
+    EXPECT_THAT(error_of(client.exchange({{"subscribe", {{"channels", {"X.nothing"}}}}})), HasSubstr("X.nothing"));
+    EXPECT_THAT(error_of(client.exchange({{"subscribe", {{"rate_hz", 101}}}})), HasSubstr("1 to 100"));
     EXPECT_THAT(
-        error_of(client.order({{"subscribe", {{"channels", json(std::vector<std::string>(65, "X.commanded"))}}}})),
+        error_of(client.exchange({{"subscribe", {{"channels", json(std::vector<std::string>(65, "X.commanded"))}}}})),
         HasSubstr("65 channels"));
-    EXPECT_THAT(error_of(client.order({{"subscribe", {{"rates", 1}}}})), HasSubstr("nothing else"));
-    EXPECT_THAT(error_of(client.order({{"subscribe", 1}})), HasSubstr("takes"));
+    EXPECT_THAT(error_of(client.exchange({{"subscribe", {{"rates", 1}}}})), HasSubstr("nothing else"));
+    EXPECT_THAT(error_of(client.exchange({{"subscribe", 1}})), HasSubstr("takes"));
     EXPECT_FALSE(client.receive_until(is_picture)["values"].empty()) << "what was refused changed nothing";
 }
 
@@ -56,7 +56,7 @@ TEST(AStream, TellsEventsToEverybody) {
     WebClient watcher = running.stream("");
     WebClient anna = running.master("anna");
     const json event = watcher.receive_until(
-        [](const json& message) { return message.contains("event") && message["event"]["kind"] == "order"; });
+        [](const json& message) { return message.contains("event") && message["event"]["kind"] == "command"; });
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
@@ -70,15 +70,26 @@ TEST(AStream, RefusesWithASentenceAndGoesOn) {
     EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
     EXPECT_THAT(refused("[]"), HasSubstr("is no JSON object"));
     EXPECT_THAT(refused(std::string(1000, '[')), HasSubstr("nested deeper"));
-    EXPECT_THAT(refused("{\"id\":1}"), HasSubstr("one of token, subscribe, order, query"));
-    EXPECT_THAT(refused("{\"id\":{},\"order\":\"enable\"}"), HasSubstr("id of a message"));
-    EXPECT_THAT(refused("{\"id\":1,\"order\":\"fly\"}"), HasSubstr("no such order"));
-    EXPECT_THAT(refused("{\"id\":1,\"order\":\"status\"}"), HasSubstr("no such order"));
-    EXPECT_THAT(refused("{\"id\":1,\"query\":\"enable\"}"), HasSubstr("no such query"));
-    EXPECT_THAT(refused("{\"id\":1,\"order\":7}"), HasSubstr("one of token"));
-    EXPECT_THAT(refused("{\"id\":1,\"order\":\"enable\",\"on\":true}"), HasSubstr("Take control first"));
+    EXPECT_THAT(refused("{\"id\":1}"), HasSubstr("one of token, subscribe, command, query"));
+    EXPECT_THAT(refused("{\"id\":{},\"command\":\"enable\"}"), HasSubstr("id of a message"));
+    EXPECT_THAT(refused("{\"id\":1,\"command\":\"fly\"}"), HasSubstr("Unknown command 'fly'"));
+    EXPECT_THAT(refused("{\"id\":1,\"command\":\"begin\"}"), HasSubstr("'begin' is now 'start_program'"));
+    EXPECT_THAT(refused("{\"id\":1,\"order\":\"enable\",\"on\":true}"), HasSubstr("'order' is now 'command'"));
+    EXPECT_THAT(refused("{\"id\":1,\"command\":\"status\"}"), HasSubstr("Unknown command 'status'"));
+    EXPECT_THAT(refused("{\"id\":1,\"query\":\"enable\"}"), HasSubstr("Unknown query 'enable'. Nothing was done."));
+    EXPECT_THAT(refused("{\"id\":1,\"command\":7}"), HasSubstr("one of token"));
+    EXPECT_THAT(refused("{\"id\":1,\"command\":\"enable\",\"on\":true}"), HasSubstr("Take control first"));
     EXPECT_THAT(refused("{\"id\":1,\"token\":\"x\"}"), HasSubstr("not known"));
-    EXPECT_TRUE(client.order({{"query", "status"}}).value("done", false));
+    EXPECT_TRUE(client.exchange({{"query", "status"}}).value("done", false));
+}
+
+TEST(AStream, StopsUnderItsFormerNameToo) {
+    Running running;
+    WebClient client = running.master("anna");
+    client.say({{"id", 1}, {"order", "stop"}});
+    const json event = client.receive_until(
+        [](const json& message) { return message.contains("event") && message["event"]["kind"] == "stop"; });
+    EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
 TEST(AStream, TakesLongProgramsFromWhoMayOperate) {
@@ -86,9 +97,9 @@ TEST(AStream, TakesLongProgramsFromWhoMayOperate) {
     WebClient anna = running.master("anna");
     std::string text = "(" + std::string(200'000, 'x') + ")\n" + job();
     for (std::size_t at = 100; at < 200'000; at += 100) text[at] = '\n', text[at - 1] = ')', text[at + 1] = '(';
-    EXPECT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", text}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", text}}).value("done", false));
     WebClient bert = running.stream(running.token("bert", Role::observe));
-    bert.say({{"id", 1}, {"order", "begin"}, {"name", "job"}, {"text", text}});
+    bert.say({{"id", 1}, {"command", "start_program"}, {"name", "job"}, {"text", text}});
     WebFrame frame;
     do frame = bert.receive();
     while (frame.kind == 1);
@@ -99,17 +110,18 @@ TEST(AStream, HasOneMasterAtATime) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert"));
-    EXPECT_THAT(error_of(bert.order({{"order", "jog"}, {"axis", "X"}, {"speed", 5}})),
+    EXPECT_THAT(error_of(bert.exchange({{"command", "jog"}, {"axis", "X"}, {"speed", 5}})),
                 HasSubstr("Control is with anna"));
-    EXPECT_THAT(error_of(bert.order({{"order", "take_control"}})), HasSubstr("anna has it"));
-    ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
-    EXPECT_THAT(error_of(bert.order({{"order", "take_control"}, {"force", true}})), HasSubstr("does not stand still"));
-    EXPECT_TRUE(bert.order({{"order", "hold"}}).value("done", false)) << "everybody who operates may hold";
+    EXPECT_THAT(error_of(bert.exchange({{"command", "take_control"}})), HasSubstr("anna has it"));
+    ASSERT_TRUE(anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    EXPECT_THAT(error_of(bert.exchange({{"command", "take_control"}, {"force", true}})),
+                HasSubstr("does not stand still"));
+    EXPECT_TRUE(bert.exchange({{"command", "hold"}}).value("done", false)) << "everybody who operates may hold";
     anna.receive_until([](const json& message) { return state_is(message, "hold"); });
-    EXPECT_TRUE(anna.order({{"order", "stop"}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "stop"}}).value("done", false));
     anna.receive_until([](const json& message) { return state_is(message, "error stop"); });
-    EXPECT_TRUE(bert.order({{"order", "take_control"}, {"force", true}}).value("done", false));
-    EXPECT_THAT(error_of(anna.order({{"order", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
+    EXPECT_TRUE(bert.exchange({{"command", "take_control"}, {"force", true}}).value("done", false));
+    EXPECT_THAT(error_of(anna.exchange({{"command", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }
 
 TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
@@ -117,10 +129,11 @@ TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
     WebClient watcher = running.stream("");
     {
         WebClient anna = running.master("anna");
-        ASSERT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 1}, {"sequence", 1}}).value("done", false));
+        ASSERT_TRUE(
+            anna.exchange({{"command", "jog"}, {"axis", "X"}, {"speed", 1}, {"sequence", 1}}).value("done", false));
         anna.receive_until([](const json& message) { return state_is(message, "jogging"); });
         { WebClient bert = running.stream(running.token("bert")); }  // closing another connection has no effect
-        EXPECT_TRUE(anna.order({{"order", "jog"}, {"axis", "X"}, {"speed", 2}, {"sequence", 2}, {"renews", true}})
+        EXPECT_TRUE(anna.exchange({{"command", "jog"}, {"axis", "X"}, {"speed", 2}, {"sequence", 2}, {"renews", true}})
                         .value("done", false));
     }
     const json stood = watcher.receive_until([](const json& message) {
@@ -132,18 +145,19 @@ TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
 TEST(AStream, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
     Running running;
     WebClient anna = running.master("anna");
-    const json jog = {{"order", "jog"}, {"axis", "X"}, {"speed", 1}};
+    const json jog = {{"command", "jog"}, {"axis", "X"}, {"speed", 1}};
     const auto with = [&](std::int64_t sequence, bool renews) {
         json out = jog;
         out["sequence"] = sequence;
         out["renews"] = renews;
-        return error_of(anna.order(out));
+        return error_of(anna.exchange(out));
     };
     EXPECT_THAT(with(1, true), HasSubstr("has ended"));
     EXPECT_EQ(with(2, false), "");
-    EXPECT_TRUE(anna.order({{"order", "jog_stop"}, {"sequence", 7}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "jog_stop"}, {"sequence", 7}}).value("done", false));
     EXPECT_THAT(with(6, false), HasSubstr("sequence 6, but 7 came before it"));
-    EXPECT_TRUE(anna.order({{"order", "jog_stop"}, {"sequence", 3}}).value("done", false)) << "a stop is never too old";
+    EXPECT_TRUE(anna.exchange({{"command", "jog_stop"}, {"sequence", 3}}).value("done", false))
+        << "a stop is never too old";
 }
 
 /// Client errors, while the machine runs a job and while it is stationary.
@@ -159,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(),
 std::vector<std::array<std::int64_t, 3>> quiet_path() {
     Running running;
     WebClient anna = running.master("anna");
-    EXPECT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
     anna.receive_until(job_is_over);
     return running.path();
 }
@@ -169,17 +183,19 @@ TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
     const std::string token = running.token("anna");
     {
         WebClient anna = running.stream(token);
-        ASSERT_TRUE(anna.order({{"order", "take_control"}}).value("done", false));
-        ASSERT_TRUE(anna.order({{"order", "enable"}, {"on", true}}).value("done", false));
+        ASSERT_TRUE(anna.exchange({{"command", "take_control"}}).value("done", false));
+        ASSERT_TRUE(anna.exchange({{"command", "enable"}, {"on", true}}).value("done", false));
         if (moving()) {
-            ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+            ASSERT_TRUE(
+                anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
         }
     }
     WebClient again = running.stream(token);
     if (moving()) again.receive_until(job_is_over);
     EXPECT_TRUE(again.receive_until([](const json& message) { return state_is(message, "standstill"); }).is_object())
         << "it is still enabled";
-    EXPECT_TRUE(again.order({{"order", "take_control"}}).value("done", false)) << "control comes back without force";
+    EXPECT_TRUE(again.exchange({{"command", "take_control"}}).value("done", false))
+        << "control comes back without force";
     EXPECT_EQ(running.path(), moving() ? quiet_path() : decltype(quiet_path())());
 }
 
@@ -187,13 +203,14 @@ TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     Running running;
     WebClient anna = running.master("anna");
     if (moving()) {
-        ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+        ASSERT_TRUE(
+            anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
     }
     WebClient slow(running.port(), false, true);
     ASSERT_EQ(slow.upgrade().status, 101);
     slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});
     WebClient quick = running.stream("");
-    ASSERT_TRUE(quick.order({{"subscribe", {{"rate_hz", 100}}}}).value("done", false));
+    ASSERT_TRUE(quick.exchange({{"subscribe", {{"rate_hz", 100}}}}).value("done", false));
     // Until the slow client's buffers are certainly full, all others receive their snapshots.
     for (int i = 0; i < 400; ++i) ASSERT_TRUE(quick.receive_until(is_picture).is_object());
     std::int64_t lost = 0, before = 0;
@@ -212,7 +229,7 @@ TEST(AStream, IsEndedWhenItsTokenIsRevoked) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert", Role::operate));
-    EXPECT_TRUE(anna.order({{"order", "unpair"}, {"user", "bert"}}).value("done", false));
+    EXPECT_TRUE(anna.exchange({{"command", "revoke_user"}, {"user", "bert"}}).value("done", false));
     WebFrame frame;
     do frame = bert.receive();
     while (frame.kind == 1);

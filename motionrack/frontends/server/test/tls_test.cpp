@@ -71,8 +71,8 @@ TEST_F(ATlsServer, ServesOtherAddressesToWhoIsPaired) {
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Origin: http://" + client.host + "\r\n").status, 403);
     WebClient stream(running.port(), true);
     ASSERT_EQ(stream.upgrade().status, 101);
-    EXPECT_TRUE(stream.order({{"token", running.token("anna")}}).value("done", false));
-    EXPECT_TRUE(stream.order({{"order", "take_control"}}).value("done", false));
+    EXPECT_TRUE(stream.exchange({{"token", running.token("anna")}}).value("done", false));
+    EXPECT_TRUE(stream.exchange({{"command", "take_control"}}).value("done", false));
     EXPECT_TRUE(stream.receive_until([](const json& message) { return message.contains("seq"); }).is_object());
 }
 

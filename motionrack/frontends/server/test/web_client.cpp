@@ -189,7 +189,7 @@ WebFrame WebClient::receive() {
     }
 }
 
-nlohmann::json WebClient::order(nlohmann::json message) {
+nlohmann::json WebClient::exchange(nlohmann::json message) {
     const int id = next_id_++;
     message["id"] = id;
     say(message);

@@ -62,7 +62,7 @@ class WebClient {
         }
     }
     /// Sends it with a new id and returns its answer.
-    nlohmann::json order(nlohmann::json message);
+    nlohmann::json exchange(nlohmann::json message);
 
     int descriptor() const { return socket_; }
     /// Reads available bytes without waiting; returns true if a whole frame is present.

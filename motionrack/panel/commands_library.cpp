@@ -61,9 +61,9 @@ void service(PanelContext& desk, const Caller& caller, const json& fields, const
 /// Records a call that was rejected or has ended, and the start of a call that waits. So the journal shows its motion
 /// even if the program ends meanwhile.
 void note_call(PanelContext& desk, const Caller& caller, const std::string& function, const std::string& what) {
-    const json data = {{"order", "call"}, {"user", caller.user}};
+    const json data = {{"command", "call"}, {"user", caller.user}};
     const Event& event = desk.book.add(
-        {0, desk.machine.now(), "order", fmt::format("{}: call {}: {}", caller.user, function, what), data});
+        {0, desk.machine.now(), "command", fmt::format("{}: call {}: {}", caller.user, function, what), data});
     if (desk.settings.journal != nullptr) desk.settings.journal->write(event.at, event.kind, event.text, text_of(data));
 }
 

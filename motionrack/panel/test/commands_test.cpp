@@ -34,7 +34,7 @@ TEST(AskingThePanel, NeedsTheRoleTheLeaseAndAKnownName) {
     a.at(0.1, eve, "enable", {{"on", true}}, refused(403, "eve has the role observe"));
     a.at(0.1, bert, "enable", {{"on", true}}, refused(409, ""));
     a.at(0.1, bert, "set_wire", {{"name", "estop"}, {"value", 0}}, refused(403, "needs the role maintain"));
-    a.at(0.1, anna, "fly", json::object(), refused(404, "no order and no query"));
+    a.at(0.1, anna, "fly", json::object(), refused(404, "Unknown command or query 'fly'"));
     a.at(0.1, anna, "invite", {{"role", "observe"}}, refused(409, "not possible here"));
     a.run(0.3);
     EXPECT_EQ(a.machine->state(), operate::MachineState::disabled);
@@ -49,8 +49,8 @@ TEST(AskingThePanel, ChecksFieldsWithASentence) {
     a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", std::nan("")}}, refused(400, "speed"));
     a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1}, {"sped", 1}}, refused(400, "no field 'sped'"));
     a.at(0.2, anna, "jog", json::array(), refused(400, "must be a JSON object"));
-    a.at(0.2, anna, "set_clock", {{"mode", "backwards"}}, refused(400, "one of real|free|paused"));
-    a.at(0.2, anna, "acknowledge", {{"alarm", 1.5}}, refused(400, "whole number"));
+    a.at(0.2, anna, "set_clock", {{"mode", "backwards"}}, refused(400, "one of real|unthrottled|paused"));
+    a.at(0.2, anna, "acknowledge_alarm", {{"alarm", 1.5}}, refused(400, "whole number"));
     a.at(0.2, anna, "scope_arm", {{"channels", {"estop", 3}}}, refused(400, "list of texts"));
     a.at(0.2, anna, "enable", {{"on", 1}}, refused(400, "true or false"));
     a.run(0.4);
@@ -64,7 +64,7 @@ TEST(AnOperator, EnablesJogsAndDrivesAProgram) {
     a.good(1.3, "jog_stop");
     a.at(2, [&] { EXPECT_GT(a.x(), 18); });
     a.good(2.1, "jog_by", {{"axis", "Y"}, {"distance", 5}, {"speed", 20}});
-    a.good(3.5, "begin", {{"name", "p.ngc"}, {"text", "G21 G90 F1200\nG1 X30\nG1 X40 Y10\nM2\n"}});
+    a.good(3.5, "start_program", {{"name", "p.ngc"}, {"text", "G21 G90 F1200\nG1 X30\nG1 X40 Y10\nM2\n"}});
     a.good(3.6, "hold");
     a.at(3.7, eve, "path");  // answered after the plan
     a.at(4.5, anna, "status", json::object(), [](const Answer& answer) {
@@ -82,7 +82,7 @@ TEST(AnOperator, StopsAnythingWithoutAnyRight) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "line", {{"text", "G1 X200 F600"}});
+    a.good(0.3, "mdi", {{"text", "G1 X200 F600"}});
     a.at(1, [&] { a.panel->stop(nobody); });
     a.run(2);
     EXPECT_LT(a.x(), 30);
@@ -94,13 +94,13 @@ TEST(AnOperator, SetsSpeedsStepsZeroAndPlaces) {
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
     a.good(0.3, "set_overrides", {{"feed", 0.5}});
-    a.good(0.3, "set_single_step", {{"on", true}});
-    a.good(0.4, "declare_position", {{"axis", "X"}, {"position", 100}});
-    a.good(0.6, "set_work_zero", {{"axis", "X"}, {"value", 5}});
+    a.good(0.3, "set_single_block", {{"on", true}});
+    a.good(0.4, "set_position", {{"axis", "X"}, {"position", 100}});
+    a.good(0.6, "touch_off", {{"axis", "X"}, {"value", 5}});
     a.at(0.7, [&] { EXPECT_NEAR(a.machine->stream().interpreter().frame().offset[0], 95, 1e-9); });
-    a.good(0.8, "set_single_step", {{"on", false}});
-    a.good(0.9, "line", {{"text", "G1 X6 F600"}});
-    a.at(0.9, anna, "line", {{"text", "G1 X"}}, refused(400, ""));
+    a.good(0.8, "set_single_block", {{"on", false}});
+    a.good(0.9, "mdi", {{"text", "G1 X6 F600"}});
+    a.at(0.9, anna, "mdi", {{"text", "G1 X"}}, refused(400, ""));
     a.run(3);
     EXPECT_DOUBLE_EQ(a.machine->status().feed_override, 0.5);
     EXPECT_NEAR(a.x(), 101, 0.01);
@@ -112,21 +112,21 @@ TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
     a.panel->on_event([&](const Event& event) { kinds.push_back(event.kind); });
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "press_estop", {{"pressed", true}});
+    a.good(0.3, "set_estop", {{"pressed", true}});
     a.at(0.5, eve, "status", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["status"]["state"], "error stop");
         EXPECT_TRUE(answer.body["status"]["estop"]["pressed"].get<bool>());
         EXPECT_EQ(answer.body["status"]["alarms"].size(), 1U);
     });
-    a.good(0.6, "acknowledge", {{"alarm", 1}});
-    a.at(0.6, anna, "acknowledge", {{"alarm", 7}}, refused(400, "no alarm 7"));
-    a.good(0.7, "press_estop", {{"pressed", false}});
+    a.good(0.6, "acknowledge_alarm", {{"alarm", 1}});
+    a.at(0.6, anna, "acknowledge_alarm", {{"alarm", 7}}, refused(400, "no alarm 7"));
+    a.good(0.7, "set_estop", {{"pressed", false}});
     a.good(0.8, "reset");
     a.at(0.9, eve, "events", {{"limit", 50}},
          [](const Answer& answer) { EXPECT_GT(answer.body["events"].size(), 5U); });
     a.run(1);
     EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
-    EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "order"}));
+    EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "command"}));
 }
 
 /// A client that streams lines without reading answers would continue after the dropped lines.
@@ -138,19 +138,19 @@ TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
     });
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "line", {{"text", "G1 X60 F1200"}});
+    a.good(0.3, "mdi", {{"text", "G1 X60 F1200"}});
     a.at(0.6, bert, "stop");
-    a.at(0.6, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
+    a.at(0.6, anna, "mdi", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.at(0.8, eve, "status", json::object(), [](const Answer& answer) {
-        EXPECT_EQ(answer.body["status"]["why"],
+        EXPECT_EQ(answer.body["status"]["reason"],
                   "STOP by bert: line 1 was stopped. Reset, then start anew. The positions are kept.");
     });
-    a.at(1, anna, "line", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
+    a.at(1, anna, "mdi", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.good(1.2, "take_control");
     a.good(1.3, "reset");
     a.good(1.4, "stop");
     a.good(1.5, "reset");
-    a.good(1.6, "line", {{"text", "G1 X60 F1200"}});
+    a.good(1.6, "mdi", {{"text", "G1 X60 F1200"}});
     a.run(2);
     // A reset at standstill releases.
     EXPECT_THAT(stops, testing::ElementsAre("bert: STOP by bert: line 1 was stopped.",
@@ -162,7 +162,7 @@ TEST(Control, IsTakenOverInAHold) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
-    a.good(0.3, "line", {{"text", "G1 X60 F1200"}});
+    a.good(0.3, "mdi", {{"text", "G1 X60 F1200"}});
     a.good(0.6, "hold");
     a.at(1, bert, "take_control", json::object(), refused(409, "anna"));
     a.at(1.1, bert, "take_control", {{"force", true}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
@@ -177,7 +177,7 @@ TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
     a.good(0.1, "take_control");
     a.at(0.2, bert, "take_control", json::object(), refused(409, "anna"));
     a.good(0.3, "enable", {{"on", true}});
-    a.good(0.4, "line", {{"text", "G1 X60 F1200"}});
+    a.good(0.4, "mdi", {{"text", "G1 X60 F1200"}});
     a.at(0.6, bert, "take_control", {{"force", true}}, refused(409, ""));
     a.at(5, bert, "take_control", {{"force", true}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
     a.at(5.1, anna, "jog", {{"axis", "X"}, {"speed", 1}}, refused(409, "bert"));
@@ -196,7 +196,7 @@ TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     a.at(0.3, anna, "read_register", {{"card", "m"}, {"bits", 32}, {"address", 0}}, refused(409, "not of 32"));
     a.at(0.3, anna, "read_register", {{"card", "q"}, {"bits", 16}, {"address", 0}}, refused(400, "no card"));
     a.good(0.4, "enable", {{"on", true}});
-    a.good(0.5, "line", {{"text", "G1 X30 F600"}});
+    a.good(0.5, "mdi", {{"text", "G1 X30 F600"}});
     a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}},
          refused(409, "state 'moving'"));
     a.at(4, [&] { EXPECT_TRUE(a.machine->status().axes[0].position_valid); });
@@ -273,7 +273,7 @@ Question any_question() {
     std::vector<const OperationSpec*> rows;
     for (const auto table : {commands(), queries()})
         for (const OperationSpec& row : table)
-            if (row.name != "take_control" && row.name != "press_estop") rows.push_back(&row);
+            if (row.name != "take_control" && row.name != "set_estop") rows.push_back(&row);
     const OperationSpec& row = **rc::gen::elementOf(rows);
     Question out{std::string(row.name), json::object()};
     for (const FieldSpec& field : row.fields)

@@ -1,31 +1,31 @@
-// Orders: a refusal is shown, each has its reason why not, and STOP goes both ways.
+// Commands: a refusal is shown, each has its reason why not, and STOP goes both ways.
 import { describe, expect, test } from 'vitest';
 import type { Role } from '../../src/link/contract';
 import { after, openBrowser, settled } from './browser';
 import { connected } from './program';
 
-const orders = async (): Promise<typeof import('../../src/link/commands')> => import('../../src/link/commands');
-const texts = async (): Promise<string[]> => (await orders()).notices.value.map((one) => one.text);
+const commands = async (): Promise<typeof import('../../src/link/commands')> => import('../../src/link/commands');
+const texts = async (): Promise<string[]> => (await commands()).notices.value.map((one) => one.text);
 
-describe('an order', () => {
+describe('a command', () => {
   test('is sent with its fields, and is true when it was taken', async () => {
     const { program } = await connected();
     program.answers.home = { done: true };
-    expect(await (await orders()).order('home', { axes: 'X' })).toBe(true);
-    expect(program.asked('home')).toEqual([{ order: 'home', axes: 'X' }]);
+    expect(await (await commands()).command('home', { axes: 'X' })).toBe(true);
+    expect(program.asked('home')).toEqual([{ command: 'home', axes: 'X' }]);
   });
 
   test('cannot be turned into another one by its fields', async () => {
     const { program } = await connected();
     program.answers.home = {};
-    await (await orders()).order('home', { order: 'stop' });
-    expect(program.heard.at(-1)?.order).toBe('home');
+    await (await commands()).command('home', { command: 'stop' });
+    expect(program.heard.at(-1)?.command).toBe('home');
   });
 
   test('that is refused is false, and its sentence is on the screen', async () => {
     const { program } = await connected();
     program.answers.home = 'X has no home switch.';
-    expect(await (await orders()).order('home')).toBe(false);
+    expect(await (await commands()).command('home')).toBe(false);
     expect(await texts()).toEqual(['X has no home switch.']);
   });
 
@@ -33,8 +33,8 @@ describe('an order', () => {
     const { program } = await connected();
     program.answers.invite = { code: 'ABCD' };
     program.answers.mark = 'no';
-    expect(await (await orders()).orderFor('invite')).toMatchObject({ code: 'ABCD' });
-    expect(await (await orders()).orderFor('mark')).toBeNull();
+    expect(await (await commands()).commandFor('invite')).toMatchObject({ code: 'ABCD' });
+    expect(await (await commands()).commandFor('mark')).toBeNull();
   });
 });
 
@@ -42,9 +42,9 @@ describe('a sentence', () => {
   test('names line and column where the program did', async () => {
     openBrowser();
     const { Refusal } = await import('../../src/link/contract');
-    const { sentence } = await orders();
+    const { sentence } = await commands();
     const said = (place: object): string =>
-      sentence(new Refusal({ trouble: 'refused', message: 'G99 is unknown.', ...place }));
+      sentence(new Refusal({ kind: 'refused', message: 'G99 is unknown.', ...place }));
     expect(said({ line: 3, column: 7 })).toBe('Line 3, column 7: G99 is unknown.');
     expect(said({ line: 3 })).toBe('Line 3: G99 is unknown.');
     expect(said({ line: 3, column: 0 })).toBe('Line 3: G99 is unknown.');
@@ -54,7 +54,7 @@ describe('a sentence', () => {
 
   test('is the text of whatever else went wrong', async () => {
     openBrowser();
-    const { sentence } = await orders();
+    const { sentence } = await commands();
     expect(sentence(new Error('broken'))).toBe('broken');
     expect(sentence('odd')).toBe('odd');
   });
@@ -63,7 +63,7 @@ describe('a sentence', () => {
 describe('notices', () => {
   test('go away by themselves: what was done after 4 s, what was refused after 12 s', async () => {
     openBrowser();
-    const { notice } = await orders();
+    const { notice } = await commands();
     notice('done', 'paired');
     notice('refused', 'no');
     await after(3999);
@@ -76,21 +76,21 @@ describe('notices', () => {
 
   test('are four at most, the newest last', async () => {
     openBrowser();
-    const { notice } = await orders();
+    const { notice } = await commands();
     for (const text of ['1', '2', '3', '4', '5']) notice('refused', text);
     expect(await texts()).toEqual(['2', '3', '4', '5']);
   });
 
   test('of the same text are one', async () => {
     openBrowser();
-    const { notice } = await orders();
+    const { notice } = await commands();
     for (const text of ['a', 'b', 'a']) notice('refused', text);
     expect(await texts()).toEqual(['b', 'a']);
   });
 
   test('are closed by hand', async () => {
     openBrowser();
-    const { dismiss, notice, notices } = await orders();
+    const { dismiss, notice, notices } = await commands();
     notice('refused', 'a');
     notice('refused', 'b');
     dismiss(notices.value[0]?.key ?? 0);
@@ -101,7 +101,7 @@ describe('notices', () => {
 describe('STOP', () => {
   test('goes by the stream and by HTTP', async () => {
     const { browser, program } = await connected();
-    (await orders()).stop();
+    (await commands()).stop();
     await settled();
     expect(program.asked('stop')).toHaveLength(1);
     expect(browser.posts.map((one) => one.path)).toEqual(['api/stop']);
@@ -110,14 +110,14 @@ describe('STOP', () => {
 
   test('says by HTTP, too, who it was', async () => {
     const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
-    (await orders()).stop();
+    (await commands()).stop();
     await settled();
     expect(browser.posts.map((one) => one.authorization)).toEqual(['Bearer T1']);
   });
 
   test('goes by HTTP where there is no stream, and says nothing if it arrived', async () => {
     const browser = openBrowser();
-    (await orders()).stop();
+    (await commands()).stop();
     await settled();
     expect(browser.posts).toHaveLength(1);
     expect(await texts()).toEqual([]);
@@ -129,7 +129,7 @@ describe('STOP', () => {
   ])('says to use the real emergency stop when %s', async (_, http) => {
     const browser = openBrowser();
     browser.http = http;
-    (await orders()).stop();
+    (await commands()).stop();
     await settled();
     expect((await texts()).join()).toMatch(/^STOP did not reach the program.*use its emergency stop\.$/);
   });
@@ -138,7 +138,7 @@ describe('STOP', () => {
 describe('what is not allowed', () => {
   test('says first that there is no connection', async () => {
     openBrowser();
-    expect((await orders()).whyNot('observe')).toBe('There is no connection to the program.');
+    expect((await commands()).whyNot('observe')).toBe('There is no connection to the program.');
   });
 
   test.each([
@@ -148,23 +148,23 @@ describe('what is not allowed', () => {
     ['maintain', [true, true, true]],
   ] as [Role, boolean[]][])('the role %s has what is below it, too', async (role, expected) => {
     await connected({ role });
-    const { hasRole } = await orders();
+    const { hasRole } = await commands();
     expect((['observe', 'operate', 'maintain'] as const).map(hasRole)).toEqual(expected);
   });
 
   test('names the role that is needed, and the one that is there', async () => {
     await connected({ role: 'observe' });
-    expect((await orders()).whyNot('operate')).toMatch(/needs the role operate; you have the role observe\./);
+    expect((await commands()).whyNot('operate')).toMatch(/needs the role operate; you have the role observe\./);
   });
 
   test('asks a browser that is not paired to pair', async () => {
     await connected({ role: 'nobody' });
-    expect((await orders()).whyNot('observe')).toMatch(/you are not paired\. Pair this browser/);
+    expect((await commands()).whyNot('observe')).toMatch(/you are not paired\. Pair this browser/);
   });
 
   test('names who holds control, where control is needed', async () => {
     const { program } = await connected({ machine: { control: { holder: 'bert', holder_session: 'another' } } });
-    const { mayOperate, whyNot } = await orders();
+    const { mayOperate, whyNot } = await commands();
     expect(whyNot('operate')).toBe('');
     expect(mayOperate()).toBe('bert holds control.');
     program.show({ state: 'hold', control: { holder: null } });
@@ -173,13 +173,13 @@ describe('what is not allowed', () => {
 
   test('is nothing for the tab that holds control', async () => {
     await connected();
-    const { mayMaintain, mayOperate } = await orders();
+    const { mayMaintain, mayOperate } = await commands();
     expect([mayOperate(), mayMaintain()]).toEqual(['', '']);
   });
 
   test('names the card that is in service, while one is', async () => {
     const { program } = await connected();
-    const { whyInService } = await orders();
+    const { whyInService } = await commands();
     expect(whyInService()).toBe('');
     program.show({ state: 'service', service: 'motion' });
     expect(whyInService()).toBe('Card motion is in service: nothing else drives the machine. End the service first.');
