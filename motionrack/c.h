@@ -19,21 +19,21 @@
  *     mr_read16(rack, "c1", 0x0c, &low);      // RR6: 100
  *     mr_rack_close(rack);
  *
- * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then tells
- * in a sentence what was wrong, what the limits are and what was (not) done. After an error the rack is as it was
+ * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then has
+ * a sentence with the cause, the limits and the effect. After an error the rack is as it was
  * before the call. A null pointer is MR_BAD_CALL; a pointer to something else, or to a rack that was closed, is not
- * noticed. mr_run_program and mr_home say when they have moved something all the same.
+ * detected. mr_run_program and mr_home report an error after which something has moved.
  *
- * Threads. A rack belongs to one thread at a time: let no two calls with the same rack overlap. Different racks know
- * nothing of each other and may run in different threads at once. mr_last_error() is kept for each thread.
+ * Threads. A rack belongs to one thread at a time: calls with the same rack must not overlap. Different racks are
+ * independent and may run in different threads at once. mr_last_error() is kept for each thread.
  *
  * Time. The rack's time is virtual: it passes in mr_advance_ns, mr_run_program and mr_home and, for as long as the
  * card's bus takes, in the functions that read and write registers; nowhere else. The same calls give the same world,
  * bit for bit.
  *
- * Call-backs. What is called while time passes (mr_on_condition, the progress of a program) may call every function of
- * this file but those that let time pass, mr_snapshot and mr_rack_close, which are MR_REFUSED with the rack that it is
- * called for. It must return: no longjmp, no exception.
+ * Call-backs. A call-back of passing time (mr_on_condition, the progress of a program) may call every function of
+ * this file but those that advance time, mr_snapshot and mr_rack_close, which return MR_REFUSED with the rack of the
+ * call-back. It must return: no longjmp, no exception.
  *
  * Strings are UTF-8 and end with a zero byte; the library keeps none of the pointers that it is given.
  */
@@ -55,10 +55,10 @@ extern "C" {
 /* What a function returns. */
 enum mr_result {
     MR_OK = 0,
-    MR_BAD_CALL = 1,  /* a null pointer, a name that the rack does not have, a value that is none */
+    MR_BAD_CALL = 1,  /* a null pointer, a name that the rack does not have, an invalid value */
     MR_BAD_INPUT = 2, /* a rack file or part program is wrong; mr_last_error() has a line for each mistake */
     MR_REFUSED = 3,   /* outside a limit, or something that this card cannot do */
-    MR_MACHINE = 4,   /* the machine stopped what was running (limit switch, alarm), or its position was lost */
+    MR_MACHINE = 4,   /* the machine stopped the motion (limit switch, alarm), or its position was lost */
     MR_IO = 5,        /* a file could not be read or written */
     MR_INTERNAL = 6,  /* out of memory, or a mistake in the library */
     MR_STOPPED = 7    /* a call-back asked for a stop, and the axes came to rest */
@@ -115,9 +115,9 @@ MR_API int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t
  *   "RR0"        as the card's reference page names it; one that exists once an axis is that of the axis whose
  * registers
  *                the bus shows
- *   "x.RR1"      that of one axis, whatever the bus shows; also what was written: "x.WR2", "x.P", and counters: "x.LP",
+ *   "x.RR1"      that of one axis, not the one on the bus; also written values: "x.WR2", "x.P", and counters: "x.LP",
  *                "x.EP", and "x.CV", "x.CA", the present speed and acceleration, in the card's units
- * Counters and positions are signed: cast *value to int64_t. An unknown name is told the ones that there are.
+ * Counters and positions are signed: cast *value to int64_t. For an unknown name the error lists the known ones.
  * MR_BAD_CALL. */
 MR_API int mr_peek(mr_rack* rack, const char* card, const char* register_name, uint64_t* value);
 
@@ -164,94 +164,94 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
 
 /* ---- The machine ---- */
 
-/* What is true of a part, whatever any counter says: "X.position_mm". The quantities of an axis (mm or deg by its
+/* The true value of a part, independent of all counters: "X.position_mm". The quantities of an axis (mm or deg by its
  * kind):
- *   position_mm       where the table is
- *   speed_mm_s        how fast the rotor moves the table, signed
- *   position_pulses   the rotor in microsteps from where it stood at the start
- *   position_counts   what its encoder's tracks have counted since the start (with an encoder)
+ *   position_mm       the true position of the table
+ *   speed_mm_s        velocity of the table by the rotor, signed
+ *   position_pulses   the rotor in microsteps since the start
+ *   position_counts   counts of its encoder since the start (with an encoder)
  *   pulses            pulses that came to the motor, + less -
  *   lost_pulses       pulses that the rotor did not follow
  *   in_step           1 while the rotor follows the pulses, else 0
- *   top_speed_mm_s    the greatest speed so far
- *   limit_minus       1 while the machine is at that switch, whatever its wire shows (where there is one)
+ *   top_speed_mm_s    the peak speed so far
+ *   limit_minus       1 while the machine is at that switch, independent of its wire (if it has one)
  *   limit_plus        the same for the switch at the + end
  *   home              the same for the home switch
  *   cam               1 while the machine is on its reference cam
  *   drive_v           the voltage at the servo amplifier
  * Of a stage:
- *   position_mm       where the stage is
+ *   position_mm       the true position of the stage
  *   speed_mm_s        its speed, signed
  *   drive_v           the voltage at its amplifier
- *   scale_mm          where its scale shows it
- *   scale_counts      what its scale has counted
+ *   scale_mm          its position by its scale
+ *   scale_counts      counts of its scale
  *   lost_counts       counts that its scale has lost
  *   trusted           1 while its scale has lost none, else 0
  *   closed            1 while its loop is closed, else 0 (with a servo)
- *   following_nm      wanted - measured at the last frame (with a servo)
- *   following_peak_nm the greatest of it so far, without its sign (with a servo)
- *   following_rms_nm  its root mean square so far (with a servo)
- *   wanted_mm         where its profile wants it now (with a servo)
+ *   following_nm      following error at the last frame: commanded - measured (with a servo)
+ *   following_peak_nm the peak following error so far, absolute (with a servo)
+ *   following_rms_nm  the RMS following error so far (with a servo)
+ *   wanted_mm         its commanded position (with a servo)
  *   unused_frames     frames that its loop could not use (with a servo)
  * Of a belt or a rotary table (mm or deg by its kind):
- *   position_mm       how far it has gone since the start
- *   speed_mm_s        how fast it goes, signed
- *   encoder_counts    what its encoder has shown
- *   lost_counts       counts that were too quick for the encoder's lines
+ *   position_mm       its travel since the start
+ *   speed_mm_s        its speed, signed
+ *   encoder_counts    counts of its encoder
+ *   lost_counts       counts that the encoder lost above its maximum rate
  *   word              the sender's last complete word
- *   parts             parts that have come to the sensor
+ *   parts             number of parts that reached the sensor
  * Of a scan head:
- *   spot_x_mm         where the mirrors point in the field
+ *   spot_x_mm         position of the spot in the field, X
  *   spot_y_mm         the same, Y
- *   light             1 while the laser shines, else 0
+ *   light             1 while the laser is on, else 0
  *   marked_mm         length of all marks on the part
- *   energy_j          energy that came to the part
- *   points            points of marks that are kept
+ *   energy_j          laser energy on the part
+ *   points            stored points of the marks
  *   lost_points       points beyond max_points
- * An unknown name is told the ones that there are. MR_BAD_CALL. */
+ * For an unknown name the error lists the known ones. MR_BAD_CALL. */
 MR_API int mr_part_get(mr_rack* rack, const char* part_dot_quantity, double* value);
 
-/* Pushes a part by hand: position_mm (position_deg) and position_pulses can be set. A motor in step goes to the nearest
- * place of the same electrical phase, a multiple of four full steps away, as a real one under current does; so read the
- * quantity to see where it came to. Of a belt or table speed_mm_s (speed_deg_s) can be set.
- * MR_BAD_CALL; MR_REFUSED (cannot be set; no number; more than 10,000,000 microsteps away). */
+/* Pushes a part by hand: position_mm (position_deg) and position_pulses can be set. A motor in step moves to the
+ * nearest position of the same electrical phase, a multiple of four full steps away, as a real one under current does:
+ * read the quantity for the result. Of a belt or table speed_mm_s (speed_deg_s) can be set.
+ * MR_BAD_CALL; MR_REFUSED (read-only; not a number; more than 10,000,000 microsteps away). */
 MR_API int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double value);
 
-/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X")
+/* Injects a fault, or repairs it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X")
  * or, for the last three and those of an encoder's tracks, a belt or table by its name.
- *   motor.stall              the axle is held fast; 0 lets it go
+ *   motor.stall              the axle is blocked; 0 releases it
  *   motor.lose_steps         the rotor falls back by about VALUE pulses (whole electrical cycles), at most 10,000,000
  *   motor.push               the rotor is moved by about VALUE microsteps, at most 10,000,000 either way
- *   encoder.broken_a         track A reads Low; 0 mends it. One fault of the encoder at a time
+ *   encoder.broken_a         track A reads Low; 0 repairs it. One fault of the encoder at a time
  *   encoder.broken_b         track B reads Low
- *   encoder.swapped          the tracks are crossed over
- *   limit_minus.stuck_open   the switch never acts; 0 mends it
+ *   encoder.swapped          the tracks are swapped
+ *   limit_minus.stuck_open   the switch never acts; 0 repairs it
  *   limit_minus.stuck_closed the switch always acts
  *   limit_plus.stuck_open    and so on
  *   limit_plus.stuck_closed
  *   home.stuck_open
  *   home.stuck_closed
  *   motor.load               a servo's load becomes VALUE times its own inertia
- *   encoder.inverted_a       where the tracks are wires (to an ioflex02): track A is upside down; 0 mends it
+ *   encoder.inverted_a       if the tracks are wires (to an ioflex02): track A is inverted; 0 repairs it
  *   encoder.inverted_b       track B
- *   encoder.noise            VALUE wrong levels of half a microsecond to ten from now on
- *   encoder.jitter           edges come up to VALUE seconds late
- *   encoder.dirt             VALUE lines of the disc cannot be seen
- *   encoder.overspeed        above VALUE edges a second lines are lost; 0: as it was
- *   encoder.eccentricity     the disc is off its centre by VALUE counts
- *   drive.speed              a belt or table goes at VALUE mm/s or degrees/s from now on; 0: it stands
- *   drive.profile            it goes as its rack file says again
- *   sender.silent            no word comes; 0 mends it
+ *   encoder.noise            VALUE wrong levels from now on, 0.5 to 10 us each
+ *   encoder.jitter           edges are up to VALUE seconds late
+ *   encoder.dirt             VALUE adjacent lines of the disc are dirty and not read
+ *   encoder.overspeed        above VALUE edges a second lines are lost; 0 repairs it
+ *   encoder.eccentricity     the disc has an eccentricity of VALUE counts
+ *   drive.speed              a belt or table moves at VALUE mm/s or degrees/s from now on; 0: standstill
+ *   drive.profile            back to the profile of the rack file
+ *   sender.silent            the sender is silent; 0 repairs it
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack* rack, const char* fault, const char* target);
 
 /* A quantity of the rack, for mr_quantities. */
 typedef struct mr_quantity {
     const char* name;    /* as mr_part_get takes it: "X.position_mm" */
-    const char* meaning; /* "where the table is" */
+    const char* meaning; /* "the true position of the table" */
     const char* unit;    /* "mm", "deg/s", "counts"; "": it has none */
-    double min, max; /* of its values, infinite where nothing bounds them; if it can be set: what mr_part_set takes */
-    int can_set;     /* 1: by mr_part_set, else 0 */
+    double min, max;     /* range of its values, infinite if unbounded; if it can be set: the range of mr_part_set */
+    int can_set;         /* 1: by mr_part_set, else 0 */
 } mr_quantity;
 
 /* Calls `tell` with each quantity that this rack has: of its axes, stages, belts, tables and scan heads, as above, then
@@ -291,7 +291,7 @@ typedef struct mr_run_result {
     double seconds;       /* virtual time that it took */
     double path_mm;       /* length of its path in X, Y, Z */
     double deviation_mm;  /* how far the machine was from the program at most, by the positions of the last mr_home */
-    const char* sentence; /* how it ended, and what was wrong, a line each; holds until the next program or mr_home of
+    const char* sentence; /* how it ended, and each error, a line each; holds until the next program or mr_home of
                            * this rack, and its end */
 } mr_run_result;
 
@@ -302,8 +302,8 @@ typedef struct mr_run_result {
  * during it counters are recorded every 50 ms. A program begins where the controller has the axes: where the rack file
  * says that the machine stands, or where mr_home found it, and on from there by the pulses that the card has sent
  * since, by whatever command (of a servo by what its motor has turned). What a host wrote into the card's counters
- * does not count. G-code modes and offsets begin anew, and an mcx314 is set up anew: what a host wrote into its
- * registers is gone, outputs too, and EP begins at 0. An axis whose position an earlier program or mr_home has lost
+ * does not count. G-code modes and offsets are reset, and an mcx314 is initialised again: the
+ * host's register values and outputs are lost, and EP begins at 0. An axis whose position an earlier program or mr_home has lost
  * keeps programs from beginning until it is homed. `options` and `result` may be NULL; `result` and mr_report are of
  * this program alone. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; an axis moves, or its
  * position was lost; a host wrote to the counter of a databoard4002; a call-back called): nothing moved. MR_MACHINE,
@@ -325,7 +325,7 @@ MR_API const char* mr_report(const mr_rack* rack);
 
 /* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The
  * same calls from here on do the same in both; where its axes stand and whether that is trusted goes with it. But a
- * driver's memory belongs to its host: the first mr_home of a copy sets its cards up anew. A recording and the
+ * driver's memory belongs to its host: the first mr_home of a copy initialises its cards again. A recording and the
  * call-back of mr_on_condition stay with the first. *copy is set to NULL if it fails. MR_BAD_CALL, MR_REFUSED (a
  * call-back called), MR_INTERNAL. */
 MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
@@ -335,11 +335,11 @@ MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);
  * it), so compare worlds that were recorded alike. 0 for NULL. */
 MR_API uint64_t mr_state_hash(const mr_rack* rack);
 
-/* Tells what happened in the world that somebody should know: an access that came too early, an illegal transition, an
- * end of travel. Oldest first, those with numbers above `since` (0: all); numbers begin with 1, and the last 4096 are
- * kept. `at_100ps`: the instant at which it happened, in 100 ps; `card`: the name of the card, or of what else it
- * happened to; `code`: of this kind of card; `sentence`: for a person. Both texts hold until `tell` returns, which may
- * call functions of this file but mr_rack_close. MR_BAD_CALL, MR_INTERNAL. */
+/* Reports the conditions of the rack: an early access, an illegal transition, an end of travel. Oldest first, those
+ * with numbers above `since` (0: all); numbers begin with 1, and the last 4096 are kept. `at_100ps`: the instant at
+ * which it happened, in 100 ps; `card`: the name of the card, or of another part; `code`: of this kind of card;
+ * `sentence`: for the user. Both texts hold until `tell` returns, which may call functions of this file but
+ * mr_rack_close. MR_BAD_CALL, MR_INTERNAL. */
 MR_API int mr_conditions(mr_rack* rack, uint64_t since,
                          void (*tell)(void* user, uint64_t number, int64_t at_100ps, const char* card, int code,
                                       const char* sentence),

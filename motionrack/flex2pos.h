@@ -11,7 +11,7 @@
  *     flex2pos_ReadTimeClrPosition(flex, &time, position);
  *
  * The functions talk to the card through its registers alone. As long as Init has not succeeded, and for a null
- * pointer, nothing is written and every function gives 0. A rack and what is opened on it belong to one thread at a
+ * pointer, nothing is written and every function gives 0. A rack and the objects opened on it belong to one thread at a
  * time. */
 #ifndef MOTIONRACK_FLEX2POS_H
 #define MOTIONRACK_FLEX2POS_H
@@ -100,7 +100,7 @@ enum { sNotCal = 0, sCal = 1 };
 MR_API void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3);
 
 /* Ours: a command for one axis 0 to 3; the others keep what they wait for. WriteCmd cannot do that: cNop ends what an
- * axis waits for, and any other command begins it anew. Nothing is written if there is no such axis or command. */
+ * axis waits for, and any other command restarts it. Nothing is written if Axis or Cmd is out of range. */
 MR_API void flex2pos_WriteCmdAxis(flex2pos* flex, int axis, int Cmd);
 
 /* The statuses of the four axes. */

@@ -132,7 +132,7 @@ TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
     has(rack::PartKind::stage, header.find("Of a stage"));
     has(rack::PartKind::track, header.find("Of a belt or a rotary table"));
     has(rack::PartKind::scanner, header.find("Of a scan head"));
-    std::size_t at = header.find("Breaks something on purpose");
+    std::size_t at = header.find("Injects a fault, or repairs it");
     for (const std::string_view fault : rack::fault_names()) {
         at = header.find("\n *   " + std::string(fault), at);
         EXPECT_NE(at, std::string::npos) << fault;

@@ -66,8 +66,7 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     write("parts/hole.ngc", "o<hole> sub\nG0 X#1\no<hole> endsub\n");
     const Ran ran = motionrack("run parts/part.ngc --no-report");
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out,
-                HasSubstr("came without a folder in which another file could have it"));
+    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out, HasSubstr("no folder to search for its file"));
     std::filesystem::remove(folder / "parts/hole.ngc");
     const Ran missing = motionrack("check parts/part.ngc");
     EXPECT_THAT(missing.out, HasSubstr("beside it is not there"));

@@ -116,7 +116,7 @@ TEST_F(ImageCommand, SaysWhatInitWouldComeTo) {
     EXPECT_EQ(run_in(folder, "head -c 20 other.bin > cut.bin").code, 0);
     const Ran cut = image("check cut.bin");
     EXPECT_EQ(cut.code, 2);
-    EXPECT_NE(cut.out.find("cut short, damaged, or no zlib stream"), std::string::npos) << cut.out;
+    EXPECT_NE(cut.out.find("cut short, damaged, or not a zlib stream"), std::string::npos) << cut.out;
     EXPECT_EQ(image("check no_such.bin").code, 5);
 }
 

@@ -255,7 +255,7 @@ TEST_F(Recordings, MakeThePageThatTheRunMade) {
     const Ran from_csv = motionrack("report run.csv --report csv.html --csv csv.csv");
     ASSERT_EQ(from_csv.code, 0) << from_csv.out;
     EXPECT_EQ(text_of(folder / "run.csv"), text_of(folder / "csv.csv"));
-    EXPECT_THAT(text_of(folder / "csv.html"), HasSubstr("does not stand in a CSV file"));
+    EXPECT_THAT(text_of(folder / "csv.html"), HasSubstr("does not have the end of the run"));
 }
 
 TEST_F(Recordings, AreComparedAndRunAgainWithTheirExitCodes) {

@@ -52,10 +52,10 @@ TEST_F(AServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
         EXPECT_FALSE(answer.contains("done")) << answer;
         EXPECT_THAT(answer.dump(), HasSubstr(sentence));
     };
-    refused("jog", {{"axis", "X"}, {"speed", 1e6}}, "the speed is 1e+06 mm/s, but may be up to 100 for axis X");
+    refused("jog", {{"axis", "X"}, {"speed", 1e6}}, "the speed is 1e+06 mm/s; it must be at most 100 for axis X");
     refused("jog", {{"axis", "X"}, {"speed", -1e6}}, "Nothing was moved");
     refused("jog_by", {{"axis", "X"}, {"distance", 1}, {"speed", 1e6}}, "the speed is 1e+06 mm/s");
-    refused("jog_by", {{"axis", "X"}, {"distance", 1e6}, {"speed", 5}}, "the whole travel of axis X is 300");
+    refused("jog_by", {{"axis", "X"}, {"distance", 1e6}, {"speed", 5}}, "the travel of axis X is 300");
     refused("start_program", {{"name", "a.ngc"}, {"text", "; nothing\n"}}, "the program is empty");
     refused("start_program", {{"name", "a.ngc"}, {"text", ""}}, "");
     refused("mdi", {{"text", "G0 X1e9"}}, "");

@@ -58,7 +58,7 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
     for (int kill = 0; kill < 100; ++kill) {
         Served served(arguments());
         if (kill > 0) {
-            EXPECT_THAT(served.said, HasSubstr("was cut off"));
+            EXPECT_THAT(served.said, HasSubstr("was interrupted"));
             if (!ran.empty()) {
                 EXPECT_THAT(served.said, HasSubstr(ran));
             }
@@ -98,7 +98,7 @@ TEST_F(AServedRack, KilledWhileItStoodKnowsIt) {
     }
     {
         Served served(arguments());
-        EXPECT_THAT(served.said, HasSubstr("was cut off"));
+        EXPECT_THAT(served.said, HasSubstr("was interrupted"));
         const json status = served.status();
         EXPECT_FALSE(status["axes"][0]["position_valid"]) << "anything could have moved it since";
     }

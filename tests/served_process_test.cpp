@@ -88,8 +88,8 @@ TEST_F(AServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
           Bad{"--paused --live bench=port:/dev/zero", 3, "the rack's clock is 'paused'"},
           Bad{"--time-scale 2 --live bench=port:/dev/zero", 3, "the rack's clock is 'real' with factor 2"},
           Bad{"--live m=port:/dev/zero", 3, "Card m moves X of the machine"},
-          Bad{"--live other=port:/dev/zero", 2, "its cards are: m, bench"},
-          Bad{"--live bench", 2, "does not say which card is where"}}) {
+          Bad{"--live other=port:/dev/zero", 2, "the cards of this rack are: m, bench"},
+          Bad{"--live bench", 2, "does not name a card and its address"}}) {
         const Ran ran = motionrack("serve two.toml --port 0 --users users.json " + std::string(options));
         EXPECT_EQ(ran.code, code) << options;
         EXPECT_THAT(ran.out, HasSubstr(says));

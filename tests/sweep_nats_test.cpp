@@ -162,7 +162,7 @@ TEST_F(NatsSweep, GathererAndServerMayBeKilledToo) {
     start_server(port());
     gather = gatherer();
     EXPECT_EQ(gather->wait(), 0) << said("gatherer");
-    EXPECT_THAT(said("gatherer"), HasSubstr("of 96 points were done before"));
+    EXPECT_THAT(said("gatherer"), HasSubstr("of 96 points were finished before"));
     EXPECT_EQ(text_of(folder / "out.csv"), local_table());
 }
 
@@ -172,7 +172,7 @@ TEST_F(NatsSweep, RowsThatCameWhileNobodyGatheredAreTaken) {
     while (gather->runs() && rows() < 3) {
     }
     EXPECT_EQ(gather->end(SIGINT), 130);
-    EXPECT_THAT(said("gatherer"), HasSubstr("the same command goes on"));
+    EXPECT_THAT(said("gatherer"), HasSubstr("the same command continues"));
     one.reset();
     // Without a coordinator the worker ends when the queue is empty.
     auto two = worker("two", "--idle 8");

@@ -93,7 +93,7 @@ TEST_F(SweepCommand, GivesTheSameTableWhateverTheThreadsAndTheKills) {
     std::ofstream(folder / "out.csv.part", std::ios::app) << "0123456789abcdef0123456789abcdef,63,4000,0.2,,ok,1.0";
     const Ran rest = motionrack("sweep sweep.toml -o out.csv");
     EXPECT_EQ(rest.code, 0);
-    EXPECT_THAT(rest.out, HasSubstr(" of 64 points were done before\n"));
+    EXPECT_THAT(rest.out, HasSubstr(" of 64 points were finished before\n"));
     EXPECT_EQ(text_of(folder / "out.csv"), whole);
     EXPECT_FALSE(std::filesystem::exists(folder / "out.csv.part"));
 }
@@ -103,7 +103,7 @@ TEST_F(SweepCommand, GivesTheSameHdf5FileToo) {
     ASSERT_EQ(motionrack("sweep sweep.toml -o b.h5 --jobs 1").code, 0);
     EXPECT_EQ(text_of(folder / "a.h5"), text_of(folder / "b.h5"));
     const Ran again = motionrack("sweep sweep.toml -o a.h5");
-    EXPECT_THAT(again.out, HasSubstr("64 of 64 points were done before"));
+    EXPECT_THAT(again.out, HasSubstr("64 of 64 points were finished before"));
     EXPECT_EQ(text_of(folder / "a.h5"), text_of(folder / "b.h5"));
     const Ran read = shell(
         "/usr/bin/python3 -c \"import h5py; f=h5py.File('a.h5'); print(len(f['key']), "
@@ -144,9 +144,9 @@ TEST_F(SweepCommand, TellsWhatRunTells) {
 TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
     (void)table("sweep.toml -o out.csv");
     write("rack.toml", std::string("# a comment changes nothing\n") + rack_text);
-    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, HasSubstr("64 of 64 points were done before"));
+    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, HasSubstr("64 of 64 points were finished before"));
     shell("sed -i 's/0.01, 0.05, 0.1, 0.2/0.02, 0.05, 0.1, 0.2/' sweep.toml");
-    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, HasSubstr("48 of 64 points were done before"));
+    EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, HasSubstr("48 of 64 points were finished before"));
     write("rack.toml", std::string(rack_text) + "max_accel_mm_s2 = 900\n");
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, Not(HasSubstr("before")));
     shell("sed -i 's/X120/X121/' part.ngc");
@@ -156,8 +156,10 @@ TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
 
 TEST_F(SweepCommand, EndsOnRequestAndSaysHowToGoOn) {
     EXPECT_EQ(signal_after(SIGINT, "examples/sweep/chance.toml -o out.csv --jobs 1", 5), 130);
-    EXPECT_THAT(text_of(folder / "said.txt"),
-                HasSubstr(" of 120 points are done and kept in out.csv.part; the same command goes on with the rest."));
+    EXPECT_THAT(
+        text_of(folder / "said.txt"),
+        HasSubstr(
+            " of 120 points are finished and kept in out.csv.part; the same command continues with the other points."));
     EXPECT_EQ(motionrack("sweep examples/sweep/chance.toml -o out.csv -q").code, 0);
     EXPECT_EQ(lines_of(text_of(folder / "out.csv")).size(), 121u);
 }
@@ -189,7 +191,7 @@ TEST_F(SweepCommand, RefusesBadFilesWithTheirPlaceBeforeAnythingRuns) {
              Case{"fault = [\"\", \"X.limitplus=0@1s\"]", "bad.toml:5:14", "did you mean 'X.limit_plus'?"},
              Case{"fault = [1]", "bad.toml:5:10", "faults are texts"},
              Case{"text.WORD = [1]", "bad.toml:5:6", "has no {WORD}"},
-             Case{"text.\"A B\" = [1]", "bad.toml:5:6", "names no text"},
+             Case{"text.\"A B\" = [1]", "bad.toml:5:6", "is not a text of the program"},
              Case{"\"axis.X.max_limit_mm\" = [100]\naxis.X.max_limit_mm = [200]", "bad.toml:6:", "varied twice"},
              Case{"", "bad.toml:4:2", "Nothing is varied"},
          }) {
@@ -234,7 +236,7 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
     write("other.csv", "name,value\r\na,1\r\n");
     const Ran other = motionrack("sweep sweep.toml -o other.csv");
     EXPECT_EQ(other.code, 3);
-    EXPECT_THAT(other.out, HasSubstr("no table of a sweep"));
+    EXPECT_THAT(other.out, HasSubstr("not a table of a sweep"));
     EXPECT_EQ(text_of(folder / "other.csv"), "name,value\r\na,1\r\n");
     EXPECT_EQ(motionrack("sweep sweep.toml -o no/such/folder.csv").code, 5);
     EXPECT_EQ(motionrack("sweep sweep.toml --jobs 0").code, 1);

@@ -1,4 +1,4 @@
-"""A helix with the rotary axis, from Python. The warnings say what was split and what it costs."""
+"""A helix with the rotary axis, from Python. The warnings name the split moves and their deviation."""
 
 import sys
 

@@ -45,7 +45,7 @@ int main(void) {
     tell(rack, "after 0.3 s");
 
     must(mr_snapshot(rack, &otherwise));
-    must(mr_wire_set(rack, "c1.xlmtp", 0)); /* somebody presses the limit switch */
+    must(mr_wire_set(rack, "c1.xlmtp", 0)); /* the limit switch is pressed */
     must(mr_advance_ns(rack, 1000000000));
     must(mr_advance_ns(otherwise, 1000000000));
     tell(rack, "with the switch pressed");

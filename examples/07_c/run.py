@@ -33,7 +33,7 @@ with motionrack.Rack.from_text('card.c1 = "mcx314"') as rack:
     tell(rack, "after 0.3 s")
 
     with rack.copy() as otherwise:
-        rack.wires["c1.xlmtp"] = 0  # somebody presses the limit switch
+        rack.wires["c1.xlmtp"] = 0  # the limit switch is pressed
         rack.advance(1)
         otherwise.advance(1)
         tell(rack, "with the switch pressed")

@@ -15,7 +15,7 @@
 static mr_rack* rack;
 static FILE* record;
 static uint64_t recorded_ns;
-static uint64_t switch_ns; /* when somebody presses or releases the switch of the right end stop; 0: never */
+static uint64_t switch_ns; /* instant at which the switch of the right end stop changes; 0: never */
 static int pressed;
 
 static void must(int code) {
@@ -198,7 +198,7 @@ int main(int argc, char** argv) {
     if (record != NULL) fclose(record);
     record = NULL;
 
-    printf("To C again, at once with 10 kHz; after 10 s somebody holds the right end stop's switch for 5 s:\n");
+    printf("To C again, at once with 10 kHz; after 10 s the right end stop's switch is held for 5 s:\n");
     switch_ns = mr_now_ns(rack) + 10000000000;
     strobe_out(C2, 'M');
     max_speed(16344);

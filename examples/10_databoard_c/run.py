@@ -21,7 +21,7 @@ SLOPES = (
 
 rack = motionrack.Rack.from_text('card.c1 = "databoard4002"')
 card = rack.cards["c1"]
-switch_at: float | None = None  # s: when somebody presses or releases the switch of the right end stop
+switch_at: float | None = None  # s: instant at which the switch of the right end stop changes
 pressed = False
 
 
@@ -138,7 +138,7 @@ max_speed(63 * 256)
 go_position("B to A", 0)  # at a limited speed, too
 wait_for_key()
 
-print("To C again, at once with 10 kHz; after 10 s somebody holds the right end stop's switch for 5 s:")
+print("To C again, at once with 10 kHz; after 10 s the right end stop's switch is held for 5 s:")
 switch_at = rack.time + 10
 strobe_out(C2, "M")
 max_speed(16344)

@@ -18,7 +18,7 @@ namespace {
 constexpr double ratio = 4;          // the mask's picture is four times as large as the wafer's
 constexpr double warm_up_s = 0.018;  // until the scan is at its speed
 
-/// What is different from the rack file, and what happens.
+/// Differences from the rack file, and a fault.
 struct Trial {
     std::string name;
     bool hosts = false;                 ///< all three cards are hosts, without checks
@@ -28,7 +28,7 @@ struct Trial {
     std::string fault;  ///< of card "step", at 0.25 s
 };
 
-/// What was seen: at each pulse, and in all.
+/// Measured values: at each pulse, and their totals.
 struct Record {
     std::vector<double> seconds;
     std::vector<float> mask_mm, apart_nm, seen_nm;

@@ -14,7 +14,7 @@ MACHINE = Path("machine.toml").read_text(encoding="utf-8")
 
 @dataclass
 class Trial:
-    """What is different from the rack file, and what happens."""
+    """Differences from the rack file, and a fault."""
 
     name: str
     offset_us: tuple[float, ...] = ()  # not empty: all three cards are hosts, without checks, their clocks so far apart

@@ -7,7 +7,7 @@ namespace howto {
 namespace {
 
 constexpr std::int64_t counts_per_turn = 4'000, fine = 4;  // the motors' own counts are four times finer
-constexpr double volt = 1e5;                               // and so many a second for a volt
+constexpr double volt = 1e5;                               // counts/s per volt
 
 }  // namespace
 

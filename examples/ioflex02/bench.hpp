@@ -26,7 +26,7 @@ class Bench {
   public:
     Bench();
     Flex2Pos& flex() { return flex_; }
-    /// From now on the motor of that axis turns with so many counts a second, once its lag of 10 ms is over.
+    /// Sets the speed of the motor of that axis, counts/s, reached with its lag of 10 ms.
     void turn(int axis, double counts_s);
     /// The calibration input of an axis.
     void cal(int axis, bool level);

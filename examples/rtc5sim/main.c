@@ -4,7 +4,7 @@
 
 int mark_square(int on_the_fly);
 
-/* What was marked, in mm on the part. */
+/* The marks, in mm on the part. */
 struct Marked {
     int64_t begin; /* tick of the first mark */
     double least_x, greatest_x, least_y, greatest_y;

@@ -103,7 +103,7 @@ void Computer::assign_console(int block) {
 
 // ---- the processor's bus
 
-/// z80ex is C: what is thrown waits until it has returned.
+/// z80ex is C: exceptions are rethrown after it has returned.
 template <class Action>
 void Computer::guarded(const Action& action) {
     if (failure_) return;

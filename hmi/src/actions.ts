@@ -18,7 +18,7 @@ export const placeText = signal('0');
 
 function startText(): void {
   if (machineState.value === 'hold') void command('resume');
-  else if (text.program.value === '') notice('refused', 'There is no program to run. Open one, or type one, first.');
+  else if (text.program.value === '') notice('refused', 'No program is open. Open one, or type one, first.');
   else void command('start_program', { name: text.programName.value, text: text.program.value });
 }
 
@@ -33,13 +33,13 @@ export const axisLetter = (): string =>
 
 function declare(): void {
   const position = typed(placeText.value);
-  if (position === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
+  if (position === null) notice('refused', `"${placeText.value}" is not a position. Nothing was changed.`);
   else void command('set_position', { axis: axisLetter(), position });
 }
 
 function touchOff(): void {
   const place = typed(placeText.value);
-  if (place === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
+  if (place === null) notice('refused', `"${placeText.value}" is not a position. Nothing was changed.`);
   else void command('touch_off', { axis: axisLetter(), value: place });
 }
 

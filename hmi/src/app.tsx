@@ -137,7 +137,7 @@ export function App(): JSX.Element {
       <footer>
         <span>{state.hello.value?.rack ?? ''}</span>
         <span>Motionrack {state.hello.value?.version ?? ''}</span>
-        <span>STOP on this page is no emergency stop: a real machine needs one of its own wires.</span>
+        <span>STOP on this page is not an emergency stop: a real machine needs one with its own wires.</span>
       </footer>
       <Notices />
       <Pairing />

@@ -117,7 +117,7 @@ test('the program is typed, checked and run; the line that is driven is marked',
 test('what is refused is shown as the sentence that the program gave', async () => {
   const tab = await openTab(all.browser, all.server);
   await tab.page.getByRole('button', { name: 'Feed hold' }).click();
-  await tab.page.getByText(/There is nothing to hold: the machine is in state/).waitFor();
+  await tab.page.getByText(/A hold is not possible: the machine is in state/).waitFor();
   await tab.context.close();
 });
 

@@ -29,7 +29,7 @@ test('axes are homed, with their phases and what was found; then they are truste
   await until(() => tab.status.state === 'standstill', 'all axes are homed', 60000);
   await until(() => tab.status.axes.every((axis) => axis.position_valid), 'all positions are trusted');
   await until(async () => (await tab.page.locator('.homed.yes').count()) === 4, 'all axes are shown as homed');
-  await tab.page.getByText('Homed; what was found').click();
+  await tab.page.getByText('Homed; results').click();
   await tab.page.locator('.homing td').first().waitFor();
   await done(tab);
 });

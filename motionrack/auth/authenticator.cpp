@@ -24,9 +24,9 @@ bool may_be_in_a_name(char c) {
 
 std::string name_problem(std::string_view name) {
     if (name.empty() || name.size() > 40) return fmt::format("A name has 1 to 40 bytes, this one has {}.", name.size());
-    if (name.front() == ' ' || name.back() == ' ') return "A name has no blanks around it.";
+    if (name.front() == ' ' || name.back() == ' ') return "A name must not begin or end with a blank.";
     if (!std::all_of(name.begin(), name.end(), may_be_in_a_name))
-        return "A name is made of letters, digits, dots, dashes, underscores and blanks.";
+        return "A name may have letters, digits, dots, dashes, underscores and blanks.";
     return "";
 }
 
@@ -56,7 +56,7 @@ AuthResult<Authenticator::Paired> Authenticator::admit(std::string_view name, Ro
         const std::size_t there = tokens_.size();
         tokens_ = std::move(before);
         return deny(AuthError::Why::failed,
-                    fmt::format("Not paired: {} devices are paired, which is the most. Unpair somebody first.", there));
+                    fmt::format("Not paired: the limit of {} paired devices is reached. Revoke a user first.", there));
     }
     Paired paired;
     paired.token = random_token();
@@ -79,7 +79,7 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
     const std::lock_guard<std::mutex> alone(lock_);
     if (!wrong_.there_is(address, now.steady) || !all_wrong_.there_is("all", now.steady))
         return deny(AuthError::Why::too_many,
-                    "Too many wrong codes came in. Nothing was tried; wait some seconds and try again.");
+                    "Too many wrong codes were received. This one was not checked; wait some seconds and try again.");
     if (const std::string problem = name_problem(name); !problem.empty())
         return deny(AuthError::Why::wrong, "Not paired: " + problem);
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
@@ -99,7 +99,7 @@ AuthResult<Authenticator::Paired> Authenticator::pair(std::string_view code, std
         all_wrong_.take("all", now.steady);
         return deny(
             AuthError::Why::wrong,
-            "Not paired: this code is not open. It was mistyped, used already, or its time is over; ask for another.");
+            "Not paired: this code is not valid. It was mistyped, used already, or has expired; ask for another.");
     }
     if (has(name))
         return deny(AuthError::Why::wrong,
@@ -117,10 +117,9 @@ Result<std::string> Authenticator::invite(Role role, Timestamps now) {
                     "No invitation was created: the roles are observe, operate and maintain.");
     std::erase_if(invitations_, [&](const Invitation& one) { return one.expires <= now.steady; });
     if (invitations_.size() >= settings_.max_invitations)
-        return fail(
-            ErrorKind::refused,
-            fmt::format("Nobody was invited: {} codes are open, which is the most. Wait until some are used or over.",
-                        invitations_.size()));
+        return fail(ErrorKind::refused, fmt::format("No invitation was created: the limit of {} open invitations is "
+                                                    "reached. Wait until one is used or expires.",
+                                                    invitations_.size()));
     const std::string code = random_code();
     invitations_.push_back({hash_of(plain_code(code)), role, now.steady + settings_.invitation_life});
     return code;

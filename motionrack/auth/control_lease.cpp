@@ -17,13 +17,12 @@ Result<void> ControlLease::take(std::string_view user, std::string_view session,
             return fail(
                 ErrorKind::refused,
                 fmt::format(
-                    "Control was not taken: {} has it and the machine does not stand still. Stop the machine, or wait "
-                    "until it stands.",
+                    "Control was not taken: {} has it and the machine moves. Stop the machine, or wait for standstill.",
                     name()));
         if (!force)
             return fail(ErrorKind::refused,
                         fmt::format("Control was not taken: {} has it. Ask for it, or take it over, "
-                                    "which works while the machine stands still.",
+                                    "which is possible at standstill.",
                                     name()));
     }
     const Moment now = clock_();
@@ -46,7 +45,7 @@ bool ControlLease::revoke(std::string_view user, std::string_view session) {
 }
 
 Result<void> ControlLease::holds(std::string_view session) const {
-    if (!held()) return fail(ErrorKind::refused, "Nobody has control. Take control first.");
+    if (!held()) return fail(ErrorKind::refused, "No user has control. Take control first.");
     if (held_->session != session)
         return fail(ErrorKind::refused, fmt::format("Control is with {}. Take control first.", name()));
     return {};

@@ -13,8 +13,8 @@ namespace {
 
 tl::unexpected<Error> not_seen(const std::string& path, const std::string& subject) {
     return fail(ErrorKind::io,
-                fmt::format("{} cannot be looked at: {}. Nothing was started; name another file, or put right what is "
-                            "in the way.",
+                fmt::format("{} cannot be checked: {}. Nothing was started; name another file, or correct its "
+                            "path.",
                             subject, std::strerror(errno)),
                 {}, path);
 }
@@ -51,8 +51,8 @@ Result<void> check_writers(const std::string& path, const std::string& subject) 
     if (!there && errno != ENOENT) return not_seen(path, subject);
     if (there && (about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("Others may write {} (mode {:o}); they could let themselves in, or have wrong "
-                                "positions trusted. Nothing was started; look at its content, then chmod 600 it.",
+                    fmt::format("Others may write {} (mode {:o}); they could grant themselves access, or make wrong "
+                                "positions valid. Nothing was started; check its content, then chmod 600 it.",
                                 lower_first(subject), about.st_mode & 0777),
                     {}, path);
     return check_folder(path, lower_first(subject));
@@ -65,7 +65,7 @@ Result<void> check_readers(const std::string& path, const std::string& subject) 
     if ((about.st_mode & open) == 0) return {};
     return fail(ErrorKind::invalid_input,
                 fmt::format("Others may read {} (mode {:o}). Nothing was started; chmod 600 it, and make a new key if "
-                            "a stranger can have read this one.",
+                            "another user may have read this one.",
                             lower_first(subject), about.st_mode & 0777),
                 {}, path);
 }

@@ -36,8 +36,8 @@ Result<void> Authenticator::read() {
     MOTIONRACK_TRY(const std::string text, read_whole_file(path, read_limits::users));
     const auto damaged = [&](const std::string& why) {
         return fail(ErrorKind::invalid_input,
-                    fmt::format("The users file is damaged: {}. Nothing was started; put it right, or take it away and "
-                                "pair everybody again.",
+                    fmt::format("The users file is damaged: {}. Nothing was started; correct it, or remove it and pair "
+                                "all users again.",
                                 why),
                     {}, path);
     };
@@ -46,7 +46,7 @@ Result<void> Authenticator::read() {
         return damaged("it has no list of users");
     std::set<std::string> ids;
     for (const nlohmann::json& one : file["users"]) {
-        if (!one.is_object()) return damaged("a user is no object");
+        if (!one.is_object()) return damaged("a user is not an object");
         const auto text_of = [&](const char* key) {
             return one.contains(key) && one[key].is_string() ? one[key].get<std::string>() : std::string();
         };

@@ -48,7 +48,7 @@ constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) 
 consteval const CommandInfo& command_named(std::span<const CommandInfo> commands, std::string_view name) {
     for (const CommandInfo& command : commands)
         if (command.name == name) return command;
-    throw "there is no command of that name";
+    throw "unknown command name";
 }
 
 }  // namespace motionrack

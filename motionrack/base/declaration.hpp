@@ -31,7 +31,7 @@ struct DeclarationError {
 /// Fails to compile if there is a flaw.
 template <DeclarationError flaw>
 consteval bool declared() {
-    static_assert(flaw.empty(), "a declaration is wrong; the sentence that says how is the template argument 'flaw'");
+    static_assert(flaw.empty(), "a declaration is wrong; its error text is the template argument 'flaw'");
     return true;
 }
 

@@ -177,14 +177,14 @@ std::string describe_text(const CardMap& map) {
     for (const PinInfo& pin : map.pins)
         out += fmt::format("  {:<8} {:<7}{:<11} {}\n", pin.name, direction_text(pin.direction),
                            pin.active_low ? "active low" : "", pin.meaning);
-    out += "\nNot reproduced: the virtual card ignores it and says so.\n";
+    out += "\nNot reproduced: the virtual card ignores and reports it.\n";
     return out;
 }
 
 std::string describe_markdown(const CardMap& map) {
     std::string out = fmt::format(
-        "# {}\n\n{}\n\nThis page is made from the card's map: `motionrack describe {} --markdown`. What is not "
-        "reproduced is there on the real\ncard; the virtual one ignores it and says so.\n\n## Registers\n",
+        "# {}\n\n{}\n\nThis page is made from the card's map: `motionrack describe {} --markdown`. Functions "
+        "that are not reproduced exist on the real\ncard; the virtual one ignores and reports them.\n\n## Registers\n",
         map.name, map.title, map.name);
     for (const RegisterInfo& reg : map.registers) add_markdown(out, reg);
     out += "\n## Commands\n\n| code | name | data | range | unit | meaning |\n|---|---|---|---|---|---|\n";

@@ -68,7 +68,7 @@ constexpr DeclarationError registers_flaw(std::span<const RegisterInfo> register
 consteval const RegisterInfo& register_named(std::span<const RegisterInfo> registers, std::string_view name) {
     for (const RegisterInfo& reg : registers)
         if (reg.name == name) return reg;
-    throw "there is no register of that name";
+    throw "unknown register name";
 }
 
 /// The mask of a field; an undeclared name, or a register wider than 16 bits, does not compile.

@@ -51,9 +51,9 @@ constexpr DeclarationError machine_flaw(const MachineInfo& machine) {
     if (const DeclarationError flaw = names_flaw(machine.name, "state", machine.states); !flaw.empty()) return flaw;
     for (const TransitionInfo& t : machine.transitions) {
         if (state_index(machine, t.from) < 0)
-            return {machine.name, ": a transition comes from ", t.from, ", which is no state"};
+            return {machine.name, ": a transition comes from ", t.from, ", which is not a state"};
         if (state_index(machine, t.to) < 0)
-            return {machine.name, ": a transition goes to ", t.to, ", which is no state"};
+            return {machine.name, ": a transition goes to ", t.to, ", which is not a state"};
         if (t.when.empty()) return {machine.name, ": the transition from ", t.from, " to ", t.to, " does not say when"};
     }
     const std::uint64_t reached = reachable_states(machine);

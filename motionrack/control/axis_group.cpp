@@ -13,7 +13,7 @@ std::string position_text(const Point& at, const MachineLimits& limits) {
 
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits) {
     return fail(ErrorKind::stopped,
-                fmt::format("Stopped on request in line {}; the axes came to rest along the path at {}.", line,
+                fmt::format("Stopped on request in line {}; the axes stopped along the path at {}.", line,
                             position_text(at, limits)),
                 {line, 1});
 }

@@ -54,7 +54,7 @@ Result<Geometry> checked_path(const Move& move, const Point& start, const PathLi
         return fail(
             ErrorKind::refused,
             fmt::format("line {} moves axis {} by {}, but this machine has no such axis; the move was not planned. "
-                        "Take {} out of the program or add the axis to the rack.",
+                        "Remove {} from the program or add the axis to the rack.",
                         move.line, axis_letters[axis], path.end[axis] - path.start[axis], axis_letters[axis]),
             {move.line, 0});
     }

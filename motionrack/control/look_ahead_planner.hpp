@@ -44,7 +44,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     bool pull(PlannedMove& planned) override;
 
     /// As pull(); if no move is ready, returns the first open one, which makes its velocities final. Returns false if
-    /// there is no move.
+    /// it has no move.
     bool pull_early(PlannedMove& planned);
 
     /// Excludes the next pushed move from merging.

@@ -83,7 +83,7 @@ Result<void> PointToPointAxes::wait() {
         }
         if (!busy) return ended;
         if (ended && host_.stop_requested()) {
-            ended = fail(ErrorKind::stopped, "Stopped on request; every axis came to rest with its own deceleration.");
+            ended = fail(ErrorKind::stopped, "Stopped on request; every axis stopped with its own deceleration.");
             stop(false);
         }
         host_.pass(look_every);
@@ -93,7 +93,8 @@ Result<void> PointToPointAxes::wait() {
 Result<void> PointToPointAxes::dwell(double seconds) {
     const Instant end = later(host_.now(), from_seconds(seconds));
     while (host_.now() < end) {
-        if (host_.stop_requested()) return fail(ErrorKind::stopped, "Stopped on request in a dwell; the axes stand.");
+        if (host_.stop_requested())
+            return fail(ErrorKind::stopped, "Stopped on request in a dwell; the axes are at standstill.");
         host_.pass(std::min(milliseconds(50), end - host_.now()));
     }
     return {};
@@ -102,7 +103,8 @@ Result<void> PointToPointAxes::dwell(double seconds) {
 Result<void> PointToPointAxes::follow(const PlannedMove& move) {
     starts_.push_back({blocks_++, move.move.line, host_.now()});
     if (host_.stop_requested())
-        return fail(ErrorKind::stopped, "Stopped on request before a move; the axes stand.", {move.move.line, 0});
+        return fail(ErrorKind::stopped, "Stopped on request before a move; the axes are at standstill.",
+                    {move.move.line, 0});
     Result<void> done = move.move.kind == MoveKind::dwell ? dwell(move.move.seconds) : order(move);
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (done) return done;

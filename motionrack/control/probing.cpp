@@ -21,7 +21,7 @@ std::string probe_text(gcode::Probe probe, const ProbeResult& outcome) {
     const bool leaves = gcode::probe_leaves(probe);
     const auto place = fmt::format("X {:.4f} Y {:.4f} Z {:.4f}", outcome.at[0], outcome.at[1], outcome.at[2]);
     if (outcome.hit) return fmt::format("probe {} at {}", leaves ? "left" : "touched", place);
-    return fmt::format("probe did not {} on its way, which ended at {}", leaves ? "leave" : "touch", place);
+    return fmt::format("probe did not {} before the end of its move at {}", leaves ? "leave" : "touch", place);
 }
 
 }  // namespace motionrack::control

@@ -33,10 +33,8 @@ int output_code(const gcode::CanonCall& step) {
 
 std::string input_words(const gcode::CanonCall& step) {
     const char* kind = step.analog ? "analog" : "digital";
-    if (step.value < 0)
-        return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind,
-                           step.port);
-    return fmt::format("{} input {} (M66): {:g}, nothing is connected to it", kind, step.port, step.value);
+    if (step.value < 0) return fmt::format("{} input {} (M66): timed out, not connected; #5399 is -1", kind, step.port);
+    return fmt::format("{} input {} (M66): {:g}, not connected", kind, step.port, step.value);
 }
 
 std::string words_of(const gcode::CanonCall& step) {
@@ -69,9 +67,9 @@ std::string words_of(const gcode::CanonCall& step) {
         case CanonCallKind::input:
             return input_words(step);
         case CanonCallKind::pause:
-            return "pause (M0): nobody waits in simulated time, the program goes on";
+            return "pause (M0): not held in simulated time, the program continues";
         case CanonCallKind::optional_pause:
-            return "optional pause (M1): not asked for, the program goes on";
+            return "optional pause (M1): not enabled, the program continues";
         case CanonCallKind::end:
             return "end of program";
         case CanonCallKind::move:
@@ -175,7 +173,7 @@ Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::Program
     const std::string what = probe_text(step.probe, outcome);
     note({step.line, blocks_ - 1, what}, run);
     if (outcome.hit || !gcode::probe_must(step.probe)) return {};
-    return fail(ErrorKind::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what),
+    return fail(ErrorKind::machine, fmt::format("In line {} the {}. Nothing after it was executed.", step.line, what),
                 {step.line, 1});
 }
 

@@ -212,7 +212,7 @@ class StreamExecutor {
     std::size_t handed_ = 0;       ///< entries up to the last submitted move
     Instant block_began_ = never;  ///< start of the executing move; never: none has started
     std::int32_t line_driven_ = 0;
-    bool unpulled_ = false;    ///< calls of the last line are missing in entries_
+    bool unpulled_ = false;    ///< some calls of the last line are not yet in entries_
     bool path_begun_ = false;  ///< the axes have moves without a finish()
     bool single_block_ = false;
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events

@@ -35,7 +35,7 @@ Result<ExecutionState> StreamExecutor::probe() {
     forget();
     return fail(
         ErrorKind::machine,
-        fmt::format("In line {} the {}. Nothing after it was driven.", step.line, probe_text(step.probe, *outcome)),
+        fmt::format("In line {} the {}. Nothing after it was executed.", step.line, probe_text(step.probe, *outcome)),
         {step.line, 1});
 }
 

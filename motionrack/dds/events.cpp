@@ -36,38 +36,38 @@ std::string sentence(const Event& e) {
             return fmt::format("{} publishes {} positions every {}.", who, e.number, milliseconds_of(e.limit));
         case EventKind::stale:
             return fmt::format(
-                "No frame since {}: the positions of frame {} are stale and marked so. Look whether {} runs and the "
-                "network is whole.",
+                "No frame since {}: the positions of frame {} are stale and marked so. Check whether {} runs and the "
+                "network works.",
                 milliseconds_of(e.number), e.limit, who);
         case EventKind::fresh:
-            return fmt::format("Frames come again, from number {} on.", e.number);
+            return fmt::format("Frames are received again, from number {} on.", e.number);
         case EventKind::lost:
             return fmt::format(
-                "{} frames after number {} did not come, {} so far. The next one is used; nothing is made up for the "
-                "others.",
+                "{} frames after number {} did not come, {} so far. The next one is used; the lost ones are not "
+                "replaced.",
                 e.number, e.limit, e.total);
         case EventKind::late:
             return fmt::format(
-                "Frame {} came after frame {}, {} so far. It is older than what is held and was not used.", e.number,
-                e.limit, e.total);
+                "Frame {} came after frame {}, {} so far. It is older than the current frame and was not used.",
+                e.number, e.limit, e.total);
         case EventKind::duplicate:
             return fmt::format("Frame {} came twice, {} so far. The second was not used.", e.number, e.total);
         case EventKind::jump:
             return fmt::format(
-                "Frame {} does not go on from frame {}: its time is not that of its number; {} so far. It was not "
+                "Frame {} does not follow frame {}: its time does not fit its number; {} so far. It was not "
                 "used.",
                 e.number, e.limit, e.total);
         case EventKind::anew:
             return fmt::format(
-                "The sequence of {} began anew: frame {} follows frame {}. Its card was reset; its frames are used.",
+                "The sequence of {} restarted: frame {} follows frame {}. Its card was reset; its frames are used.",
                 who, e.number, e.limit);
         case EventKind::wrong_crc:
-            return fmt::format("A frame of {} was damaged: its CRC is another; {} so far. It was not used.", who,
+            return fmt::format("A frame of {} was damaged: its CRC is wrong; {} so far. It was not used.", who,
                                e.total);
         case EventKind::foreign:
             return fmt::format(
-                "A sample of another format was heard, {} so far. It was not used; look who else publishes under this "
-                "bus name.",
+                "A sample of another format was received, {} so far. It was not used; check for another publisher of "
+                "this bus name.",
                 e.total);
         case EventKind::malformed:
             return fmt::format("A sample of {} has values that no publisher sends, {} so far. It was not used.", who,
@@ -84,7 +84,7 @@ std::string sentence(const Event& e) {
         case EventKind::conflict_over:
             return fmt::format("[{}] is silent: [{}] is alone on the bus again.", printable(e.other), who);
         case EventKind::restart:
-            return fmt::format("The publisher was started anew: [{}] follows [{}].", who, printable(e.other));
+            return fmt::format("The publisher was restarted: [{}] follows [{}].", who, printable(e.other));
         case EventKind::takeover:
             return fmt::format("Another computer has the bus: [{}] follows [{}], which is silent.", who,
                                printable(e.other));

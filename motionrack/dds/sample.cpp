@@ -69,7 +69,7 @@ Result<void> check_bus_name(std::string_view name) {
     const auto bad = std::find_if_not(name.begin(), name.end(), good);
     if (bad != name.end())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("Character {} of the bus name is none of letters, digits, '_' and "
+                    fmt::format("Character {} of the bus name is not one of letters, digits, '_' and "
                                 "'-'. Nothing was opened; choose another name.",
                                 bad - name.begin() + 1));
     return {};

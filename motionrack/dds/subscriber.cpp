@@ -31,7 +31,7 @@ class NetworkSubscriber final : public Subscriber {
             static_cast<NetworkSubscriber*>(self)->receive(reader);
         });
         reader_ = Entity(dds_create_reader(participant, topic_.get(), qos.get(), listener.get()));
-        if (reader_.get() < 0) return engine_error("Frames cannot be heard", reader_.get());
+        if (reader_.get() < 0) return engine_error("Frames cannot be received", reader_.get());
         return {};
     }
 

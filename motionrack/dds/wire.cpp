@@ -49,8 +49,8 @@ tl::unexpected<Error> engine_error(const char* what, dds_return_t code) {
     return fail(
         ErrorKind::io,
         fmt::format(
-            "{}: {} (code {}). Nothing was opened; look at the network interfaces and at what CYCLONEDDS_URI names.",
-            what, dds_strretcode(code), code));
+            "{}: {} (code {}). Nothing was opened; check the network interfaces and the file of CYCLONEDDS_URI.", what,
+            dds_strretcode(code), code));
 }
 
 Result<Entity> join(const std::string& bus, int domain) {

@@ -120,10 +120,9 @@ Result<double> read_rate(std::string_view text) {
     const double factor = unit.empty() ? 1 : unit == "k" ? 1e3 : unit == "m" ? 1e6 : unit == "g" ? 1e9 : 0;
     const double rate = number * factor;
     if (bad != std::errc() || !(rate >= 1e-3 && rate <= 1e12))
-        return fail(
-            ErrorKind::invalid_input,
-            fmt::format("'{}' is no sample rate: a number with k, M or G, as 24M or 500 kHz, from 0.001 to 1000 G.",
-                        text.substr(0, 40)));
+        return fail(ErrorKind::invalid_input, fmt::format("'{}' is not a sample rate. Write a number with k, M or G, "
+                                                          "such as 24M or 500 kHz, from 0.001 to 1000 G.",
+                                                          text.substr(0, 40)));
     return rate;
 }
 

@@ -126,7 +126,7 @@ Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::str
         for (const ChannelSelection& other : out)
             if (other.name == choice.name)
                 return fail(ErrorKind::invalid_input,
-                            fmt::format("There are two channels '{}'. Nothing was decoded; give each another name.",
+                            fmt::format("Two channels have the name '{}'. Nothing was decoded; give each its own name.",
                                         choice.name));
         out.push_back(std::move(choice));
     }
@@ -134,9 +134,8 @@ Result<std::vector<ChannelSelection>> choose_channels(const std::vector<std::str
         if (out.empty() && texts.empty()) out = named_like(signals, before);
     if (out.empty())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("No lines are named like those of an encoder (X.enc_a, X.enc_b, "
-                                "X.enc_z). Nothing was decoded; say which they "
-                                "are with --channel X=A,B,Z. The lines are: {}.",
+                    fmt::format("No lines have the names of an encoder (X.enc_a, X.enc_b, X.enc_z). Nothing was "
+                                "decoded; name them with --channel X=A,B,Z. The lines are: {}.",
                                 listed(signals)));
     if (out.size() > max_channels)
         return fail(

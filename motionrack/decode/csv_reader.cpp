@@ -174,11 +174,11 @@ Result<void> CsvCapture::read_head(double rate_hz) {
         for (std::size_t i = first_; i < width_; ++i)
             signals_.push_back(named_.size() == width_ - first_ ? named_[i - first_] : fmt::format("{}", i - first_));
     }
-    if (signals_.empty()) return refuse("The file has no column that is a line. Nothing was decoded.", {1, 1});
+    if (signals_.empty()) return refuse("The file has no column with a line. Nothing was decoded.", {1, 1});
     if (rate_hz > 0) rate_hz_ = rate_hz;
     if (!timed_ && !(rate_hz_ > 0))
         return refuse(
-            "The file has no times and does not say how fast it was sampled. Nothing was decoded; say --sample-rate "
+            "The file has no times and no sample rate. Nothing was decoded; add --sample-rate "
             "1M, for instance.",
             {});
     tick_s_ = timed_ ? tick : 1 / rate_hz_;
@@ -229,7 +229,7 @@ Result<std::int64_t> CsvCapture::time_of(std::string_view cell, Place place) con
         std::fabs(seconds) > max_duration_s)
         return refuse(
             fmt::format(
-                "'{}' is no time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.",
+                "'{}' is not a time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.",
                 text.substr(0, 40), max_duration_s),
             place);
     return std::llround(seconds / tick);

@@ -73,13 +73,12 @@ Result<bool> RawCapture::next(Block& block) {
     read_ += have;
     block.samples = have / size_;
     if (have % size_ != 0)
-        cut_ = Error{
-            ErrorKind::invalid_input,
-            fmt::format("The file ends {} of {} bytes into a sample, after {} bytes: it is cut off, or a sample has "
-                        "another number of bytes. The whole samples before that were decoded.",
-                        have % size_, size_, read_),
-            name_,
-            {}};
+        cut_ = Error{ErrorKind::invalid_input,
+                     fmt::format("The file ends {} of {} bytes into a sample, after {} bytes: it is cut off, or a "
+                                 "sample has another number of bytes. The complete samples before that were decoded.",
+                                 have % size_, size_, read_),
+                     name_,
+                     {}};
     if (block.samples == 0) return false;
     for (LineFacts& facts : facts_) facts.known_from = 0;
     if (size_ == 1) {
@@ -101,7 +100,7 @@ Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const 
             fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.", settings.sample_bytes));
     if (!(settings.sample_rate_hz > 0))
         return fail(ErrorKind::invalid_input,
-                    "A raw capture does not say how fast it was sampled. Nothing was decoded; say --sample-rate 24M, "
+                    "A raw capture has no sample rate. Nothing was decoded; add --sample-rate 24M, "
                     "for instance.",
                     {}, name);
     return std::make_unique<RawCapture>(std::move(source), name, settings);

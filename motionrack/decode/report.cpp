@@ -142,8 +142,8 @@ std::vector<std::string> analysis_warnings(const Analysis& analysis) {
     for (const ChannelResult& channel : analysis.channels)
         for (const LineNote& note : channel.notes) {
             if (note.from_s && std::isnan(*note.from_s))
-                out.push_back(
-                    fmt::format("{} has no level anywhere: channel {} was not decoded.", note.signal, channel.name));
+                out.push_back(fmt::format("{} has no level in the whole capture: channel {} was not decoded.",
+                                          note.signal, channel.name));
             else if (note.from_s)
                 out.push_back(fmt::format("{} has no level before {:.9g} s: channel {} begins there.", note.signal,
                                           *note.from_s, channel.name));

@@ -88,13 +88,12 @@ bool TextReader::more() {
         line_start_ -= at_, end_ -= at_, at_ = 0;
     }
     if (end_ >= longest) {
-        error_ =
-            Error{ErrorKind::invalid_input,
-                  fmt::format("A line or word has more than {} bytes: this is no text. Nothing more was decoded; say "
-                              "--format raw if it is binary.",
-                              longest),
-                  {},
-                  {static_cast<int>(std::min<std::int64_t>(next_line_, std::numeric_limits<int>::max())), 1}};
+        error_ = Error{ErrorKind::invalid_input,
+                       fmt::format("A line or word has more than {} bytes: this is not a text file. Nothing more was "
+                                   "decoded; add --format raw if it is binary.",
+                                   longest),
+                       {},
+                       {static_cast<int>(std::min<std::int64_t>(next_line_, std::numeric_limits<int>::max())), 1}};
         return false;
     }
     if (buffer_.size() - end_ < first_size / 2) buffer_.resize(buffer_.size() * 2);

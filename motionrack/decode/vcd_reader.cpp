@@ -101,11 +101,11 @@ Result<void> VcdCapture::read_head() {
         const Place place = text_.place();
         const std::string keyword(word);
         if (keyword.empty() || keyword[0] != '$')
-            return refuse(fmt::format("'{}' stands where a VCD file declares its signals: this is no VCD file. Nothing "
-                                      "was decoded; say which "
-                                      "format it has with --format.",
-                                      keyword.substr(0, 40)),
-                          place);
+            return refuse(
+                fmt::format("'{}' in place of the declarations of a VCD file: this is not a VCD file. Nothing "
+                            "was decoded; name its format with --format.",
+                            keyword.substr(0, 40)),
+                place);
         if (keyword == "$comment" || keyword == "$date" || keyword == "$version") {
             MOTIONRACK_CHECK(skip("its head"));
             continue;
@@ -113,7 +113,7 @@ Result<void> VcdCapture::read_head() {
         MOTIONRACK_CHECK(words_until_end(words, "its head"));
         if (keyword == "$enddefinitions") {
             if (tick_s_ == 0)
-                return refuse("The file has no $timescale, so its times mean nothing. Nothing was decoded.", place);
+                return refuse("The file has no $timescale, so its times have no unit. Nothing was decoded.", place);
             head_read_ = true;
             return {};
         }
@@ -222,7 +222,8 @@ Result<void> VcdCapture::advance(std::string_view digits) {
     std::int64_t time = 0;
     const auto [end, bad] = std::from_chars(digits.data(), digits.data() + digits.size(), time);
     if (bad != std::errc() || end != digits.data() + digits.size() || time < 0 || time > std::int64_t{1} << 61)
-        return refuse(fmt::format("'#{}' is no time. Nothing more was decoded.", digits.substr(0, 40)), text_.place());
+        return refuse(fmt::format("'#{}' is not a time. Nothing more was decoded.", digits.substr(0, 40)),
+                      text_.place());
     if (begun_ && time < now_)
         return refuse(
             fmt::format(
@@ -242,7 +243,7 @@ Result<void> VcdCapture::change_vector(std::string bits) {
     const bool vector = bits[0] == 'b' || bits[0] == 'B';
     bits.erase(0, 1);
     if (vector && (bits.empty() || bits.find_first_not_of("01xXzZuUwWlLhH-") != std::string::npos))
-        return refuse(fmt::format("'b{}' is no value of a vector. Nothing more was decoded.", bits.substr(0, 40)),
+        return refuse(fmt::format("'b{}' is not a value of a vector. Nothing more was decoded.", bits.substr(0, 40)),
                       text_.place());
     std::string_view code;
     if (!text_.word(code)) return tl::unexpected(ends_in("a value"));
@@ -298,7 +299,7 @@ Result<bool> VcdCapture::next(Block& block) {
         // An error in or after the very last word means that the file is truncated.
         if (text_.error() || !(text_.cut() || over_)) return tl::unexpected(done.error());
         cut_ = Error{ErrorKind::invalid_input,
-                     "The file ends inside a value or time: it is cut off. What is before that was decoded.", name_,
+                     "The file ends inside a value or time: it is cut off. The part before that was decoded.", name_,
                      text_.place()};
         end();
     }

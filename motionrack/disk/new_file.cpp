@@ -142,7 +142,7 @@ bool NewFile::is_as_written() {
         at += static_cast<std::uint64_t>(some);
     }
     if (at == written_ && checksum == checksum_) return true;
-    trouble_ = "what is on the disk is not what was written";
+    trouble_ = "the content of the disk differs from the written data";
     return false;
 }
 
@@ -155,7 +155,7 @@ Result<void> NewFile::commit() {
     good = good && (in_place || written_ == 0 || is_as_written());
     good = good && (in_place || ::rename(made_.c_str(), path_.c_str()) == 0 || fail_with(errno));
     if (good && !in_place && !is_still_there(file_, path_)) {
-        trouble_ = "it was made, but is not what is there now";
+        trouble_ = "another file has taken its name";
         good = false;
     }
     if (!good) return told();
@@ -171,8 +171,8 @@ Result<void> NewFile::commit() {
 Result<void> NewFile::told(std::string_view kind) const {
     if (trouble_.empty()) return {};
     return fail(ErrorKind::io,
-                fmt::format("Only about {} bytes of the {} file could be written: {}. What was written is kept in {}, "
-                            "but ends too early; make room or choose another place, and run again.",
+                fmt::format("Only about {} bytes of the {} file could be written: {}. They are kept in {}, which ends "
+                            "too early; make room or choose another place, and run again.",
                             written_, kind, trouble_, made_),
                 {}, path_);
 }

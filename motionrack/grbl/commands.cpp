@@ -137,8 +137,7 @@ int GrblSession::restore(const std::string& text) {
         startup_lines_ = {};
         build_text_.clear();
     }
-    if (settings_.on_setting)
-        settings_.on_setting(fmt::format("{}: settings of the Grbl port are as at the start", text));
+    if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are restored", text));
     say("Restoring defaults");
     answer(error_none);
     reset();

@@ -50,7 +50,7 @@ void GrblSession::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
         if (what == Realtime::reset && !settings_.onlookers_reset)
-            say("The reset of one who looks on was not carried out. ! holds the machine");
+            say("The reset of an observer was not executed. ! holds the machine");
         else if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
                  what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
@@ -189,7 +189,7 @@ bool GrblSession::control() {
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
     const bool waits = held_ || door_ || line_ || doing_;
-    if (report.releases && std::exchange(stopped_, false)) return say(report.text + " The sender may go on");
+    if (report.releases && std::exchange(stopped_, false)) return say(report.text + " The sender may continue");
     if (report.releases && !waits) return;
     never_enabled_ = false;
     lock(report.text);
@@ -197,7 +197,7 @@ void GrblSession::stopped(const operate::StopReport& report) {
 
 void GrblSession::lose_control(const std::string& to) {
     if (operate::idle(machine_.state()) && !line_ && !doing_) return;
-    lock(fmt::format("{} has taken control", to.empty() ? "Somebody" : to));
+    lock(fmt::format("{} has taken control", to.empty() ? "Another user" : to));
 }
 
 /// Waiting lines are answered like all later ones: a line whose end alone is dropped would become another line. A

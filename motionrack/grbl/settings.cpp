@@ -97,13 +97,13 @@ constexpr std::array<Setting, 22> table = {{
      },
      nullptr},
     {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::max_rpm, 1e6},
-    {31, 0, "least spindle speed, rpm", nullptr, &SessionSettingValues::min_rpm, 1e6},
+    {31, 0, "minimum spindle speed, rpm", nullptr, &SessionSettingValues::min_rpm, 1e6},
     {32, 0, "laser mode", nullptr, &SessionSettingValues::laser, 1},
 }};
 
 constexpr std::array<AxisSetting, 4> axis_table = {{
-    {100, "pulses a mm or degree", [](const RackAxis& axis) { return axis.pulses_per_unit(); }},
-    {110, "greatest speed, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
+    {100, "pulses per mm or degree", [](const RackAxis& axis) { return axis.pulses_per_unit(); }},
+    {110, "maximum speed, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
     {120, "acceleration, mm/s2", [](const RackAxis& axis) { return axis.max_accel; }},
     {130, "travel, mm", [](const RackAxis& axis) { return axis.max_position - axis.min_position; }},
 }};
@@ -149,7 +149,7 @@ Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own
             return of_the_rack(number, value, axis_value(config, setting, number - setting.first), axis_decimals);
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const Setting& setting) { return setting.number == number; });
-    if (found == table.end()) return {error_unknown, fmt::format("There is no setting ${}", number)};
+    if (found == table.end()) return {error_unknown, fmt::format("Unknown setting ${}", number)};
     if (found->own == nullptr) return of_the_rack(number, value, found->rack(config), found->decimals);
     if (value > found->most || value != std::floor(value))
         return {error_bad_number,

@@ -21,7 +21,7 @@ Result<void> FileWatch::check() {
         };
         if (::stat(one.path.c_str(), &seen) != 0)
             return gone(errno == ENOENT ? "was deleted while it was in use"
-                                        : fmt::format("cannot be looked at: {}", std::strerror(errno)));
+                                        : fmt::format("cannot be checked: {}", std::strerror(errno)));
         if (seen.st_dev != one.device || seen.st_ino != one.inode) return gone("was replaced while it was in use");
         if (seen.st_size < one.size)
             return gone(fmt::format("was cut from {} to {} bytes while it was in use", one.size, seen.st_size));

@@ -87,7 +87,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
     if (Result<void> made = prepare_tables(writer, path); !made) {
         if (made.error().message.find(path) != std::string::npos) return tl::unexpected<Error>(made.error());
         return fail(ErrorKind::io,
-                    fmt::format("'{}' cannot be used as a journal: {}. It was left as it is; name another file.", path,
+                    fmt::format("'{}' cannot be used as a journal: {}. It was not changed; name another file.", path,
                                 made.error().message));
     }
     MOTIONRACK_TRY(Database reader, Database::open(path, Database::Use::read));
@@ -112,7 +112,7 @@ Result<void> Journal::begin() {
     MOTIONRACK_TRY(const ChainCheck chain, check_chain(file, checked_at_start));
     if (before_ && !chain.problem.empty())
         before_->damage =
-            fmt::format("The journal is not as it was written: {}. Find out what changed the file.", chain.problem);
+            fmt::format("The journal was changed: {}. Find the program that changed the file.", chain.problem);
     ChainEnd head = chain_head(file);
     last_number_ = head.number;
     last_link_ = std::move(head.link);
@@ -143,11 +143,11 @@ void Journal::read_kept(LastRun& last) {
         const std::string key = kept.text(0), value = kept.text(1);
         seals_[key] = seal_of_kept(key, value, kept.number(2), kept.number(3));
         if (kept.text(4) != seals_[key]) {
-            last.doubts.push_back(fmt::format("what it keeps of '{}' does not fit its checksum", key));
+            last.doubts.push_back(fmt::format("the stored value of '{}' does not fit its checksum", key));
             continue;
         }
         if (kept.number(2) != last.run)
-            last.doubts.push_back(fmt::format("what it keeps of '{}' is of run {}, not of the last one, {}", key,
+            last.doubts.push_back(fmt::format("the stored value of '{}' is of run {}, not of the last one, {}", key,
                                               kept.number(2), last.run));
         last.kept[key] = value;
         last.last_ms = std::max(last.last_ms, kept.number(3));
@@ -181,13 +181,13 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
-    if (!closed) failed(fmt::format("does not follow: {} entries wait for the disk", max_waiting));
+    if (!closed) failed(fmt::format("is delayed: {} entries wait for the disk", max_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): moved only if the queue had space
-    done(fail(
-        ErrorKind::io,
-        closed ? "It was not written to the journal, which is closed."
-               : fmt::format("It was not written to the journal: {} entries wait for the disk, and no more are taken.",
-                             max_waiting)));
+    done(fail(ErrorKind::io,
+              closed
+                  ? "It was not written to the journal, which is closed."
+                  : fmt::format("It was not written to the journal: {} entries wait for the disk, which is the limit.",
+                                max_waiting)));
 }
 
 void Journal::keep(std::string key, std::string value) {
@@ -308,7 +308,8 @@ Result<void> Journal::close() {
         if (!ended) failed(fmt::format("could not be written: {}", ended.error().message));
     }
     if (!has_failed_) return {};
-    return fail(ErrorKind::io, failure() + " The end of this run is not in it: the next start will trust no position.");
+    return fail(ErrorKind::io,
+                failure() + " The end of this run is not in it: no position is valid at the next start.");
 }
 
 Result<ChainCheck> Journal::check() const {

@@ -28,7 +28,7 @@ Result<std::string> Quota::look(const Database& file) {
     warned_ = true;
     return fmt::format(
         "The journal has {:.1f} MB, {:.0f} % of its quota of {:g} MB. Beyond it the oldest entries are removed: copy "
-        "the file away if they are needed.",
+        "the file first if they are needed.",
         static_cast<double>(used) * of_mb, share * 100, static_cast<double>(max_bytes_) * of_mb);
 }
 

@@ -95,16 +95,15 @@ std::string runs_of(const Database& database) {
     if (database.number("SELECT count(*) FROM run") > 0) return "ok";
     for (const char* sql :
          {"SELECT count(*) FROM entry", "SELECT count(*) FROM kept", "SELECT count(*) FROM sqlite_sequence"})
-        if (database.number(sql) > 0) return "it has what runs have written, and none of these runs";
+        if (database.number(sql) > 0) return "it has entries without their runs";
     return "ok";
 }
 
 tl::unexpected<Error> damaged(const std::string& path, const std::string& how) {
-    return fail(
-        ErrorKind::io,
-        fmt::format("The journal '{}' is damaged: {}. Nothing was started. Keep the file for whoever looks into "
-                    "the damage, name another one, and home the machine.",
-                    path, how));
+    return fail(ErrorKind::io,
+                fmt::format("The journal '{}' is damaged: {}. Nothing was started. Keep the file for an analysis, "
+                            "name another one, and home the machine.",
+                            path, how));
 }
 
 Result<void> quick_check(const Database& database, const std::string& path) {
@@ -119,7 +118,7 @@ Result<void> quick_check(const Database& database, const std::string& path) {
 Result<void> check_new(const std::string& path) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-    if (error) return fail(ErrorKind::io, fmt::format("its size cannot be asked for: {}", error.message()));
+    if (error) return fail(ErrorKind::io, fmt::format("its size cannot be read: {}", error.message()));
     if (bytes <= page_bytes) return {};
     return damaged(path, fmt::format("it has {} bytes and no tables", bytes));
 }
@@ -146,12 +145,12 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
     if (id != mark)
         return fail(
             ErrorKind::io,
-            fmt::format("'{}' is a file of SQLite, but no journal. It was left as it is; name another file.", path));
+            fmt::format("'{}' is an SQLite file, but not a journal. It was not changed; name another file.", path));
     MOTIONRACK_CHECK(quick_check(database, path));
     const std::int64_t seen = database.number("PRAGMA user_version");
     if (seen < 1 || seen > version)
         return fail(ErrorKind::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
-                                               "It was left as it is; name another file.",
+                                               "It was not changed; name another file.",
                                                path, seen, version));
     MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
     return seen == 1 ? upgrade(database) : Result<void>();
@@ -218,7 +217,7 @@ Result<ChainCheck> check_chain(const Database& database, std::int64_t newest) {
     if (before < head.number)
         broken(fmt::format("entries {} to {} were removed", before + 1, head.number));
     else if (before != head.number || link != head.link)
-        broken(fmt::format("entry {} is not the one that was written last", before));
+        broken(fmt::format("entry {} is not the last written one", before));
     const std::string why = whole ? std::string() : database.what();
     (void)database.run("COMMIT");
     if (!whole) return fail(ErrorKind::io, fmt::format("The journal cannot be read: {}.", why));

@@ -52,7 +52,7 @@ void CardPort::end_access(int error, std::uint32_t offset, const char* what) {
         trouble_ =
             Error{ErrorKind::io,
                   fmt::format("The register at {:02X}h could not be {} through {}: {}. No access is made from here on; "
-                              "the card goes on with what it does.",
+                              "the card continues its current motion.",
                               offset, what, path_, std::strerror(error))};
 }
 

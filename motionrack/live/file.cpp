@@ -17,18 +17,18 @@ std::string sentence(const std::string& path, int error) {
         case ENODEV:
         case ENXIO:
             return fmt::format(
-                "There is no {}, or no card behind it. Look with 'ls /dev/uio*' or 'lspci -v', and load the card's "
-                "driver (for UIO: modprobe uio_pci_generic and bind the card to it).",
+                "{} does not exist, or has no card behind it. Check with 'ls /dev/uio*' or 'lspci -v', and load the "
+                "card's driver (for UIO: modprobe uio_pci_generic and bind the card to it).",
                 path);
         case EACCES:
             return fmt::format(
-                "User {} may not read and write {}. Give the right to it with a udev rule or chgrp and chmod g+rw; "
+                "User {} may not read and write {}. Grant access with a udev rule or chgrp and chmod g+rw; "
                 "files of PCI regions and /dev/port belong to root.",
                 ::geteuid(), path);
         case EPERM:
             return fmt::format(
-                "The kernel does not allow {} to be opened. With Secure Boot it is locked down and lets no program "
-                "reach cards like this; UIO still works.",
+                "The kernel does not allow {} to be opened. With Secure Boot it is locked down and blocks access to "
+                "cards in this way; UIO still works.",
                 path);
         case EISDIR:
             return fmt::format("{} is a folder, not a file.", path);
@@ -57,10 +57,10 @@ Result<void> File::keep(std::uint64_t from, std::uint64_t length, const std::str
     if (::fcntl(descriptor_, F_OFD_SETLK, &range) == 0) return {};
     if (errno == EAGAIN || errno == EACCES)
         return fail(ErrorKind::refused,
-                    fmt::format("The card at {} is open already, in another program or in this one: two that write to "
-                                "a card confuse it. Nothing was opened. Close it there first.",
+                    fmt::format("The card at {} is already open in this or another program: two writers would disturb "
+                                "each other. Nothing was opened. Close it there first.",
                                 named));
-    return fail(ErrorKind::io, fmt::format("{} cannot be kept from other programs: {}. Nothing was opened.", named,
+    return fail(ErrorKind::io, fmt::format("{} cannot be locked against other programs: {}. Nothing was opened.", named,
                                            std::strerror(errno)));
 }
 

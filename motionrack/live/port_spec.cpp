@@ -11,7 +11,7 @@ namespace {
 
 tl::unexpected<Error> wrong(std::string_view text, std::string_view what) {
     return fail(ErrorKind::invalid_input,
-                fmt::format("'{}' does not say where a card is: {}. The form is {}. Nothing was opened.", text, what,
+                fmt::format("'{}' is not the address of a card: {}. The form is {}. Nothing was opened.", text, what,
                             port_spec_form()));
 }
 
@@ -49,18 +49,18 @@ std::string take(PortSpec& spec, std::string_view key, std::string_view value) {
     for (const Range& range : numbers) {
         if (range.key != key) continue;
         const auto n = number(value);
-        if (!n) return fmt::format("{} is '{}', which is no number", key, value);
+        if (!n) return fmt::format("{} is '{}', which is not a number", key, value);
         if (*n < range.min || *n > range.max)
-            return fmt::format("{} is {}, but may be {} to {}", key, value, range.min, range.max);
+            return fmt::format("{} is {}; it must be {} to {}", key, value, range.min, range.max);
         range.set(spec, *n);
         return "";
     }
-    return fmt::format("there is no '{}'; there are offset, stride, width, map, interrupt, gap_ns", key);
+    return fmt::format("unknown key '{}'; the keys are offset, stride, width, map, interrupt, gap_ns", key);
 }
 
 std::string contradiction(const PortSpec& spec) {
     if (spec.path.empty()) return "the path is empty";
-    if (spec.width != 8 && spec.width != 16) return fmt::format("width is {}, but may be 8 or 16", spec.width);
+    if (spec.width != 8 && spec.width != 16) return fmt::format("width is {}; it must be 8 or 16", spec.width);
     if (spec.stride % 2 != 0)
         return fmt::format("stride is {}, but registers of 16 bits are an even number of bytes apart", spec.stride);
     if (spec.width == 16 && spec.offset % 2 != 0)
@@ -72,7 +72,7 @@ std::string contradiction(const PortSpec& spec) {
 }  // namespace
 
 std::string_view port_spec_form() {
-    return "uio:PATH, memory:PATH or port:PATH, and then, where needed, ,offset=N ,stride=N ,width=8 ,map=N "
+    return "uio:PATH, memory:PATH or port:PATH, then optionally ,offset=N ,stride=N ,width=8 ,map=N "
            ",interrupt=PATH ,gap_ns=N";
 }
 
@@ -88,7 +88,7 @@ Result<PortSpec> read_port_spec(std::string_view text) {
     else if (kind == "port")
         spec.reach = AddressSpace::port;
     else
-        return wrong(text, fmt::format("there is no '{}:'", kind));
+        return wrong(text, fmt::format("unknown kind '{}:'", kind));
 
     std::string_view rest = text.substr(colon + 1);
     const std::size_t path_end = rest.find(',');

@@ -109,11 +109,10 @@ Result<std::uint64_t> number_in(const std::filesystem::path& path) {
     std::ifstream file(path);
     std::uint64_t value = 0;
     if (!(file >> std::setbase(0) >> value))
-        return fail(
-            ErrorKind::io,
-            fmt::format("{} holds no number, so it is not known where the card's region is. Nothing was opened; "
-                        "load the card's driver anew.",
-                        path.string()));
+        return fail(ErrorKind::io,
+                    fmt::format("{} has no number, so the address of the card's region is unknown. Nothing was opened; "
+                                "reload the card's driver.",
+                                path.string()));
     return value;
 }
 
@@ -145,7 +144,7 @@ Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map) {
             ErrorKind::io,
             fmt::format(
                 "{} has no map {}: its driver gives interrupts only, or fewer regions. Map the card's PCI region "
-                "with memory:.../resourceN and take this node as interrupt=. Nothing was opened.",
+                "with memory:.../resourceN and use this node as interrupt=. Nothing was opened.",
                 folder.filename().string(), map));
     UioMap out;
     MOTIONRACK_TRY(out.size, number_in(place / "size"));
@@ -157,8 +156,8 @@ Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64
     MOTIONRACK_TRY(File file, File::open(spec.path, spec.reach == AddressSpace::port ? 0 : O_SYNC));
     struct stat facts {};
     if (::fstat(file.descriptor(), &facts) != 0)
-        return fail(ErrorKind::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path,
-                                               std::strerror(errno)));
+        return fail(ErrorKind::io,
+                    fmt::format("{} gives no information: {}. Nothing was opened.", spec.path, std::strerror(errno)));
     const std::uint64_t needed = spec.offset + length;
     const bool has_size = S_ISREG(facts.st_mode);
     if (has_size && static_cast<std::uint64_t>(facts.st_size) < needed)
@@ -171,8 +170,8 @@ Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64
         if (spec.width == 16 && S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 4))
             return fail(
                 ErrorKind::refused,
-                fmt::format("{} moves single bytes, the low one first, which would carry out a command before its axes "
-                            "are there. Say width=8 if the card is on its 8-bit bus; a PCI card's 16-bit ports are "
+                fmt::format("{} moves single bytes, the low one first, which would execute a command before its axes "
+                            "are written. Set width=8 if the card is on its 8-bit bus; a PCI card's 16-bit ports are "
                             "reached by port:/sys/bus/pci/devices/.../resourceN. Nothing was opened.",
                             spec.path));
         return std::make_unique<FileWords>(std::move(file), spec.offset, spec.width);

@@ -20,7 +20,7 @@ bool good(std::initializer_list<double> numbers) {
         if (!(std::fabs(n) <= 1e12)) return false;
     return true;
 }
-constexpr const char* no_numbers = "A number is infinite, above 1e12 or none at all. Give finite numbers.";
+constexpr const char* no_numbers = "A number is infinite, above 1e12 or missing. Give finite numbers.";
 
 /// Centre x, y, radius, counts per turn.
 using Circle = std::array<double, 4>;
@@ -59,9 +59,10 @@ Result<ScaleResult> calibrate_scale(const ScaleData& d) {
         return refused(
             fmt::format("Both readings are {:g}: the source did not move. Move the part between them.", d.reading1));
     if (d.distance_mm == 0 || !(d.bits_per_mm > 0) || d.reading_uncertainty < 0 || d.distance_uncertainty_mm < 0)
-        return refused(fmt::format(
-            "The distance is {:g} mm and the field {:g} bits/mm; neither may be 0, and no uncertainty below 0.",
-            d.distance_mm, d.bits_per_mm));
+        return refused(
+            fmt::format("The distance is {:g} mm and the field {:g} bits/mm; neither may be 0, and uncertainties must "
+                        "not be negative.",
+                        d.distance_mm, d.bits_per_mm));
     const double part =
         root_of_squares(std::sqrt(2.0) * d.reading_uncertainty / counts, d.distance_uncertainty_mm / d.distance_mm);
     ScaleResult out;
@@ -85,12 +86,13 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
     RotaryResult out;
     if (!circle_of(marks, middle, out.unlike))
         return refused(
-            "The three marks are on a straight line or on one another, so they have no centre. Turn the table further "
+            "The three marks are collinear or identical, so they have no centre. Turn the table further "
             "between them.");
     const double first = angle_between({middle[0], middle[1]}, marks[0].at, marks[1].at),
                  second = angle_between({middle[0], middle[1]}, marks[1].at, marks[2].at);
     if ((first > 0) != (second > 0))
-        return refused("The marks do not go round in one sense. Turn the table less than half a turn between them.");
+        return refused(
+            "The marks do not turn in one direction. Turn the table by less than half a revolution between them.");
     // Numerical derivatives of the result by each input.
     std::array<double, 4> squares{};
     const auto tried = [&](const std::array<RotaryMark, 3>& changed, double times) {
@@ -125,7 +127,7 @@ Result<LagResult> calibrate_lag(const LagData& d) {
                   std::sqrt(2.0) * d.shift_uncertainty_mm / std::fabs(speeds) * 1e6};
     if (out.lag_us.value < -std::fmax(5.0, 3 * out.lag_us.uncertainty) || out.lag_us.value > 655'350)
         return refused(
-            fmt::format("The lag would be {:.1f} us; the card makes up for 0 to 655350. Is the sign of the shifts "
+            fmt::format("The lag would be {:.1f} us; the card compensates 0 to 655350. Is the sign of the shifts "
                         "right? Positive is against the movement.",
                         out.lag_us.value));
     out.tracking_error = static_cast<int>(std::floor(std::fmax(out.lag_us.value, 0) / 10 + 0.5));

@@ -31,7 +31,7 @@ Result<void> check_size(const Drawing& drawing, const std::string& file) {
         for (const Element& e : stroke.elements) good &= near(e.to) && near(e.centre);
         if (!good)
             return fail(ErrorKind::invalid_input,
-                        fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the "
+                        fmt::format("A part of the drawing, or the centre of an arc, is more than {:g} mm from the "
                                     "field's middle. Nothing was marked; make it smaller.",
                                     max_mm),
                         {}, file);

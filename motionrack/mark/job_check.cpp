@@ -73,27 +73,27 @@ void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
     if (fly.mode == FlyMode::simulated && simulated == 0)
         wrong("mode",
               "The simulated encoder needs a constant speed above or below 0: that of [belt] or [table], or, with a "
-              "profile, simulated_speed in [fly]; or take mode encoder.");
+              "profile, simulated_speed in [fly]; or use mode encoder.");
     if (fly.simulated_speed && fly.mode != FlyMode::simulated)
-        wrong(job.belt.rotary ? "simulated_speed_deg_s" : "simulated_speed_mm_s",
-              "The simulated encoder's speed is given, but the mode is another one; take mode simulated or leave it "
-              "out.");
+        wrong(
+            job.belt.rotary ? "simulated_speed_deg_s" : "simulated_speed_mm_s",
+            "The simulated encoder's speed is given, but the mode is another one; use mode simulated or leave it out.");
     if (fly.mode == FlyMode::mcbsp && fly.tracking_error_us != 0)
         wrong("tracking_error_us",
-              "The card makes up for tracking errors of encoders only, not of a McBSP source; take offset_us, which is "
-              "right at constant speed.");
+              "The card compensates tracking errors of encoders only, not of a McBSP source; use offset_us, which is "
+              "exact at constant speed.");
     if (fly.waits == WaitMode::none) return;
     const double quarter = job.belt.direction_deg / 90;
     if (job.belt.rotary)
-        wrong("wait_mode", "Waits are for drawings along a belt; on a table mark [parts] one after the other.");
+        wrong("wait_mode", "Waits need a belt; on a table mark [parts] one after the other.");
     else if (fly.mode == FlyMode::off)
-        wrong("wait_mode", "Waits need a correction that carries the marks along; choose a mode.");
+        wrong("wait_mode", "Waits need a correction that follows the part; choose a mode.");
     else if (stands(job) || turns_back(job))
-        wrong("wait_mode", "Waits need a belt that moves, and never backwards.");
+        wrong("wait_mode", "Waits need a moving belt that never reverses.");
     else if (fly.mode == FlyMode::mcbsp && quarter != std::floor(quarter))
         wrong("wait_mode",
               "The words of a belt that goes neither along X nor Y have two values of 16 bits, and wait_for_mcbsp sees "
-              "them only while the correction is on; take mode encoder.");
+              "them only while the correction is on; use mode encoder.");
 }
 
 void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
@@ -105,17 +105,16 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
         return table.find(key + unit) != nullptr ? table.place_of(key + unit) : table.key_place;
     };
     if (parts.at.empty() && parts.count > 1 && parts.spacing == 0)
-        problems.error(
-            place("spacing_"),
-            fmt::format("{} parts need a 'spacing_{}' above 0, or their places in 'at_{}'.", parts.count, unit, unit));
+        problems.error(place("spacing_"),
+                       fmt::format("{} parts need a 'spacing_{}' above 0, or their positions in 'at_{}'.", parts.count,
+                                   unit, unit));
     if (job.fly.mode == FlyMode::mcbsp)
         problems.error(table.key_place,
-                       "McBSP words say where the part is and no command makes them 0 at a start, so only the first of "
-                       "several parts would be right; take mode encoder, or one part without [parts].");
+                       "McBSP words have absolute positions, which no command zeroes at a start, so only the first of "
+                       "several parts would be correct; use mode encoder, or one part without [parts].");
     if (stands(job) || turns_back(job))
-        problems.error(
-            table.key_place,
-            "Parts come on a belt or table that moves, and never backwards; give [belt] or [table] such a speed.");
+        problems.error(table.key_place,
+                       "Parts need a moving belt or table that never reverses; give [belt] or [table] such a speed.");
     if (parts.start == PartStart::equidistant && (!parts.at.empty() || parts.track_delay != 0))
         problems.error(table.place_of("start"),
                        fmt::format("Equidistant parts need no sensor: the first begins at once, the others after "
@@ -129,8 +128,8 @@ void check_job(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
     check_drawings(root, job, problems);
     if (root.find("belt") != nullptr && root.find("table") != nullptr)
         problems.error(root.find("table")->key_place, "A job has a [belt] or a [table], not both.");
-    if (job.belt.counts_per_unit == 0) problems.error(job.belt.place, "An encoder with 0 counts measures nothing.");
-    if (job.sender.bits_per_mm == 0) problems.error(root.place_of("sender"), "A sender with 0 bits measures nothing.");
+    if (job.belt.counts_per_unit == 0) problems.error(job.belt.place, "An encoder needs counts other than 0.");
+    if (job.sender.bits_per_mm == 0) problems.error(root.place_of("sender"), "A sender needs bits other than 0.");
     check_pace(root, job, problems);
     check_fly(root, job, problems);
     check_parts(root, job, problems);
@@ -138,7 +137,7 @@ void check_job(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
         if (const auto good = sim::check(job.lens->lens()); !good)
             problems.error(root.place_of("lens"), good.error().message);
         if (root.find("optics") != nullptr && root.find("optics")->find("bits_per_mm") != nullptr)
-            problems.error(root.find("optics")->place_of("bits_per_mm"), "With a [lens], bits_per_mm stands there.");
+            problems.error(root.find("optics")->place_of("bits_per_mm"), "With a [lens], bits_per_mm belongs there.");
     }
 }
 

@@ -56,7 +56,7 @@ void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, 
     for (const char* other : {"count", "spacing_mm", "spacing_deg"})
         if (table.find(other) != nullptr)
             problems.error(table.place_of(other),
-                           fmt::format("With '{}' the parts' places are known; leave '{}' out.", key, other));
+                           fmt::format("With '{}' the parts' positions are known; leave '{}' out.", key, other));
 }
 
 /// Reads one section into its member of the job.
@@ -129,7 +129,7 @@ JobRead read_job(std::string_view text, const std::string& file) {
         const bool known = std::find(names.begin(), names.end(), node.key) != names.end();
         const bool many = node.key == "drawing" && node.type == TomlType::array;
         if (!known || (!many && node.type != TomlType::table)) {
-            problems.error(node.key_place, fmt::format("There is no section {}{}.", rack::in_quotes(node.key),
+            problems.error(node.key_place, fmt::format("Unknown section {}{}.", rack::in_quotes(node.key),
                                                        rack::did_you_mean(node.key, names)));
             continue;
         }

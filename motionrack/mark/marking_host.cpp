@@ -82,10 +82,10 @@ Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& c
     std::int64_t positions = 0;
     for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
     if (positions > room)
-        return fail(ErrorKind::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
-                                                    "Nothing was marked; draw less at once or with a "
-                                                    "greater tolerance.",
-                                                    positions, list, room));
+        return fail(ErrorKind::refused,
+                    fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
+                                "Nothing was marked; mark a smaller drawing, or use a larger tolerance.",
+                                positions, list, room));
     MOTIONRACK_CHECK(card.set_start_list(static_cast<std::uint32_t>(list)));
     for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card.put(command));
     return {};
@@ -109,7 +109,7 @@ Result<void> MarkingHost::arm() {
     if (!card_.run_to_rest(max_ticks))
         return fail(
             ErrorKind::refused,
-            "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
+            "The card is not at standstill before the first part. Nothing was marked; shorten the delays in [pace].");
     card_.clear_extent();
     const double delay = counts_of(job_, following_, job_.parts->track_delay);
     const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::count);
@@ -119,10 +119,9 @@ Result<void> MarkingHost::arm() {
             fmt::format("A track delay of {:g} is {:g} counts; the card takes {:g} to {:g}. Nothing was marked.",
                         job_.parts->track_delay, delay, range.min, range.max));
     if (chain && job_.parts->size() > 1 && counts_of(job_, following_, job_.parts->spacing) == 0)
-        return fail(ErrorKind::refused,
-                    fmt::format("A spacing of {:g} is less than a count of the encoder, after which "
-                                "the card could start again. Nothing was marked.",
-                                job_.parts->spacing));
+        return fail(ErrorKind::refused, fmt::format("A spacing of {:g} is less than a count of the encoder, the "
+                                                    "minimum between two starts. Nothing was marked.",
+                                                    job_.parts->spacing));
     MOTIONRACK_CHECK(card_.set_ext_start_delay(static_cast<std::int32_t>(delay), 0));
     card_.set_extstartpos(0);
     return {};
@@ -139,11 +138,11 @@ Result<void> MarkingHost::find_edges() {
         const double way = parts.way(i) - parts.track_delay;
         std::int64_t high = max_ticks;
         if (gone(high) < way)
-            return fail(ErrorKind::refused,
-                        fmt::format("Part {} does not come to the sensor within {:g} s: the belt goes {:.6g} until "
-                                    "then, the part is {:.6g} away. Nothing was marked; "
-                                    "take fewer parts or a faster belt.",
-                                    i + 1, max_seconds, gone(high), way));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("Part {} does not reach the sensor within {:g} s: the belt moves {:.6g} until then, the "
+                            "part is {:.6g} away. Nothing was marked; use fewer parts or a faster belt.",
+                            i + 1, max_seconds, gone(high), way));
         std::int64_t least = low;
         while (least < high) {
             const std::int64_t middle = least + (high - least) / 2;
@@ -232,10 +231,9 @@ Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::in
         looked = card_.tick();
         if (watch.stop && watch.stop()) return fail(ErrorKind::stopped, "Stopped; nothing was written.");
         if (looked - begin_ > max_ticks)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.",
-                            max_seconds));
+            return fail(ErrorKind::refused, fmt::format("The job needs more than {:g} s of marking. It was aborted; "
+                                                        "mark faster, or mark a smaller drawing.",
+                                                        max_seconds));
         if (done) done(looked - begin_);
     }
 }

@@ -30,7 +30,7 @@ struct DrawingSource {
 struct Optics {
     double bits_per_mm = 8656;       ///< K, without lens and ct5
     std::optional<std::string> ct5;  ///< file of the card's correction table
-    bool correction = true;          ///< false: no table in the card, although there is a lens
+    bool correction = true;          ///< false: without a table in the card, although there is a lens
 };
 
 /// Settings in the card's list.

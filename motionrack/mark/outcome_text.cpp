@@ -39,7 +39,7 @@ void fit(Out to, const MarkingJob& job, const MarkingOutcome& out) {
     const char* what = out.starts_limit ? "the time between two parts" : "the field";
     const char* unit = job.belt.rotary ? "degrees/s" : "mm/s";
     if (*out.fits_factor == 0 && out.starts_limit) {
-        fmt::format_to(to, "Starts are lost however slow the parts are. Let them come further apart.\n");
+        fmt::format_to(to, "Starts are lost at any speed of the parts. Increase their spacing.\n");
     } else if (*out.fits_factor == 0) {
         fmt::format_to(to, "The drawing does not fit the field even while the part is at rest. Make it smaller.\n");
     } else if (out.fits_any) {
@@ -69,12 +69,11 @@ std::vector<std::string> warnings_of(const MarkingOutcome& out) {
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(
             fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its "
-                        "width): a little more speed or a start a "
-                        "little later and the correction overflows",
+                        "width): slightly more speed or a slightly later start overflows the correction",
                         room.mm, room.edge, wanted, min_room_part * 100));
     if (!out.in_field())
         warnings.push_back(
-            "some of the drawing is outside the field, and was marked on its edge; move the drawing or make it "
+            "a part of the drawing is outside the field, and was marked on its edge; move the drawing or make it "
             "smaller");
     return warnings;
 }
@@ -92,11 +91,11 @@ std::string outcome_text(const MarkingJob& job, const MarkingOutcome& out) {
     text += parts_text(job, out.on);
     overflows(to, out.on);
     const FieldMargin room = room_of(out, out.on);
-    if (room.mm >= 0) fmt::format_to(to, "room: {:.3f} mm are left in the field, at its {} edge\n", room.mm, room.edge);
+    if (room.mm >= 0) fmt::format_to(to, "margin: {:.3f} mm to the {} edge of the field\n", room.mm, room.edge);
     if (!out.drawing_in_field)
-        fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");
+        fmt::format_to(to, "A part of the drawing is outside the field at the start position of the part.\n");
     if (out.on.lost_points > 0)
-        fmt::format_to(to, "{} more points were marked than the picture keeps.\n", out.on.lost_points);
+        fmt::format_to(to, "{} marked points exceed the limit of the picture.\n", out.on.lost_points);
     fit(to, job, out);
     return text;
 }

@@ -14,16 +14,16 @@ std::string lost_text(const PartMarked& part, std::size_t number) {
     switch (part.fate) {
         case PartOutcome::lost_busy:
             return fmt::format(
-                "part {}: its start at {:.5f} s was lost, because the list of a part before it was still running; mark "
-                "faster, or let the parts come further apart\n",
+                "part {}: its start at {:.5f} s was lost, because the list of an earlier part was still running; mark "
+                "faster, or increase the spacing of the parts\n",
                 number, part.begin_s);
         case PartOutcome::lost_too_many:
             return fmt::format(
-                "part {}: its start at {:.5f} s was lost, because eight were waiting already; move the sensor nearer, "
-                "or let the parts come further apart\n",
+                "part {}: its start at {:.5f} s was lost, because eight starts were waiting; move the sensor nearer, "
+                "or increase the spacing of the parts\n",
                 number, part.begin_s);
         default:
-            return fmt::format("part {}: was not started, because the card begins it after the part before it\n",
+            return fmt::format("part {}: was not started, because the card starts it after the part before it\n",
                                number);
     }
 }

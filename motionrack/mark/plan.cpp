@@ -41,7 +41,7 @@ class List {
         const double out = std::floor(mm * k_ + 0.5);
         const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::coordinate);
         if (!(out >= range.min && out <= range.max))
-            refuse(fmt::format("a place at {:g} mm is beyond the card's virtual field of {:g} mm each way", mm,
+            refuse(fmt::format("a position at {:g} mm is beyond the card's virtual field of {:g} mm each way", mm,
                                range.max / k_));
         return out;
     }
@@ -160,8 +160,8 @@ Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prep
     field = {{field.low.x + margin, field.low.y + margin}, {field.high.x - margin, field.high.y - margin}};
     if (!(field.low.x < field.high.x))
         return fail(ErrorKind::refused,
-                    fmt::format("A margin of {:g} mm leaves nothing of a field of {:.3f} mm. Nothing was marked.",
-                                margin, field.high.x - field.low.x + 2 * margin));
+                    fmt::format("A margin of {:g} mm exceeds a field of {:.3f} mm. Nothing was marked.", margin,
+                                field.high.x - field.low.x + 2 * margin));
     const Direction d = direction_of(following.track);
     const Spot movement{d.x * sense, d.y * sense};
     MOTIONRACK_TRY(const std::vector<WaitBatch> batches, batches_of(drawing, field, movement));
@@ -191,11 +191,12 @@ Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const
     if (carried || (box.low.x <= field.high.x && box.high.x >= field.low.x && box.low.y <= field.high.y &&
                     box.high.y >= field.low.y))
         return {};
-    return fail(ErrorKind::refused,
-                fmt::format("The drawing goes from X {:.3f} to {:.3f} mm and from Y {:.3f} to {:.3f} mm, and so lies "
-                            "outside the field, which goes from {:.3f} to {:.3f} mm each way; nothing carries it in. "
-                            "Nothing was marked; move the drawing or make it smaller.",
-                            box.low.x, box.high.x, box.low.y, box.high.y, field.low.x, field.high.x));
+    return fail(
+        ErrorKind::refused,
+        fmt::format("The drawing goes from X {:.3f} to {:.3f} mm and from Y {:.3f} to {:.3f} mm, outside the field, "
+                    "which goes from {:.3f} to {:.3f} mm each way; no movement brings it into the field. "
+                    "Nothing was marked; move the drawing or make it smaller.",
+                    box.low.x, box.high.x, box.low.y, box.high.y, field.low.x, field.high.x));
 }
 
 }  // namespace
@@ -259,7 +260,7 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
         if (job.lens) {
             if (file.bits_per_mm() > 0 && file.bits_per_mm() != out.bits_per_mm)
                 out.notes.push_back(
-                    fmt::format("{} is made for {:g} bits/mm, the lens for {:g}: what is marked has another size.",
+                    fmt::format("{} is made for {:g} bits/mm, the lens for {:g}: the marks have another size.",
                                 *job.optics.ct5, file.bits_per_mm(), out.bits_per_mm));
             if (job.optics.correction) out.table = rtc5::table_of(file);
         } else {
@@ -267,11 +268,10 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
             if (file.bits_per_mm() > 0)
                 out.bits_per_mm = file.bits_per_mm();
             else
-                out.notes.push_back(
-                    fmt::format("{} does not say for how many bits/mm it is made; {:g} are taken, as bits_per_mm says.",
-                                *job.optics.ct5, out.bits_per_mm));
-            out.notes.push_back(
-                fmt::format("There is no [lens]: the optics are taken to be those that {} corrects.", *job.optics.ct5));
+                out.notes.push_back(fmt::format("{} does not state its bits/mm; {:g} of bits_per_mm are used.",
+                                                *job.optics.ct5, out.bits_per_mm));
+            out.notes.push_back(fmt::format(
+                "The job has no [lens]: the optics are assumed to be those that {} corrects.", *job.optics.ct5));
         }
     } else if (job.lens && job.optics.correction) {
         MOTIONRACK_TRY(const rtc5::CorrectionFile file, rtc5::correction_of(*out.lens));

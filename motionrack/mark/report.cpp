@@ -11,7 +11,8 @@ namespace {
 std::string verdict_text(const MarkingOutcome& out) {
     if (!out.on.overflows.empty())
         return fmt::format(
-            "The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge meanwhile.",
+            "The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge during "
+            "that time.",
             out.on.overflows.size() + out.on.lost_overflows, out.on.overflows.front().from_s,
             out.on.overflows.front().name);
     if (out.on.parts_lost() > 0)
@@ -47,7 +48,7 @@ trace::ReportTable deviations(const MarkingOutcome& out) {
 
 trace::ReportTable overflows(const Marked& m) {
     trace::ReportTable t{"Overflows",
-                         "Each stretch in which the corrected position was outside the field",
+                         "Intervals in which the corrected position was outside the field",
                          {"Flag", "Meaning", "From", "To", "At most beyond", "On the drawing", "Laser"},
                          {}};
     for (const Overflow& o : m.overflows)
@@ -59,7 +60,7 @@ trace::ReportTable overflows(const Marked& m) {
 
 trace::ReportTable parts_table(const Marked& m) {
     trace::ReportTable t{"Parts",
-                         "What became of each, in the order in which they pass",
+                         "Result of each part, in their order",
                          {"Part", "Number", "Fate", "From", "To", "Worst", "RMS", "Not marked"},
                          {}};
     for (std::size_t i = 0; i < m.parts.size(); ++i) {
@@ -77,12 +78,12 @@ void add_numbers(const MarkingJob& job, const MarkingOutcome& out, trace::Report
         data.numbers.push_back({label, std::move(value), unit});
     };
     add("Worst deviation", fmt::format("{:.4f}", out.on.deviation.worst_mm), "mm");
-    if (out.off) add("The same without correction", fmt::format("{:.4f}", out.off->deviation.worst_mm), "mm");
+    if (out.off) add("The marks without correction", fmt::format("{:.4f}", out.off->deviation.worst_mm), "mm");
     add("RMS deviation", fmt::format("{:.4f}", out.on.deviation.rms_mm), "mm");
     add("Time", fmt::format("{:.4f}", out.on.seconds), "s");
     add("Laser on", fmt::format("{:.1f}", out.on.duty * 100), "%");
     add("Energy", fmt::format("{:.3f}", out.on.energy_j), "J");
-    add("Least room in the field", fmt::format("{:.2f}", room_of(out, out.on).mm), "mm");
+    add("Minimum margin in the field", fmt::format("{:.2f}", room_of(out, out.on).mm), "mm");
     if (!out.fits_factor) return;
     if (job.belt.profile.empty() && !out.fits_any)
         add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.speed),
@@ -116,17 +117,17 @@ trace::ReportData report_of(const MarkingJob& job, const Prepared& prepared, con
     add_numbers(job, out, data);
     data.pictures = pictures_of(prepared, out);
     data.pictures_hint =
-        "Wide and pale is the drawing, thin is what was marked; a ring is the worst place, a cross an overflow of the "
+        "Wide and pale: the drawing; thin: the marks; ring: the maximum deviation; cross: an overflow of the "
         "field.";
     data.tables.push_back(deviations(out));
     if (job.parts) data.tables.push_back(parts_table(out.on));
     if (!out.on.overflows.empty()) data.tables.push_back(overflows(out.on));
-    trace::ReportTable known{"Warnings and notes", "What to know of this job", {""}, {}};
+    trace::ReportTable known{"Warnings and notes", "Notes on this job", {""}, {}};
     for (const std::string& warning : warnings_of(out)) known.rows.push_back({"Warning: " + warning});
     if (out.on.lost_overflows > 0)
         known.rows.push_back({fmt::format("{} more overflows were not kept.", out.on.lost_overflows)});
     if (out.on.lost_points > 0)
-        known.rows.push_back({fmt::format("{} more points were marked than the pictures keep.", out.on.lost_points)});
+        known.rows.push_back({fmt::format("{} marked points exceed the limit of the pictures.", out.on.lost_points)});
     for (const std::string& note : out.notes) known.rows.push_back({note});
     if (!known.rows.empty()) data.tables.push_back(std::move(known));
     add_series(out, data);

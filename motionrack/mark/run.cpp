@@ -184,10 +184,9 @@ Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const Mark
                                  ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed))
                                  : fmt::format("{:.4g} times them", *out.fits_factor);
     return fail(ErrorKind::refused,
-                fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field "
-                            "before they are done, waits or not. It just fits at {}. "
-                            "Nothing was marked; slow the belt down, mark and jump faster, or leave "
-                            "the waits out to see what would be marked.",
+                fmt::format("The belt is too fast: at {} marks leave the field by up to {:.3f} mm before they are "
+                            "finished, even with waits. The limit is {}. Nothing was marked; slow the belt down, mark "
+                            "and jump faster, or leave the waits out to see the marks.",
                             fast, now.beyond_mm, slow));
 }
 

@@ -124,10 +124,9 @@ double on_grid(char c) {
 }
 
 tl::unexpected<Error> wrong_braces(std::size_t at) {
-    return fail(ErrorKind::invalid_input,
-                fmt::format("Character {} of the text: in braces there may be n, or n:05 for five "
-                            "digits with zeros in front. Nothing was marked.",
-                            at + 1));
+    return fail(ErrorKind::invalid_input, fmt::format("Character {} of the text: braces may contain n, or n:05 for "
+                                                      "five digits with leading zeros. Nothing was marked.",
+                                                      at + 1));
 }
 
 }  // namespace
@@ -156,7 +155,7 @@ Result<std::string> numbered(std::string_view text, std::int64_t number) {
         if (!plain && shown.size() > digits)
             return fail(ErrorKind::invalid_input,
                         fmt::format("The number {} has more than the {} digits of character {} of "
-                                    "the text. Nothing was marked; give it more.",
+                                    "the text. Nothing was marked; increase them.",
                                     number, digits, i + 1));
         out += shown;
         i = end;

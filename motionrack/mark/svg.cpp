@@ -35,10 +35,10 @@ class SvgReader {
 
     Result<void> read() {
         if (text_.size() > max_svg_bytes)
-            return fail(
-                ErrorKind::invalid_input,
-                fmt::format("{} bytes; a drawing may have {}. Nothing was marked.", text_.size(), max_svg_bytes), {},
-                file_);
+            return fail(ErrorKind::invalid_input,
+                        fmt::format("{} bytes; a drawing may have at most {}. Nothing was marked.", text_.size(),
+                                    max_svg_bytes),
+                        {}, file_);
         pugi::xml_document document;
         const pugi::xml_parse_result parsed =
             document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
@@ -173,8 +173,8 @@ class SvgReader {
             if (svg_name(child) == "style") {
                 if (const std::string_view found = deciding_property(child.text().get()); !found.empty())
                     return wrong(offset(child),
-                                 fmt::format("the style sheet sets {}, and style sheets are not read; write it into "
-                                             "the elements, or make plain paths in the editor",
+                                 fmt::format("the style sheet sets {}, and style sheets are not supported; write it "
+                                             "into the elements, or make plain paths in the editor",
                                              found));
             }
             MOTIONRACK_CHECK(sheets(child, depth + 1));
@@ -188,8 +188,7 @@ class SvgReader {
         if (name.empty() || name == "style" ||
             std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end())
             return {};
-        if (around.depth > deepest)
-            return wrong(offset(node), fmt::format("more than {} groups in one another", deepest));
+        if (around.depth > deepest) return wrong(offset(node), fmt::format("more than {} nested groups", deepest));
         const Showing seen = showing(node, around.visible);
         if (!seen.displayed) return {};
         MOTIONRACK_CHECK(drawable(node));

@@ -145,8 +145,8 @@ bool Scan::number_next() const {
 
 tl::expected<double, DataError> Scan::number() {
     if (!number_next())
-        return wrong(at_, done() ? "a number is missing at the end"
-                                 : fmt::format("a number should stand where '{}' stands", shown(peek())));
+        return wrong(
+            at_, done() ? "a number is missing at the end" : fmt::format("expected a number, not '{}'", shown(peek())));
     const std::size_t begin = at_;
     if (text_[at_] == '+') ++at_;
     double value = 0;
@@ -157,7 +157,7 @@ tl::expected<double, DataError> Scan::number() {
 }
 
 tl::expected<bool, DataError> Scan::arc_flag() {
-    if (peek() != '0' && peek() != '1') return wrong(at_, "a flag of an arc should stand here, 0 or 1");
+    if (peek() != '0' && peek() != '1') return wrong(at_, "expected a flag of an arc, 0 or 1");
     return take() == '1';
 }
 
@@ -178,7 +178,7 @@ tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen) {
         const int count = numbers_of(upper);
         if (count < 0 || (again && count == 0))
             return wrong(
-                at, again ? "a number without a command" : fmt::format("'{}' is no command of a path", shown(command)));
+                at, again ? "a number without a command" : fmt::format("'{}' is not a path command", shown(command)));
         if (!begun && upper != 'M') return wrong(at, "a path must begin with M or m");
         begun = true;
         std::array<double, 7> numbers{};
@@ -246,7 +246,7 @@ tl::expected<Affine, DataError> read_transform(std::string_view data) {
         const auto one = transform_of(name, numbers);
         if (!one)
             return wrong(begin,
-                         "there are the transforms matrix (6 numbers), translate and scale (1 or 2), rotate (1 or 3), "
+                         "the transforms are matrix (6 numbers), translate and scale (1 or 2), rotate (1 or 3), "
                          "skewX and skewY (1)");
         out = out.after(*one);
     }

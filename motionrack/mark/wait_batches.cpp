@@ -118,15 +118,15 @@ Result<void> check(const Piece& piece, const Box& field) {
     const Spot p = piece.stroke.from;
     if (!(piece.ways.low <= piece.ways.high))
         return fail(ErrorKind::refused,
-                    fmt::format("The stroke at {:.3f}, {:.3f} mm never is in the field, which goes from {:.3f}, {:.3f} "
-                                "to {:.3f}, {:.3f} mm without its margin. "
-                                "Nothing was marked; make the drawing smaller across the movement or move it.",
+                    fmt::format("The stroke at {:.3f}, {:.3f} mm is never inside the field, which goes from {:.3f}, "
+                                "{:.3f} to {:.3f}, {:.3f} mm without its margin. Nothing was marked; make the drawing "
+                                "smaller across the movement or move it.",
                                 p.x, p.y, field.low.x, field.low.y, field.high.x, field.high.y));
     if (piece.ways.high < 0)
         return fail(ErrorKind::refused,
-                    fmt::format("The stroke at {:.3f}, {:.3f} mm has left the field {:.3f} mm before the job begins. "
-                                "Nothing was marked; move the drawing so much against "
-                                "the movement (x_mm, y_mm), or take a longer track delay.",
+                    fmt::format("The stroke at {:.3f}, {:.3f} mm has left the field by {:.3f} mm before the job "
+                                "begins. Nothing was marked; move the drawing by that distance against the movement "
+                                "(x_mm, y_mm), or take a longer track delay.",
                                 p.x, p.y, -piece.ways.high));
     return {};
 }

@@ -23,7 +23,7 @@ std::string text_of(const Error& error) {
 Result<sweep::Row> read_answer(std::string_view text) {
     const auto damaged = [] {
         return fail(ErrorKind::invalid_input,
-                    "A message of the server is not a row of a sweep, or damaged; it was left out.");
+                    "A message of the server is not a row of a sweep, or damaged; it was ignored.");
     };
     if (text.starts_with(trouble_head)) return fail(ErrorKind::refused, std::string(text.substr(trouble_head.size())));
     if (!text.starts_with(row_head)) return damaged();

@@ -9,7 +9,7 @@ Result<void> load_library() {
     const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_NATS_SONAME).trouble();
     if (trouble.empty()) return {};
     return fail(ErrorKind::io,
-                fmt::format("The library of NATS cannot be loaded: {}. No machine was asked; install it (on Debian "
+                fmt::format("The library of NATS cannot be loaded: {}. Nothing was queued; install it (on Debian "
                             "12: apt install libnats3.4).",
                             trouble));
 }

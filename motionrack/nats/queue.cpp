@@ -32,7 +32,7 @@ tl::unexpected<Error> trouble(natsStatus status, const char* what) {
     const char* last = nats_GetLastError(nullptr);
     const std::string why = last != nullptr && *last != '\0' ? last : natsStatus_GetText(status);
     return fail(ErrorKind::io,
-                fmt::format("{}: {}. Is nats-server running there, with JetStream (nats-server -js)?", what, why));
+                fmt::format("{}: {}. Check that nats-server runs there with JetStream (nats-server -js).", what, why));
 }
 
 /// Subject tokens must not contain dots.
@@ -80,7 +80,7 @@ class TakenPoint final : public LeasedPoint {
     Result<void> done() override {
         const natsStatus status = natsMsg_AckSync(message_.get(), nullptr, nullptr);
         return status == NATS_OK ? Result<void>()
-                                 : Result<void>(trouble(status, "The server did not hear that a point is done"));
+                                 : Result<void>(trouble(status, "A finished point was not reported to the server"));
     }
     void give_back() override { natsMsg_Nak(message_.get(), nullptr); }
 
@@ -107,7 +107,7 @@ class JetStreamQueue final : public Queue {
         if (status == NATS_OK) status = natsConnection_Connect(&connection, options);
         connection_.reset(connection);
         if (status != NATS_OK)
-            return trouble(status, fmt::format("There is no connection to {}", without_password(url)).c_str());
+            return trouble(status, fmt::format("Not connected to {}", without_password(url)).c_str());
         jsCtx* js = nullptr;
         status = natsConnection_JetStream(&js, connection, nullptr);
         js_.reset(js);

@@ -105,10 +105,9 @@ class Worker {
 
     Result<sweep::Row> run_point(const LeasedPoint& point) {
         if (point.times() > max_times)
-            return fail(ErrorKind::refused,
-                        fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out "
-                                    "of the queue; run it alone to see what happens.",
-                                    max_times));
+            return fail(ErrorKind::refused, fmt::format("{} workers died or were killed while running it. It was "
+                                                        "removed from the queue; run it alone to find the cause.",
+                                                        max_times));
         try {
             return sweep::run_point(point.text(), &stop_);
         } catch (const std::exception& e) {

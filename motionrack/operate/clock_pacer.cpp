@@ -48,7 +48,7 @@ ClockPacer::ClockPacer(live::Clock& clock, ClockMode mode, double factor)
 Result<void> ClockPacer::set(ClockMode mode, double factor) {
     if (!(factor >= min_factor && factor <= max_factor))
         return fail(ErrorKind::invalid_input,
-                    fmt::format("The clock's factor is {}, but it is {} to {}. Nothing was changed.", factor,
+                    fmt::format("The clock's factor is {}; it must be {} to {}. Nothing was changed.", factor,
                                 min_factor, max_factor));
     mode_ = mode;
     factor_ = factor;
@@ -59,9 +59,8 @@ Result<void> ClockPacer::set(ClockMode mode, double factor) {
 
 Result<void> ClockPacer::step(Duration duration) {
     if (mode_ != ClockMode::paused)
-        return fail(
-            ErrorKind::refused,
-            fmt::format("Time steps only while it is paused; its mode is '{}'. Pause it first.", name_of(mode_)));
+        return fail(ErrorKind::refused,
+                    fmt::format("Time steps need a paused clock; its mode is '{}'. Pause it first.", name_of(mode_)));
     if (duration <= Duration{0} || duration > whole_seconds(3600))
         return fail(
             ErrorKind::invalid_input,

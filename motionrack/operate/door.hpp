@@ -15,7 +15,7 @@ class Door {
     /// The rack must outlive this. The machine handles the rack's door itself from now on.
     explicit Door(rack::Rack& rack);
 
-    /// Refused while it is open: "The program was not begun: the door is open. ..."
+    /// Refused while it is open: "The program was not started: the door is open. ..."
     Result<void> check_closed(const char* what) const;
     /// Returns the alarm if the door was opened since the last look, with the effect in this state.
     std::optional<std::string> take_opening(MachineState state);

@@ -23,10 +23,9 @@ Result<void> Jogs::see(const JogOrigin& origin) {
 Result<void> Jogs::accept(char letter, const JogOrigin& origin) {
     MOTIONRACK_CHECK(see(origin));
     if (!origin.renews || held(letter)) return {};
-    return fail(ErrorKind::refused,
-                fmt::format("Not jogged: the jog of axis {} has ended, so it cannot be renewed. Nothing was moved; let "
-                            "go, and jog again.",
-                            letter));
+    return fail(ErrorKind::refused, fmt::format("Not jogged: the jog of axis {} has ended, so it cannot be renewed. "
+                                                "Nothing was moved; release the key and jog again.",
+                                                letter));
 }
 
 void Jogs::hold(char letter, double speed, const std::string& session) {

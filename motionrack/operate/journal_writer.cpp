@@ -110,7 +110,7 @@ void JournalWriter::see_job(const Status& status) {
     if (!program_runs_ && status.state == MachineState::error_stop) {
         event = "broken off";
         text = sentence(
-            fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.reason));
+            fmt::format("{} failed at line {} of {}: {}", status.program, status.line, status.lines, status.reason));
     } else if (!program_runs_ && status.state == MachineState::stopping) {
         event = "stopped";
         text = fmt::format("{} was stopped at line {} of {}.", status.program, status.line, status.lines);
@@ -230,7 +230,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
     LastKnownPositions out;
     const json kept = kept_of(last);
     std::vector<std::string> doubts = last.doubts;
-    if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it does not say where the machine stood");
+    if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it has no axis positions");
     const bool trusted = last.clean && doubts.empty();
     out.axes = standings_of(kept, config, trusted);
     std::string where;
@@ -245,10 +245,10 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
         out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);
     };
     if (!last.clean)
-        say(fmt::format("The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
+        say(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
                         fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
-    for (const std::string& doubt : doubts) say(fmt::format("The journal is not to be trusted: {}.", doubt));
-    if (!trusted) say("No position is trusted: home the machine, or declare where it stands.");
+    for (const std::string& doubt : doubts) say(fmt::format("The journal is invalid: {}.", doubt));
+    if (!trusted) say("No position is trusted: home the machine, or declare its position.");
     if (!last.damage.empty()) say(last.damage);
     return out;
 }

@@ -17,7 +17,7 @@ constexpr int min_stop_waits = 10;                       // minimum looks within
 constexpr int max_live_looks = 100;
 
 constexpr const char* by_its_wires =
-    "Its axes may still drive: press the emergency stop that cuts the motors' power. Nothing else is left. ";
+    "Its axes may still move: press the emergency stop that cuts the motors' power, the only remaining stop. ";
 
 }  // namespace
 
@@ -62,11 +62,10 @@ void LiveCard::look() {
     if (lost_) return;
     looked_ = now();
     if (!seen.view.answered())
-        lost_ =
-            Error{ErrorKind::io,
-                  fmt::format("Every register of card {} reads FFFFh: no card answers at {}. No access is made from "
-                              "here on. Check the region, offset and stride, and whether the card has power.",
-                              place_.card, place_.place)};
+        lost_ = Error{ErrorKind::io,
+                      fmt::format("Every register of card {} reads FFFFh: no card answers at {}. No further access is "
+                                  "made. Check the region, offset and stride, and whether the card has power.",
+                                  place_.card, place_.place)};
     registers_ = std::move(seen);
 }
 
@@ -117,10 +116,11 @@ void LiveCard::heed_stop() {
 
 std::optional<Error> LiveCard::doubt() const {
     if (lost_ || !gives_up_) return lost_;
-    return Error{ErrorKind::machine,
-                 fmt::format("The function had not ended {} ms after the stop and was broken off; whether the axes of "
-                             "card {} stand is not known from it. See the alarms and the registers of the card.",
-                             stop_patience / milliseconds(1), place_.card)};
+    return Error{
+        ErrorKind::machine,
+        fmt::format("The function had not ended {} ms after the stop and was aborted; it does not show whether the "
+                    "axes of card {} are at standstill. Check the alarms and the registers of the card.",
+                    stop_patience / milliseconds(1), place_.card)};
 }
 
 bool LiveCard::stands_after_stop(FunctionLibrary& library) {
@@ -140,21 +140,22 @@ LiveStop LiveCard::stop(FunctionLibrary& library) {
     if (!refused && stands_after_stop(library)) return {true, ""};
     const std::string why = lost_ ? lost_->message : "";
     if (why.empty())
-        return {false, fmt::format("An axis of card {} at {} still drives after {} looks, though the quick stop of all "
-                                   "axes was written before each. {}Begin the service again once it stands.",
+        return {false, fmt::format("An axis of card {} at {} still moves after {} polls, although the quick stop of "
+                                   "all axes was written before each. {}Begin the service again at standstill.",
                                    place_.card, place_.place, max_live_looks, by_its_wires)};
     const Result<void> opened = open_port();
     if (opened && stands_after_stop(library))
         return {true, fmt::format("{} The port of card {} was opened again, and the quick stop of all axes was written "
-                                  "through it: they stand. Look at the card before its next service.",
+                                  "through it: they stand. Check the card before its next service.",
                                   why, place_.card)};
     const std::string again = !opened ? opened.error().message : lost_ ? lost_->message : "";
-    return {false,
-            fmt::format("{} The quick stop of all axes of card {} at {} was not written, or not obeyed{}. {}Begin the "
-                        "service again once the card answers.",
-                        why, place_.card, place_.place,
-                        again.empty() || again == why ? "" : fmt::format(", with the port opened again: {}", again),
-                        by_its_wires)};
+    return {
+        false,
+        fmt::format("{} The quick stop of all axes of card {} at {} was not written, or had no effect{}. {}Begin the "
+                    "service again once the card answers.",
+                    why, place_.card, place_.place,
+                    again.empty() || again == why ? "" : fmt::format(", with the port opened again: {}", again),
+                    by_its_wires)};
 }
 
 }  // namespace motionrack::operate

@@ -12,8 +12,8 @@ Result<LivePlace> read_live_place(std::string_view text) {
     if (equals == 0 || equals >= text.find(':'))
         return fail(
             ErrorKind::invalid_input,
-            fmt::format("'{}' does not say which card is where. Nothing was opened. Write the name of a card of "
-                        "the rack file, '=' and its place, as bench=port:/dev/port,offset=0x300,width=8.",
+            fmt::format("'{}' does not name a card and its address. Nothing was opened. Write the name of a card of "
+                        "the rack file, '=' and its address, such as bench=port:/dev/port,offset=0x300,width=8.",
                         text));
     LivePlace out{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1)), {}};
     MOTIONRACK_TRY(out.spec, live::read_port_spec(out.place));
@@ -27,29 +27,28 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
         if (card == nullptr) {
             std::string known;
             for (const rack::RackCard& one : config.cards) known += (known.empty() ? "" : ", ") + one.name;
-            return fail(ErrorKind::invalid_input,
-                        fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was opened. A real "
-                                    "card stands for one of them.",
-                                    rack::in_quotes(name), known));
+            return fail(ErrorKind::invalid_input, fmt::format("Unknown card {}; the cards of this rack are: {}. "
+                                                              "Nothing was opened. A real card replaces one of them.",
+                                                              rack::in_quotes(name), known));
         }
         const rack::CardKind* const kind = rack::find_card_kind(card->type);
         if (kind->library == nullptr || kind->view == nullptr)
-            return fail(ErrorKind::refused,
-                        fmt::format("Card {} is an {}: a real one cannot be driven. Nothing was opened. A real mcx314 "
-                                    "can.",
-                                    name, card->type));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("Card {} is an {}: a real one is not supported. Nothing was opened. A real mcx314 is.",
+                            name, card->type));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)
             if (axis.card == name) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", axis.letter);
         if (!letters.empty())
             return fail(ErrorKind::refused,
-                        fmt::format("Card {} moves {} of the machine, and the controller drives virtual cards only. "
+                        fmt::format("Card {} moves {} of the machine, and the controller supports virtual cards only. "
                                     "Nothing was opened. Give the rack file an mcx314 without axes for the real card.",
                                     name, letters));
         for (std::size_t j = 0; j < i; ++j)
             if (places[j].card == name)
                 return fail(ErrorKind::invalid_input,
-                            fmt::format("Card {} has two places, {} and {}. Nothing was opened. Name one.", name,
+                            fmt::format("Card {} has two addresses, {} and {}. Nothing was opened. Give one.", name,
                                         places[j].place, places[i].place));
     }
     return {};

@@ -114,11 +114,11 @@ Result<void> Machine::ready(const char* what) {
     };
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
     if (state_ == MachineState::error_stop)
-        return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
+        return refuse("the machine is in error stop; see its alarm, remove the cause and reset it first");
     if (state_ == MachineState::service)
         return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
     if (state_ != MachineState::standstill)
-        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
+        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state_)));
     return {};
 }
 
@@ -130,8 +130,7 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
 /// Requires enabled axes without a pending set position, which applies to the position at its command.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
-        return not_now(
-            fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
+        return not_now(fmt::format("{}: positions of axes are being declared; try again. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
             return not_now(
@@ -146,10 +145,9 @@ Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!position_valid(axis))
-            return not_now(
-                fmt::format("{}: the position of axis {} is not trusted. Home it, or declare "
-                            "where it stands. Nothing was moved.",
-                            what, axis.letter));
+            return not_now(fmt::format(
+                "{}: the position of axis {} is not trusted. Home it, or declare its position. Nothing was moved.",
+                what, axis.letter));
     return {};
 }
 
@@ -168,8 +166,8 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
 }
 
 Result<void> Machine::begin_program(std::string text, std::string name) {
-    MOTIONRACK_CHECK(may_start("The program was not begun"));
-    MOTIONRACK_CHECK(ready_for_lines("The program was not begun"));
+    MOTIONRACK_CHECK(may_start("The program was not started"));
+    MOTIONRACK_CHECK(ready_for_lines("The program was not started"));
     stream_->reset_modal_state();
     const control::gcode::ProgramCheck check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
@@ -191,13 +189,13 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
     };
-    if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not taken"); !can)
+    if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not accepted"); !can)
         return refuse(can.error().message);
-    if (Result<void> can = may_start("The line was not taken"); !can) return refuse(can.error().message);
-    if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
-    if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
+    if (Result<void> can = may_start("The line was not accepted"); !can) return refuse(can.error().message);
+    if (program_runs_) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
+    if (!has_room()) return refuse("The line was not accepted: the queue is full until earlier lines are executed.");
     if (state_ != MachineState::moving && state_ != MachineState::hold)
-        if (Result<void> can = ready_for_lines("The line was not taken"); !can) return refuse(can.error().message);
+        if (Result<void> can = ready_for_lines("The line was not accepted"); !can) return refuse(can.error().message);
     if (auto read = stream_->line(text, number); !read) return read;
     last_line_ = now();
     if (stream_->has_work() && state_ == MachineState::standstill) enter(MachineState::moving);
@@ -206,16 +204,16 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
 
 Result<void> Machine::hold() {
     if (state_ != MachineState::moving)
-        return not_now(fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.",
-                                   name_of(state_)));
+        return not_now(
+            fmt::format("A hold is not possible: the machine is in state '{}'. Nothing was changed.", name_of(state_)));
     stream_->hold();
     return {};
 }
 
 Result<void> Machine::resume() {
     if (state_ != MachineState::hold)
-        return not_now(fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.",
-                                   name_of(state_)));
+        return not_now(
+            fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
     MOTIONRACK_CHECK(may_start("Not resumed"));
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
     MOTIONRACK_CHECK(door_.check_closed("Not resumed"));
@@ -263,7 +261,7 @@ namespace {
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_velocity) return {};
     return not_now(
-        fmt::format("Not jogged: the speed is {:g} {}/s, but may be up to {:g} for axis {}. Nothing was moved.",
+        fmt::format("Not jogged: the speed is {:g} {}/s; it must be at most {:g} for axis {}. Nothing was moved.",
                     std::fabs(speed), axis.unit(), axis.max_velocity, axis.letter));
 }
 
@@ -295,7 +293,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     const double travel = found->max_position - found->min_position;
     if (position_valid(*found) && std::fabs(distance) > travel)
         return not_now(
-            fmt::format("Not jogged: the distance is {:g} {}, but the whole travel of axis {} is {:g}. Nothing "
+            fmt::format("Not jogged: the distance is {:g} {}, but the travel of axis {} is {:g}. Nothing "
                         "was moved.",
                         std::fabs(distance), found->unit(), axis, travel));
     jogs_.move(axis, distance, speed);
@@ -306,7 +304,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
-    if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full until others are driven.");
+    if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
         return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is not a motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
@@ -317,7 +315,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
         if (target[i] == from) continue;
         if (!std::isfinite(target[i]) || !limits[i].present)
             return fail(ErrorKind::invalid_input,
-                        fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.",
+                        fmt::format("Not jogged: the machine has no axis {}, or {} is not a position of it.",
                                     control::axis_letters[i], target[i]));
         if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
             return not_now(fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.",
@@ -370,7 +368,7 @@ void Machine::set_coolant(bool mist, bool flood) {
 
 Result<void> Machine::clear_offsets() {
     if (stream_->has_work())
-        return not_now("The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
+        return not_now("The work offsets were not changed: the machine moves. Stop it, or wait for standstill.");
     stream_->clear_offsets();
     return {};
 }

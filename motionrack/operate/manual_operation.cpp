@@ -19,12 +19,12 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 }  // namespace
 
 Result<void> Machine::touch_off(char axis, double value) {
-    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work zero was not set", axis));
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work offset was not set", axis));
     if (!std::isfinite(value))
-        return fail(ErrorKind::invalid_input, "The work zero was not set: the value is not a number.");
+        return fail(ErrorKind::invalid_input, "The work offset was not set: the value is not a number.");
     if (stream_->has_work())
         return fail(ErrorKind::refused,
-                    "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
+                    "The work offset was not set: the machine moves. Stop it, or wait for standstill.");
     const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;
     if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read)
         return tl::unexpected<Error>(read.error());
@@ -36,7 +36,7 @@ Result<void> Machine::access(const BusAccess& access, std::function<void(std::ui
     if ((!stands || stream_->has_work()) && !measures_only(rack_.config(), access.card))
         return fail(
             ErrorKind::refused,
-            fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.",
+            fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait for standstill.",
                         name_of(state_)));
     MOTIONRACK_CHECK(rack::card_for_access(rack_, access.card, access.bits, access.address, access.value.has_value()));
     if (access.value && access.bits < 32 && *access.value >> access.bits != 0)

@@ -240,8 +240,8 @@ void Machine::drive() {
         case control::ExecutionState::paused:
             if (state_ == MachineState::moving)
                 enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
-                                              ? "held; resume goes on"
-                                              : "the program waits; resume goes on");
+                                              ? "feed hold; continue with resume"
+                                              : "the program waits; continue with resume");
             host_of(rack_).pass(settings_.slice);
             break;
         case control::ExecutionState::idle:

@@ -21,8 +21,8 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
     const std::span<const FunctionInfo> functions = found->library_functions();
     if (!functions.empty()) return functions;
     return fail(ErrorKind::refused,
-                fmt::format("Card {} is an {}: it has no function library that is called by hand. Nothing was done.",
-                            card, found->map().name));
+                fmt::format("Card {} is an {}: it has no function library for a service. Nothing was done.", card,
+                            found->map().name));
 }
 
 std::string Service::axes_of(const std::string& card) const {
@@ -35,7 +35,7 @@ std::string Service::axes_of(const std::string& card) const {
 // ---- commands
 
 Result<void> Service::check_begin(const std::string& card) const {
-    static constexpr const char* what = "The service was not begun";
+    static constexpr const char* what = "The service was not started";
     if (on())
         return fail(ErrorKind::refused,
                     fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
@@ -93,7 +93,7 @@ Result<void> Service::call(Call call, const StopOrigin& by, const std::string& s
     if (stop_) return fail(ErrorKind::refused, fmt::format("{} was not called: the service ends.", call.function));
     if (pending_ || !working_.empty())
         return fail(ErrorKind::refused,
-                    fmt::format("{} was not called: {} still works. Wait until it ends, or end the service.",
+                    fmt::format("{} was not called: {} still runs. Wait until it ends, or end the service.",
                                 call.function, pending_ ? pending_->name : working_));
     pending_.emplace(Pending{std::move(checked), std::move(call.function), std::move(ready)});
     return {};
@@ -124,9 +124,8 @@ void Service::take() {
         lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
     }
     note_ = fmt::format(" The service of card {} has ended", card_);
-    note_ += lost.empty()
-                 ? "."
-                 : fmt::format("; the position of {} is not trusted: home it, or declare where it stands.", lost);
+    note_ += lost.empty() ? "."
+                          : fmt::format("; the position of {} is not trusted: home it, or declare its position.", lost);
     machine_.rack_.set_stop_flag(&stop_);
     machine_.group_holds_ = machine_.group_holds_ && lost.empty();
     machine_.hands_over_ = true;
@@ -136,11 +135,11 @@ void Service::take() {
         stop_ = true;
         machine_.status_.reason = begun.error().message;
         if (lost.empty())
-            note_ = fmt::format(" The service of card {} was not begun. {}", card_, begun.error().message);
+            note_ = fmt::format(" The service of card {} was not started. {}", card_, begun.error().message);
     }
     if (const Told told = std::exchange(begun_, {}))
         told(begun ? Result<std::string>(fmt::format(
-                         "Card {} is in service: it was reset, and nothing else drives it.{}", card_,
+                         "Card {} is in service: it was reset, and only its functions drive it.{}", card_,
                          lost.empty() ? "" : fmt::format(" The position of {} is not trusted any more.", lost)))
                    : tl::unexpected<Error>(begun.error()));
 }
@@ -223,7 +222,7 @@ void Service::finish() {
     else
         taken = machine_.take_group();
     const std::string sentence =
-        note_.empty() ? fmt::format("The service of card {} was not begun.", card_) : note_.substr(1);
+        note_.empty() ? fmt::format("The service of card {} was not started.", card_) : note_.substr(1);
     card_.clear();
     session_.clear();
     stop_ = false;

@@ -55,8 +55,8 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
                     fmt::format("Card {} has no slope table: it is not a DataBoard 4002.", name));
     return json{{"name", name},
                 {"slopes",
-                 {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half),
-                  half_of("deceleration over the way to go", card->table(), 0)}},
+                 {half_of("acceleration over the distance from the start", card->table(), db::SlopeTable::half),
+                  half_of("deceleration over the distance to the target", card->table(), 0)}},
                 {"moving", card->moving()},
                 {"rate", card->output_rate()},
                 {"hz", card->fout_hz()},

@@ -71,8 +71,8 @@ void ChannelRegistry::add_axes(operate::Machine& machine) {
         double (*get)(const AxisStatus&);
     };
     static constexpr Shown shown[] = {
-        {"commanded", "{u}", "what the card's pulses say", [](const AxisStatus& axis) { return axis.commanded; }},
-        {"actual", "{u}", "what the encoder says; commanded without one",
+        {"commanded", "{u}", "position by the card's pulses", [](const AxisStatus& axis) { return axis.commanded; }},
+        {"actual", "{u}", "position by the encoder; commanded without an encoder",
          [](const AxisStatus& axis) { return axis.actual; }},
         {"error", "{u}", "commanded - actual", [](const AxisStatus& axis) { return axis.commanded - axis.actual; }},
         {"speed", "{u}/s", "of the rotor, signed", [](const AxisStatus& axis) { return axis.speed; }},
@@ -113,9 +113,9 @@ void ChannelRegistry::add_cards(rack::Rack& rack) {
             });
         };
         for (const std::string_view name : card->quantity_names())
-            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card", ChannelReader::slices,
-                [&one = *card, name] { return one.quantity(name).value_or(unknown); });
-        for (const std::string& name : card->value_names()) inspected(name, "a value of the card");
+            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a numeric quantity of the card",
+                ChannelReader::slices, [&one = *card, name] { return one.quantity(name).value_or(unknown); });
+        for (const std::string& name : card->value_names()) inspected(name, "a register value of the card by its name");
         const rack::CardType& type = *rack::find_card_type(rack.config().card(card->name())->type);
         for (const RegisterInfo& reg : card->map().registers) {
             if (reg.access == Access::write) continue;
@@ -133,17 +133,15 @@ const Channel* ChannelRegistry::find(std::string_view name) const {
 Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<std::string>& names) {
     if (names.size() > Panel::max_channels)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.",
-                                names.size(), Panel::max_channels));
+                    fmt::format("{} channels were requested; the limit is {}. Nothing was changed.", names.size(),
+                                Panel::max_channels));
     Held held;
     for (const std::string& name : names) {
         const Channel* channel = find(name);
         if (channel == nullptr)
-            return fail(
-                ErrorKind::invalid_input,
-                fmt::format(
-                    "There is no channel {}; the query channels lists those that there are. Nothing was changed.",
-                    rack::in_quotes(name)));
+            return fail(ErrorKind::invalid_input,
+                        fmt::format("Unknown channel {}; the query channels lists all channels. Nothing was changed.",
+                                    rack::in_quotes(name)));
         held.channels.push_back(channel);
     }
     Held& known = sets_[names];

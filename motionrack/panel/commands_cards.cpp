@@ -58,11 +58,10 @@ Result<operate::ClockPacer*> pacer_of(PanelContext& desk) {
 Result<json> set_clock(PanelContext& desk, const json& fields) {
     MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
     if (const auto live = desk.machine.service().live_places(); !live.empty())
-        return fail(
-            ErrorKind::refused,
-            fmt::format("The clock was not changed: card {} is a real one, whose time is the computer's, so the "
-                        "rack runs in real time with factor 1. Serve it without --live for another time.",
-                        live.front().card));
+        return fail(ErrorKind::refused,
+                    fmt::format("The clock was not changed: card {} is a real one, so the rack runs in real time with "
+                                "factor 1. Serve it without --live to change the clock.",
+                                live.front().card));
     const auto& name = fields.at("mode").get_ref<const std::string&>();
     for (const operate::ClockMode mode :
          {operate::ClockMode::real, operate::ClockMode::unthrottled, operate::ClockMode::paused})

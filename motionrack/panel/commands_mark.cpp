@@ -56,15 +56,14 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     mark::MarkingJob& job = *read.job;
     if (job.parts)
         return fail(ErrorKind::refused,
-                    "The job has a section [parts]: the rack's own belt brings the parts here. Leave it out and give "
-                    "start = parts. Nothing was marked.");
+                    "The job has a section [parts]: the parts come on the rack's belt. Leave it out and give start = "
+                    "parts. Nothing was marked.");
     as_the_rack_has_it(job, config, card);
     const auto load = [&drawing](const std::string& path) -> Result<std::string> {
         if (!drawing.empty()) return drawing;
-        return fail(ErrorKind::refused,
-                    fmt::format("The job names the file {}, and files of this computer are not read: "
-                                "send the drawing's text along. Nothing was marked.",
-                                path));
+        return fail(ErrorKind::refused, fmt::format("The job names the file {}, and files of this computer are not "
+                                                    "read: send the text of the drawing. Nothing was marked.",
+                                                    path));
     };
     MOTIONRACK_TRY(const mark::Prepared prepared, mark::prepare(job, load));
     const mark::ConveyorTracking following = mark::following_of(job);
@@ -93,8 +92,9 @@ Result<json> begin_marking(PanelContext& desk, const std::string& card, const Li
     if (!engine.at_rest())
         return fail(
             ErrorKind::refused,
-            fmt::format("Card {} works off a list; wait for its end, or stop it with mark_stop. Nothing was marked.",
-                        card));
+            fmt::format(
+                "Card {} is executing a list. Nothing was marked. Wait until it ends, or stop it with mark_stop.",
+                card));
     if (lists.table) {
         MOTIONRACK_CHECK(engine.load_correction(lists.table, 1));
         MOTIONRACK_CHECK(engine.select_cor_table(1, 0));

@@ -81,7 +81,7 @@ Result<char> axis_of(PanelContext& desk, const json& fields) {
         if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
         known += axis.letter;
     }
-    return fail(ErrorKind::invalid_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.",
+    return fail(ErrorKind::invalid_input, fmt::format("Unknown axis {}; the machine has: {}. Nothing was moved.",
                                                       text_of(fields.at("axis")), known));
 }
 

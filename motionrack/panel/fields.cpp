@@ -46,7 +46,7 @@ Result<void> check_text(const OperationSpec& row, const FieldSpec& field, const 
     if (!value.is_string()) return wrong(row, fmt::format("{} must be a text, not {}.", field.name, value.type_name()));
     const auto& text = value.get_ref<const std::string&>();
     if (static_cast<double>(text.size()) > field.max)
-        return wrong(row, fmt::format("{} has {} characters; {} are the most.", field.name, text.size(), field.max));
+        return wrong(row, fmt::format("{} has {} characters; the limit is {}.", field.name, text.size(), field.max));
     return {};
 }
 
@@ -58,7 +58,7 @@ Result<void> check_numbers(const OperationSpec& row, const FieldSpec& field, con
         return wrong(
             row, fmt::format("{} must be an object of whole numbers by name, not {}.", field.name, value.type_name()));
     if (static_cast<double>(value.size()) > field.max)
-        return wrong(row, fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.max));
+        return wrong(row, fmt::format("{} has {} members; the limit is {}.", field.name, value.size(), field.max));
     for (const auto& [name, one] : value.items())
         if (!one.is_number() || one.get<double>() != std::floor(one.get<double>()) ||
             std::fabs(one.get<double>()) > max_whole)
@@ -90,7 +90,7 @@ Result<void> check_field(const OperationSpec& row, const FieldSpec& field, const
                 return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));
             if (static_cast<double>(value.size()) > field.max)
                 return wrong(row,
-                             fmt::format("{} has {} members; {} are the most.", field.name, value.size(), field.max));
+                             fmt::format("{} has {} members; the limit is {}.", field.name, value.size(), field.max));
             for (const json& one : value)
                 if (!one.is_string())
                     return wrong(row, fmt::format("{} must be a list of texts; one of them is {}.", field.name,
@@ -132,7 +132,7 @@ Result<json> fields_of_texts(const OperationSpec& row, const std::vector<std::pa
         if (type == FieldType::number || type == FieldType::integer) {
             const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
             if (read.ec != std::errc{} || read.ptr != text.data() + text.size())
-                return wrong(row, fmt::format("{} is {}, which is no number.", name, rack::in_quotes(text)));
+                return wrong(row, fmt::format("{} is {}, which is not a number.", name, rack::in_quotes(text)));
             fields[name] = number;
         } else if (type == FieldType::flag && (text == "true" || text == "false")) {
             fields[name] = text == "true";

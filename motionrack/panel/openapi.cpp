@@ -126,7 +126,7 @@ json make_openapi() {
                   {"column", {{"type", "integer"}}}}}}}}}}}}},
         {"responses",
          {{"Error",
-           {{"description", "not done; a sentence says why"},
+           {{"description", "not done; with the reason"},
             {"content", {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}}}}}};
     return api;
 }
@@ -177,13 +177,13 @@ const json& openapi() {
 
 std::string api_reference() {
     std::string out =
-        "# What can be asked of a served machine\n\n"
+        "# Orders and queries of a served machine\n\n"
         "<!-- written by `motionrack describe api --markdown` -->\n\n"
         "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"command\":NAME,...}` and "
         "`{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every command and every query is\n"
         "declared once; checking, `/api/openapi.json` and this page are made from that. An answer is "
         "`{\"done\":true,...}` or\n"
-        "`{\"error\":{\"kind\":...,\"message\":...}}` with a sentence that says what was not done, and why.\n\n"
+        "`{\"error\":{\"kind\":...,\"message\":...}}` with a sentence that has the cause and the effect.\n\n"
         "## Commands\n\n";
     for (const OperationSpec& row : commands()) out += section_of(row, "POST");
     out += "## Queries\n\n";

@@ -149,7 +149,7 @@ class Panel::Inside {
     }
 
     static std::string sentence(const OperationSpec& row, const Caller& caller, const json& fields) {
-        std::string out = fmt::format("{}: {}", caller.user.empty() ? "somebody" : caller.user, row.name);
+        std::string out = fmt::format("{}: {}", caller.user.empty() ? "unknown user" : caller.user, row.name);
         for (const auto& [name, value] : fields.items()) {
             std::string shown = text_of(value);
             if (shown.size() > (value.is_object() ? max_argument_bytes : 60U))

@@ -99,9 +99,7 @@ struct PanelContext {
         const bool taken = worker.post([this, work = std::move(work), ready]() mutable {
             machine.post([made = work(), ready = std::move(ready)]() mutable { ready(std::move(made)); });
         });
-        if (!taken)
-            ready(fail(ErrorKind::refused,
-                       "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
+        if (!taken) ready(fail(ErrorKind::refused, "The server is busy. Nothing was done. Try again later."));
     }
     /// Overload for work whose result is the answer itself.
     void run_async(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {

@@ -87,7 +87,7 @@ Result<json> events_of(PanelContext& desk, const json& fields) {
 }
 
 void journal_of(PanelContext& desk, const json& fields, Ready ready) {
-    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "No journal is kept."));
+    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
     journal::JournalQuery question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
                                    static_cast<int>(number_of(fields, "limit", 100))};
     desk.run_async(
@@ -108,7 +108,7 @@ void journal_of(PanelContext& desk, const json& fields, Ready ready) {
 }
 
 void journal_check(PanelContext& desk, const Ready& ready) {
-    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "No journal is kept."));
+    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
     desk.run_async(
         [book = desk.settings.journal]() -> Result<json> {
             MOTIONRACK_TRY(const journal::ChainCheck check, book->check());

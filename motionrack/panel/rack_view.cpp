@@ -105,7 +105,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         std::string known;
         for (const rack::RunningScanner& one : machine.rack().scanners())
             known += (known.empty() ? "" : ", ") + one.config.name;
-        return fail(ErrorKind::invalid_input, fmt::format("There is no scan head {}; the rack has: {}.",
+        return fail(ErrorKind::invalid_input, fmt::format("Unknown scan head {}; the rack has: {}.",
                                                           rack::in_quotes(name), known.empty() ? "none" : known));
     }
     const parts::MarkingStation& station = scanner->station();

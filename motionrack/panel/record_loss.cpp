@@ -28,8 +28,8 @@ void RecordLoss::look() {
     lost_ = true;
     desk_.machine.forbid_starts(
         "journal", failure +
-                       " The machine holds, and nothing is started. Stop it, mend the cause, and start this "
-                       "program anew; it will trust no position then.");
+                       " The machine holds, and nothing is started. Stop it, remove the cause, and start the "
+                       "program again; all positions are invalid then.");
     rack::Rack& rack = desk_.machine.rack();
     for (const auto& card : rack.cards())
         if (rtc5::Card* marks = rack::rtc5_card_of(rack, card->name())) marks->engine().set_control_mode(0);
@@ -47,8 +47,8 @@ Answer RecordLoss::answer(const OperationSpec& row, Answer answer, const Result<
         return answer;
     }
     return refused_answer(500, "io",
-                          fmt::format("{} So '{}' is not recorded. The machine holds; its status says whether it has "
-                                      "begun. Stop it, and mend the cause.",
+                          fmt::format("{} So '{}' is not recorded. The machine holds; its status shows whether the "
+                                      "program has started. Stop it, and remove the cause.",
                                       kept.error().message, row.name));
 }
 

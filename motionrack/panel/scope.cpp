@@ -51,8 +51,8 @@ Scope::~Scope() {
 
 Result<void> Scope::arm(const ScopeSettings& settings) {
     if (settings.channels.empty() || settings.channels.size() > max_channels)
-        return fail(ErrorKind::invalid_input, fmt::format("{} channels cannot be looked at; 1 to {} can.",
-                                                          settings.channels.size(), max_channels));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{} channels are not possible; 1 to {} are.", settings.channels.size(), max_channels));
     if (settings.length <= Duration{0} || settings.pre < Duration{0} || settings.pre > settings.length)
         return fail(ErrorKind::invalid_input,
                     "The part before the trigger must lie within the length, which must be above 0.");
@@ -62,7 +62,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
         const Channel* channel = book_.find(settings.channels[i]);
         if (channel == nullptr)
             return fail(ErrorKind::invalid_input,
-                        fmt::format("There is no channel {}; the query channels lists those that there are.",
+                        fmt::format("Unknown channel {}; the query channels lists all channels.",
                                     rack::in_quotes(settings.channels[i])));
         if (channel->looks == ChannelReader::edges)
             wires.push_back(channel->name);
@@ -72,7 +72,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     const auto trigger = std::find(settings.channels.begin(), settings.channels.end(), settings.trigger);
     if (!settings.trigger.empty() && trigger == settings.channels.end())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("The trigger {} is none of the channels.", rack::in_quotes(settings.trigger)));
+                    fmt::format("The trigger {} is not one of the channels.", rack::in_quotes(settings.trigger)));
     if (!numbers.empty() &&
         (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(max_samples)))
         return fail(ErrorKind::refused,

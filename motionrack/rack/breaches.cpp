@@ -54,7 +54,7 @@ std::string sentence_of(const Breach& breach) {
     const char* unit = breach.axis < 3 ? "mm" : "deg";
     switch (breach.kind) {
         case BreachKind::jump:
-            return fmt::format("{} the speed of {} jumped by {:.1f} {}/s, more than its start speed of {:g} {}/s{}",
+            return fmt::format("{} the velocity step of {} was {:.1f} {}/s, above its start speed of {:g} {}/s{}",
                                position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
         case BreachKind::accel:
             return fmt::format("{} the acceleration of {} was {:.1f} {}/s2, above its limit of {:g} {}/s2{}",
@@ -68,9 +68,9 @@ std::string sentence_of(const Breach& breach) {
             break;
     }
     return fmt::format(
-        "{} a piece of the path came {:.0f} us too late, and the axes stopped at its start{}; lower the "
-        "feed, program longer moves or a wider tolerance (G64 P), or make the host quicker "
-        "(host_latency_us, bus_access_ns)",
+        "{} a segment of the path came {:.0f} us too late, and the axes stopped at its start{}; lower the "
+        "feed, program longer moves or a wider tolerance (G64 P), or make the host faster (host_latency_us, "
+        "bus_access_ns)",
         position_text(breach), breach.value * 1e6, often(breach));
 }
 

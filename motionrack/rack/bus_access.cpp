@@ -13,7 +13,7 @@ Result<Card*> card_named(Rack& rack, std::string_view name) {
     for (const auto& card : rack.cards()) known += (known.empty() ? "" : ", ") + card->name();
     return fail(
         ErrorKind::invalid_input,
-        fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.", in_quotes(name), known));
+        fmt::format("Unknown card {}; the cards of this rack are: {}. Nothing was done.", in_quotes(name), known));
 }
 
 Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::uint32_t address, bool writing) {

@@ -34,17 +34,17 @@ constexpr auto ioflex02_pins = own_pins<std::size(ioflex02::map::pins)>(ioflex02
 
 constexpr std::array<Field, 6> ioflex02_settings = {
     field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "",
-                                           "where it answers on the host's bus: a multiple of 256"),
+                                           "address on the host's bus: a multiple of 256"),
     field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
     field<&Ioflex02Settings::configuration_ms>(
         "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
-    formerly("loaded", field<&Ioflex02Settings::loaded>("preloaded", 0, 0, "",
-                                                        "its project runs from the start; else the host loads it")),
+    formerly("loaded", field<&Ioflex02Settings::loaded>(
+                           "preloaded", 0, 0, "", "true: its project runs from the start; false: the host loads it")),
     absent_means(field<&Ioflex02Settings::image>(
                      "image", 0, 2 * ioflex02::max_image_file, "",
-                     "its configuration image in hexadecimal digits, as `motionrack image show --hex` prints it: what "
-                     "runs from the start, and what Init of the function libraries loads"),
-                 "the one that is built in"),
+                     "its configuration image in hexadecimal digits, as `motionrack image show --hex` prints it: it "
+                     "runs from the start, and Init of the function libraries loads it"),
+                 "the built-in one"),
     field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
                                             "time that one access of the host takes"),
 };
@@ -67,14 +67,13 @@ Result<ioflex02::ImageInfo> ioflex02_image(const Ioflex02Settings& settings) {
 std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
     for (const RackCard& other : before)
         if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
-            return CardFlaw{"serial",
-                            fmt::format("Cards {} and {} have both the serial number {}; every card has its own.",
-                                        other.name, card.name, card.ioflex02.serial)};
+            return CardFlaw{"serial", fmt::format("Cards {} and {} have the same serial number {}; it must be unique.",
+                                                  other.name, card.name, card.ioflex02.serial)};
     if (!card.ioflex02.image.empty())
         if (const auto raw = ioflex02_image(card.ioflex02); !raw) return CardFlaw{"image", raw.error().message};
     if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
     return CardFlaw{"base_address",
-                    fmt::format("base_address of card {} is {}; it is a multiple of 256, such as {}.", card.name,
+                    fmt::format("base_address of card {} is {}; it must be a multiple of 256, such as {}.", card.name,
                                 card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
 }
 
@@ -94,8 +93,8 @@ constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"
 constexpr std::array<Field, 15> grating_bus_settings = {
     with_choices(field<&GratingBusSettings::role>(
                      "role", 0, 0, "",
-                     "the host gives clock and addresses, slaves only listen; the first card of the rack "
-                     "is the host unless it is said; a remote one listens to a bus on another computer (motionrack "
+                     "the host drives clock and addresses, slaves only read; the first card of the rack is the host by "
+                     "default; a remote one listens to a bus on another computer (motionrack "
                      "frames feed)"),
                  grating_roles),
     field<&GratingBusSettings::scales>("scales", 1, 128, "", "scales of a frame"),
@@ -103,23 +102,21 @@ constexpr std::array<Field, 15> grating_bus_settings = {
     field<&GratingBusSettings::addresses>(
         "addresses", 0, 600, "",
         "addresses of the scales in the order in which they are read, as in \"5, 2, 9\", each 0 to 127 and only once; "
-        "scales and first are left out then; empty: from first on, as many as scales says"),
+        "excludes scales and first; empty: from first on, as many as scales"),
     field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
     field<&GratingBusSettings::t2_ns>("t2_ns", 0.1, 6'000, "ns", "wait from the address to stable data"),
     field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),
     field<&GratingBusSettings::clock_ns>("clock_ns", 0.1, 6'000, "ns", "period of the logic's clock"),
-    field<&GratingBusSettings::period_us>("period_us", 1, 100'000, "us", "from one frame to the next"),
-    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns",
-                                          "when a host's first frame comes, at most a period"),
+    field<&GratingBusSettings::period_us>("period_us", 1, 100'000, "us", "period of the frames"),
+    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns", "time of a host's first frame, at most a period"),
     with_choices(field<&GratingBusSettings::clock_shifter>("clock_shifter", 0, 0, "",
-                                                           "way of the level shifter of clk, hold and read_n"),
+                                                           "direction of the level shifter of clk, hold and read_n"),
                  shifter_ways),
-    with_choices(
-        field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "", "way of the level shifter of addr"),
-        shifter_ways),
-    formerly("checks", field<&GratingBusSettings::checks>(
-                           "verify_lines", 0, 0, "",
-                           "frames during which the lines were not as they should be are not published")),
+    with_choices(field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "",
+                                                             "direction of the level shifter of addr"),
+                 shifter_ways),
+    formerly("checks", field<&GratingBusSettings::checks>("verify_lines", 0, 0, "",
+                                                          "frames with wrong line levels are not published")),
     field<&GratingBusSettings::seed>("seed", 0, 2'147'483'647, "", "of the jitter that can be injected"),
     field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
                                               "time that one access of the processor takes"),
@@ -127,7 +124,7 @@ constexpr std::array<Field, 15> grating_bus_settings = {
 
 constexpr std::array<Field, 4> grating_decoder_settings = {
     field<&GratingDecoderSettings::scales>("scales", 1, 128, "",
-                                           "scales that it counts; its pins a0 b0 a1 b1 .. are that many pairs"),
+                                           "number of scales that it counts, each with a pair of pins a0 b0, a1 b1 .."),
     field<&GratingDecoderSettings::latch_ns>("latch_ns", 0, 6'000, "ns", "from HOLD to valid counts"),
     field<&GratingDecoderSettings::output_ns>("output_ns", 0.1, 6'000, "ns", "from the address to valid data"),
     field<&GratingDecoderSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",

@@ -28,7 +28,7 @@ constexpr std::array<PinType, 23> mcx314_channel_pins = {{
     {"inpos", input, "in position, from the motor's drive"},
     {"expp", input, "external operation +"},
     {"expm", input, "external operation -"},
-    {"drive", output, "high while the axis drives; of an mcx314as also the deviation counter clear pulse"},
+    {"drive", output, "high while the axis moves; of an mcx314as also the deviation counter clear pulse"},
     {"out0", output, "general output 0"},
     {"out1", output, "general output 1"},
     {"out2", output, "general output 2"},
@@ -76,16 +76,16 @@ constexpr std::array<Field, 8> mcx314_settings = {
                      "whether + software limits begin beyond COMP+ or at it; the sources do not agree"),
                  software_limits),
     field<&Mcx314Settings::ao_after_reset>("ao_after_reset", 0, 65'535, "pulses",
-                                           "AO until the host writes it; the sources do not say"),
+                                           "initial AO; not stated in the sources"),
     field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
                                      "the chip's clock; the model knows the documented one"),
-    with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),
+    with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "width of the host's bus"), bus_widths),
     field<&Mcx314Settings::bus_access_ns>(
         "bus_access_ns", 0, 100'000, "ns",
         "time that one access of the host takes; two of them to a register on 8 bits"),
     field<&Mcx314Settings::host_latency_us>(
         "host_latency_us", 0, 10'000, "us",
-        "from an interrupt of the card to the host's first access; pieces of a path are made long enough for it"),
+        "from an interrupt of the card to the host's first access; path segments are at least this long"),
 };
 
 // At most one pulse every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
@@ -116,11 +116,11 @@ constexpr std::array<PinType, 11> databoard4002_channel_pins = {{
     {"ref", input, "reference; high, without current, is active", 0, PinKind::contact},
     {"esr", input, "end stop right; high, without current, is active", 0, PinKind::contact},
     {"esl", input, "end stop left; high, without current, is active", 0, PinKind::contact},
-    {"vout", output, "analog output behind the relay, V", 1e-6},
+    {"vout", output, "analog output after the relay, V", 1e-6},
     {"sign", output, "direction, high is +"},
     {"fout", output, "speed as a frequency"},
     {"relay", output, "high while the analog output is connected"},
-    {"vdirect", output, "analog output in front of the relay, on which ems does not act, V", 1e-6},
+    {"vdirect", output, "analog output before the relay, on which ems does not act, V", 1e-6},
 }};
 
 constexpr std::array<PinType, 4> databoard4002_pins = {{
@@ -164,10 +164,10 @@ constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature
                                                                      "up/down"};
 
 constexpr std::array<Field, 11> databoard4002_settings = {
-    formerly("select", field<&Databoard4002Settings::select>(
-                           "card_number", 0, 31, "", "its number on the bus, written to port 1 before it answers")),
-    with_choices(formerly("counting", field<&Databoard4002Settings::counting>(
-                                          "count_mode", 0, 0, "", "how the straps let O1 and O2 be counted")),
+    formerly("select", field<&Databoard4002Settings::select>("card_number", 0, 31, "",
+                                                             "its number on the bus; the host selects it by port 1")),
+    with_choices(formerly("counting", field<&Databoard4002Settings::counting>("count_mode", 0, 0, "",
+                                                                              "counting of O1 and O2, by the straps")),
                  databoard4002_countings),
     field<&Databoard4002Settings::first_pair>(
         "first_pair", 0, 3, "", "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
@@ -181,7 +181,7 @@ constexpr std::array<Field, 11> databoard4002_settings = {
                                         "the trim table that came with the card, rows of V and rate with commas "
                                         "between, as in \"0.01 13799, 0.025 14051\"; empty: the printed one"),
     field<&Databoard4002Settings::version>("version", 0, 255, "",
-                                           "version of the card's program, as the command V tells it"),
+                                           "version of the card's program, as the command V returns it"),
     formerly("pass_ticks", field<&Databoard4002Settings::pass_ticks>(
                                "firmware_pass_ticks", 1, 4'000, "", "ticks of 2.5 us in a pass of the card's program")),
     field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",

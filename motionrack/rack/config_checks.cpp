@@ -118,7 +118,7 @@ class AxisCheck {
         const double high = s.limit_plus.value_or(axis_.max_position);
         if (low >= high) {
             error(s.limit_minus ? "limit_minus_{u}" : "limit_plus_{u}", "switches",
-                  fmt::format("The limit switches of axis {} leave no way between them: the lower end is at {} {}, the "
+                  fmt::format("The limit switches of axis {} leave no travel: the lower end is at {} {}, the "
                               "upper at {} {}.",
                               axis_.letter, number_text(low), u, number_text(high), u));
             return;
@@ -141,7 +141,7 @@ class AxisCheck {
         if (s.cam_from.has_value() != s.cam_to.has_value()) {
             const char* there = s.cam_from ? "cam_from" : "cam_to";
             error(fmt::format("{}_{}", there, axis_.unit()), "switches",
-                  fmt::format("The cam of axis {} has {}_{} alone; a cam needs both ends.", axis_.letter, there,
+                  fmt::format("The cam of axis {} has only {}_{}; a cam needs both ends.", axis_.letter, there,
                               axis_.unit()));
         } else if (s.cam_from && *s.cam_from >= *s.cam_to) {
             error("cam_from_{u}", "switches",
@@ -166,7 +166,7 @@ class AxisCheck {
                                std::string_view limit) {
             if (!value || *value <= most || !source_.sound({key})) return;
             warn(key, "homing",
-                 fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed like that.",
+                 fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed.",
                              with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
                              with_unit(limit, axis_.unit()), number_text(most)));
         };
@@ -184,7 +184,7 @@ class AxisCheck {
         if (const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
             h.index_after && type != nullptr && type->position_loop)
             warn("index_after_{u}", "homing",
-                 fmt::format("index_after_{} of axis {} is not looked at: its card takes the index under the cam only.",
+                 fmt::format("index_after_{} of axis {} is ignored: its card uses the index only under the cam.",
                              axis_.unit(), axis_.letter));
     }
 
@@ -197,8 +197,8 @@ class AxisCheck {
                               u, axis_.letter, number_text(axis_.max_velocity_step), number_text(axis_.max_velocity)));
         if (source_.sound({"max_jerk_{u}_s3"}) && axis_.max_jerk > 0 && axis_.max_jerk < 0.001) {
             error("max_jerk_{u}_s3", {},
-                  fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,
-                              axis_.letter, number_text(axis_.max_jerk)));
+                  fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it must be 0 (trapezoids) or at least 0.001 {0}/s3.",
+                              u, axis_.letter, number_text(axis_.max_jerk)));
         }
         if (axis_.servo) return servo();
         if (!source_.sound({"start_stop_hz", "pull_out_hz"})) return;
@@ -229,14 +229,14 @@ class AxisCheck {
                                   with_unit(key, u), axis_.letter, number_text(*value)));
             else if (*value < 2 * count)
                 error(key, {},
-                      fmt::format("{} of axis {} is {}, less than two counts of its encoder, {} {}: an axis that is "
-                                  "well would exceed it.",
+                      fmt::format("{} of axis {} is {}, less than two counts of its encoder, {} {}: a healthy axis "
+                                  "would exceed it.",
                                   with_unit(key, u), axis_.letter, number_text(*value), short_text(2 * count), u));
         }
         if (source_.sound({warning, alarm}) && axis_.following_alarm() > 0 &&
             axis_.following_warning() > axis_.following_alarm())
             error(warning, {},
-                  fmt::format("{} of axis {} is {}, above its {}, which is {}: the machine would stop untold.",
+                  fmt::format("{} of axis {} is {}, above its {}, which is {}: it would stop without warning.",
                               with_unit(warning, u), axis_.letter, number_text(axis_.following_warning()),
                               with_unit(alarm, u), number_text(axis_.following_alarm())));
     }
@@ -247,7 +247,7 @@ class AxisCheck {
         for (const std::string_view key : {"motor", "motor_steps_per_rev", "microsteps"})
             if (source_.table != nullptr && source_.table->find(key) != nullptr)
                 error(key, {},
-                      fmt::format("Axis {} has a servo, so {} means nothing; leave it out.", axis_.letter, key));
+                      fmt::format("Axis {} has a servo, so {} has no effect; leave it out.", axis_.letter, key));
         if (axis_.encoder_counts_per_rev == 0 && source_.sound({"encoder_counts_per_rev"}))
             error("encoder_counts_per_rev", {},
                   fmt::format("Axis {} has a servo but no encoder; encoder_counts_per_rev must be above 0.",
@@ -268,13 +268,13 @@ class AxisCheck {
         const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
         if (axis_.max_velocity_step <= slowest)
             warn("max_velocity_step_{u}_s", {},
-                 fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s: "
+                 fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
                              u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
         if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
-                             "its load: it would run past its target.",
+                             "its load: it would overshoot its target.",
                              u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
         const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
         if (axis_.max_velocity > reach * rounding)
@@ -302,9 +302,9 @@ class AxisCheck {
         const std::string_view u = axis_.unit();
         if (source_.sound({"max_velocity_{u}_s"}) && axis_.max_pulse_hz() < 1) {
             error("max_velocity_{u}_s", {},
-                  fmt::format(
-                      "max_velocity_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.",
-                      u, axis_.letter, number_text(axis_.max_velocity), short_text(axis_.max_pulse_hz()), card.name));
+                  fmt::format("max_velocity_{}_s of axis {} is {}, that is {} pulses/s; the minimum of card {} is 1.",
+                              u, axis_.letter, number_text(axis_.max_velocity), short_text(axis_.max_pulse_hz()),
+                              card.name));
         }
         counter_range(type);
         if (!source_.sound({"encoder_counts_per_rev", "max_velocity_{u}_s"})) return;
@@ -321,7 +321,7 @@ class AxisCheck {
         const double rate = value * axis_.pulses_per_unit();
         if (!source_.sound({key}) || rate <= limit * rounding) return;
         error(key, {},
-              fmt::format("{} of axis {} is {}, that is {} {} at {} pulses/{}; card {} can do {}. Lower it to {} or "
+              fmt::format("{} of axis {} is {}, that is {} {} at {} pulses/{}; card {} allows {}. Lower it to {} or "
                           "give fewer microsteps.",
                           with_unit(key, axis_.unit()), axis_.letter, number_text(value), short_text(rate), pulse_unit,
                           short_text(axis_.pulses_per_unit()), axis_.unit(), card.name, short_text(limit),

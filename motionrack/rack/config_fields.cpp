@@ -10,12 +10,12 @@ constexpr std::array<std::string_view, 6> card_type_names = {"mcx314",      "dat
 constexpr std::array<std::string_view, 2> axis_kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 1> rack_table = {
-    field<&RackConfig::name>("name", 1, 200, "", "what reports call the rack"),
+    field<&RackConfig::name>("name", 1, 200, "", "name of the rack in reports"),
 };
 
 constexpr std::array<Field, 2> card_table = {
     required(with_choices(field<&RackCard::type>("type", 1, 32, "", "the kind of card"), card_type_names), "required"),
-    absent_means(field<&RackCard::slot>("slot", 0, slot_count - 1, "", "where the card sits in the rack"),
+    absent_means(field<&RackCard::slot>("slot", 0, slot_count - 1, "", "position of the card in the rack"),
                  "the lowest free slot"),
 };
 
@@ -37,52 +37,51 @@ constexpr std::array<Field, 18> axis_table = {
     formerly("start_speed_{u}_s", field<&RackAxis::max_velocity_step>("max_velocity_step_{u}_s", 0.000001, 1e6, "{u}/s",
                                                                       "speed reached at once from standstill")),
     formerly("min_{u}",
-             field<&RackAxis::min_position>("min_limit_{u}", -1e7, 1e7, "{u}", "least position that may be commanded")),
-    formerly("max_{u}", field<&RackAxis::max_position>("max_limit_{u}", -1e7, 1e7, "{u}",
-                                                       "greatest position that may be commanded")),
+             field<&RackAxis::min_position>("min_limit_{u}", -1e7, 1e7, "{u}", "minimum commanded position")),
+    formerly("max_{u}",
+             field<&RackAxis::max_position>("max_limit_{u}", -1e7, 1e7, "{u}", "maximum commanded position")),
     formerly("start_{u}", field<&RackAxis::start_position>("initial_position_{u}", -1e7, 1e7, "{u}",
-                                                           "where the machine stands at the start")),
+                                                           "initial position of the machine")),
     field<&RackAxis::encoder_counts_per_rev>("encoder_counts_per_rev", 0, 10'000'000, "",
                                              "quadrature counts (4 a line) of a motor turn; 0: no encoder"),
     field<&RackAxis::reversed>("reversed", 0, 1, "",
-                               "the motor is mounted the other way round; the direction signal is inverted to match"),
+                               "the motor is mounted reversed; the direction signal is inverted to match"),
     absent_means(field<&RackAxis::following_error_warning>(
                      "following_error_warning_{u}", 0, 1e6, "{u}",
-                     "following error (what drives the axis against encoder counts) that is told; 0: none"),
+                     "following error (commanded position against encoder counts) of a warning; 0: none"),
                  "half of the alarm's"),
     absent_means(field<&RackAxis::following_error_alarm>(
                      "following_error_alarm_{u}", 0, 1e6, "{u}",
-                     "following error that stops the machine and takes the trust from the position; 0: none"),
-                 "1, at least 4 counts; of a servo at least its way of 0.1 s at its greatest speed"),
+                     "following error that stops the machine and invalidates the position; 0: none"),
+                 "1, at least 4 counts; for a servo at least its travel in 0.1 s at maximum speed"),
 };
 
 constexpr std::array<Field, 2> motor_table = {
     field<&RackMotor::start_stop_hz>("start_stop_hz", 1, 1e7, "Hz",
-                                     "pulses (microsteps) a second that it can start and stop with"),
-    field<&RackMotor::pull_out_hz>("pull_out_hz", 1, 1e7, "Hz",
-                                   "pulses (microsteps) a second above which it loses steps"),
+                                     "maximum pulse rate (microsteps/s) for starts and stops"),
+    field<&RackMotor::pull_out_hz>("pull_out_hz", 1, 1e7, "Hz", "pulse rate (microsteps/s) above which it loses steps"),
 };
 
 constexpr std::array<Field, 8> servo_table = {
     formerly("speed_per_volt_{u}_s",
-             field<&RackServo::speed_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "speed for a volt")),
+             field<&RackServo::speed_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "speed per volt")),
     absent_means(formerly("top_speed_{u}_s", field<&RackServo::top_speed>("saturation_velocity_{u}_s", 0.000001, 1e7,
                                                                           "{u}/s", "saturation of the amplifier")),
                  "the speed at 10 V"),
     formerly("top_accel_{u}_s2",
              field<&RackServo::top_accel>("current_limit_accel_{u}_s2", 0.001, 1e9, "{u}/s2",
                                           "acceleration at the amplifier's current limit, without the load")),
-    formerly("friction_{u}_s2", field<&RackServo::friction>("coulomb_friction_{u}_s2", 0, 1e9, "{u}/s2",
-                                                            "how fast it comes to rest without current")),
+    formerly("friction_{u}_s2",
+             field<&RackServo::friction>("coulomb_friction_{u}_s2", 0, 1e9, "{u}/s2", "deceleration without current")),
     formerly("lag_ms", field<&RackServo::lag_ms>("time_constant_ms", 0.1, 10'000, "ms",
                                                  "time constant of the speed, without the load")),
-    field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does nothing"),
+    field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does not react"),
     formerly("load", field<&RackServo::load>("load_inertia_ratio", 0, 1000, "",
                                              "inertia of the load in units of the motor's own")),
-    absent_means(formerly("hold_within_{u}", field<&RackServo::hold_within>(
-                                                 "position_window_{u}", 0, 1e6, "{u}",
-                                                 "after a move the card's lock keeps the axis so near its target")),
-                 "no lock"),
+    absent_means(
+        formerly("hold_within_{u}", field<&RackServo::hold_within>("position_window_{u}", 0, 1e6, "{u}",
+                                                                   "in-position window of the card's position lock")),
+        "no lock"),
 };
 
 constexpr std::array<Field, 7> switch_table = {
@@ -94,8 +93,8 @@ constexpr std::array<Field, 7> switch_table = {
     absent_means(field<&RackSwitches::cam_from>("cam_from_{u}", -1e7, 1e7, "{u}", "a reference cam: active from here"),
                  "no cam"),
     absent_means(field<&RackSwitches::cam_to>("cam_to_{u}", -1e7, 1e7, "{u}", "to here"), "no cam"),
-    field<&RackSwitches::hysteresis>("hysteresis_{u}", 0, 100, "{u}", "way back until a switch is released"),
-    field<&RackSwitches::bounce_ms>("bounce_ms", 0, 100, "ms", "time that contacts bounce; 0: clean edges"),
+    field<&RackSwitches::hysteresis>("hysteresis_{u}", 0, 100, "{u}", "switch hysteresis"),
+    field<&RackSwitches::bounce_ms>("bounce_ms", 0, 100, "ms", "bounce time of the contacts; 0: clean edges"),
 };
 
 constexpr std::array<std::string_view, 2> directions = {"minus", "plus"};
@@ -104,9 +103,9 @@ constexpr std::array<Field, 8> homing_table = {
     formerly("home_type",
              field<&RackHoming::type>(
                  "method", 1, 4, "",
-                 "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the index, 4 as 2 and on to it")),
+                 "1 stop at the switch, 2 then again slowly, 3 as 1, then to the index, 4 as 2, then to the index")),
     with_choices(formerly("direction", field<&RackHoming::direction>("search_direction", 0, 0, "",
-                                                                     "where the home switch is searched")),
+                                                                     "direction of the search for the home switch")),
                  directions),
     absent_means(formerly("speed_{u}_s", field<&RackHoming::speed>("search_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
                                                                    "speed of the search")),
@@ -115,22 +114,22 @@ constexpr std::array<Field, 8> homing_table = {
                           field<&RackHoming::slow_speed>("latch_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
                                                          "speed of the last approach, at most the start speed")),
                  "a quarter of the start speed; of a servo all of it"),
-    absent_means(formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}",
-                                                                       "what the home place is called")),
-                 "where the switch's edge is; types 3 and 4, by index_after behind it: one of both keys is needed"),
+    absent_means(
+        formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
+        "position of the switch edge; types 3 and 4: plus index_after, and one of both keys is required"),
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
-                                                 "how far behind the switch the index is (types 3 and 4); one that is "
+                                                 "distance from the switch to the index (types 3 and 4); one that is "
                                                  "off by more than a quarter of a motor turn is not trusted"),
-                 "the first one; a served machine, the one of its first search"),
+                 "the first index; in a served machine that of its first search"),
     formerly("clearance_{u}", field<&RackHoming::clearance>("backoff_{u}", 0, 1000, "{u}",
-                                                            "way driven on after the switch is released")),
-    formerly("order",
-             field<&RackHoming::order>("sequence", 0, 5, "", "0 is homed first; axes of the same number together")),
+                                                            "distance moved after the switch is released")),
+    formerly("order", field<&RackHoming::order>("sequence", 0, 5, "",
+                                                "0 is homed first; axes of the same number home together")),
 };
 
 constexpr std::array<Field, 6> probe_table = {
     absent_means(formerly("x_from_mm", field<&RackProbe::x_from>("x_min_mm", -1e7, 1e7, "mm",
-                                                                 "the block that the probe touches: from here")),
+                                                                 "start of the block that the probe touches")),
                  "no bound"),
     absent_means(formerly("x_to_mm", field<&RackProbe::x_to>("x_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
     absent_means(formerly("y_from_mm", field<&RackProbe::y_from>("y_min_mm", -1e7, 1e7, "mm", "from here")),
@@ -144,20 +143,20 @@ constexpr std::array<Field, 6> probe_table = {
 constexpr std::array<std::string_view, 2> profiles = {"trapezoid", "jerk_limited"};
 
 constexpr std::array<Field, 3> controller_table = {
-    with_choices(field<&RackController::profile>("profile", 1, 32, "", "how the speed along paths changes"), profiles),
+    with_choices(field<&RackController::profile>("profile", 1, 32, "", "velocity profile of paths"), profiles),
     field<&RackController::default_path_tolerance_mm>("default_path_tolerance_mm", 0, 100, "mm",
-                                                      "how far G64 without P may leave the path"),
+                                                      "path tolerance of G64 without P"),
     field<&RackController::arc_tolerance_mm>("arc_tolerance_mm", 0.000001, 10, "mm",
-                                             "how far short lines may leave an arc"),
+                                             "maximum deviation of short lines from an arc"),
 };
 
 constexpr std::array<Field, 3> safety_table = {
     field<&RackSafety::estop_channels>("estop_channels", 1, 2, "",
                                        "contacts of the emergency stop; 2: the wires `estop1` and `estop2`, of which "
                                        "the first that opens stops the machine"),
-    field<&RackSafety::estop_discrepancy_ms>("estop_discrepancy_ms", 1, 60'000, "ms",
-                                             "so long two contacts may be unlike; then no reset is taken until they "
-                                             "are alike"),
+    field<&RackSafety::estop_discrepancy_ms>(
+        "estop_discrepancy_ms", 1, 60'000, "ms",
+        "how long two contacts may differ; after that no reset is accepted until they are alike"),
     field<&RackSafety::door>("door", 0, 1, "",
                              "a door with the wire `door`, low while it is open: the feed is held, the spindle goes "
                              "off, and nothing begins to move"),

@@ -18,29 +18,29 @@ constexpr std::size_t max_profile_points = 10'000;
 constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
-    field<&RackConveyor::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
+    field<&RackConveyor::encoder>("encoder", 0, 1, "", "encoder input of the card for its encoder"),
     formerly("speed_{u}_s", field<&RackConveyor::speed>("velocity_{u}_s", -parts::max_track_speed,
                                                         parts::max_track_speed, "{u}/s", "how fast it goes")),
-    field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2",
-                                       "how it brakes when a stop ends its motion"),
+    field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2", "deceleration at a stop"),
     only_in(field<&RackConveyor::direction_deg>("direction_deg", -3'600, 3'600, "deg",
-                                                "where it goes, from +X counter-clockwise"),
+                                                "direction of its motion, from +X counter-clockwise"),
             "mm"),
     only_in(field<&RackConveyor::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"),
             "deg"),
     only_in(field<&RackConveyor::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
-    field<&RackConveyor::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "",
-                                          "of its encoder, four a line; negative counts the other way; 0: no encoder"),
-    field<&RackConveyor::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
+    field<&RackConveyor::counts_per_unit>(
+        "counts_per_{u}", -1e6, 1e6, "",
+        "counts of its encoder, four a line; negative counts the other way; 0: no encoder"),
+    field<&RackConveyor::slip>("slip", -0.5, 0.5, "", "slip of the encoder's wheel, share of the travel"),
     field<&RackConveyor::jitter_us>("jitter_us", 0, 1'000, "us",
-                                    "greatest delay of an edge of the encoder; by chance, the same in every run"),
+                                    "maximum random delay of an edge of the encoder; the same in every run"),
 };
 
 constexpr std::array<Field, 4> sender_table = {
     field<&parts::SerialPositionSettings::bits_per_mm>("bits_per_{u}", -1e9, 1e9, "", "resolution"),
     field<&parts::SerialPositionSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
     field<&parts::SerialPositionSettings::delay_us>("delay_us", 0, 1e6, "us",
-                                                    "from a reading to its complete word; less than 255 periods"),
+                                                    "delay from a reading to its complete word; less than 255 periods"),
     only_in(
         field<&parts::SerialPositionSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"),
         "mm"),
@@ -49,22 +49,22 @@ constexpr std::array<Field, 4> sender_table = {
 constexpr std::array<Field, 3> passing_table = {
     formerly("every_{u}", field<&RackParts::every>("part_pitch_{u}", 0.001, 1e6, "{u}", "from part to part")),
     formerly("first_{u}", field<&RackParts::first>("first_part_{u}", -1e6, 1e6, "{u}",
-                                                   "travel at which the first part comes to the sensor")),
+                                                   "travel at which the first part reaches the sensor")),
     field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}",
-                              "of a part, less than the distance: so long the sensor is low"),
+                              "length of a part, less than the pitch; the sensor is low along it"),
 };
 
 constexpr std::array<Field, 5> scanner_table = {
     required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
     absent_means(formerly("part_on", field<&RackScanner::track>("conveyor", 1, 32, "",
                                                                 "name of the belt or table that carries the part")),
-                 "the part lies still"),
+                 "none: the part does not move"),
     field<&RackScanner::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of the field, without a lens"),
     field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um",
-                                      "how far a piece may be off what was marked, where pieces are joined"),
+                                      "maximum distance of a merged piece from the marked path"),
     formerly("greatest_points",
              field<&RackScanner::max_points>("max_points", 16, 4'000'000, "",
-                                             "points of marks that are kept; more are counted only")),
+                                             "stored points of marks; further points are only counted")),
 };
 
 bool has_encoder(const RackConveyor& track) {
@@ -81,7 +81,7 @@ constexpr std::array<ConveyorSignal, 5> track_end_table = {{
     {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
     {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
     {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
-    {"mcbsp_frame", "mcbsp_frame", "changes when a word was complete that is equal to the one before", has_sender,
+    {"mcbsp_frame", "mcbsp_frame", "toggles when a complete word equals the previous one", has_sender,
      "a section sender"},
     {"sensor_n", "start_n", "light barrier: low while a part is there", has_parts, "a section parts"},
 }};
@@ -188,7 +188,7 @@ class MarkingReader {
     /// Reports a card that does not exist; returns true if it exists.
     bool check_card(const std::string& name) {
         const RackCard* card = config_.card(name);
-        if (card == nullptr) return refuse(*node_, "card", fmt::format("there is no card {}.", in_quotes(name))), false;
+        if (card == nullptr) return refuse(*node_, "card", fmt::format("unknown card {}.", in_quotes(name))), false;
         if (card->type == "rtc5" || card->type.empty()) return true;
         return refuse(*node_, "card", fmt::format("card {} is of type {}; one of type rtc5 marks.", name, card->type)),
                false;
@@ -234,7 +234,7 @@ class MarkingReader {
         const parts::SerialPositionSettings& s = *track.sender;
         const TomlNode& table = *node_->find("sender");
         if (s.bits_per_mm == 0)
-            return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
+            return refuse(table, with_unit("bits_per_{u}", unit_), "a sender needs bits other than 0.");
         const double most = static_cast<double>(parts::SerialWordSource::max_under_way - 1) * s.period_us;
         if (!(s.delay_us < most))
             return refuse(
@@ -248,7 +248,7 @@ class MarkingReader {
 
     void check(const RackScanner& scanner) {
         if (scanner.track && config_.track(*scanner.track) == nullptr)
-            refuse(*node_, "conveyor", fmt::format("there is no belt or table {}.", in_quotes(*scanner.track)));
+            refuse(*node_, "conveyor", fmt::format("unknown belt or table {}.", in_quotes(*scanner.track)));
         check_card(scanner.card);
         for (const RackScanner& other : config_.scanners)
             if (other.card == scanner.card)

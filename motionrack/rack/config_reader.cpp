@@ -199,7 +199,7 @@ class RackReader {
                 node.key.size() == 1 && std::string_view("xyzabc").find(node.key[0]) != std::string_view::npos;
             problems_.error(
                 node.key_place,
-                fmt::format("There is no axis {}: the axes are X Y Z (mm) and A B C (degrees){}", in_quotes(node.key),
+                fmt::format("Unknown axis {}: the axes are X Y Z (mm) and A B C (degrees){}", in_quotes(node.key),
                             near ? fmt::format("; did you mean '{}'?", static_cast<char>(node.key[0] - 'a' + 'A'))
                                  : std::string(".")));
         }
@@ -298,7 +298,7 @@ RackReading read_rack_file(const std::filesystem::path& path) {
     std::error_code code;
     const auto status = std::filesystem::status(path, code);
     if (status.type() == std::filesystem::file_type::not_found) {
-        return fail_io("There is no such rack file; 'motionrack new' writes one.");
+        return fail_io("The rack file does not exist; 'motionrack new' writes one.");
     }
     if (!std::filesystem::status_known(status))
         return fail_io(fmt::format("The rack file cannot be reached: {}.", code.message()));

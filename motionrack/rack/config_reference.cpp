@@ -71,7 +71,7 @@ std::string wires_text() {
 }
 
 std::string safety_text(const RackSafety& safety) {
-    return "## [safety]\nContacts for people. Their wires are driven by hand or by a fault: `--fault estop2=0@1s`, "
+    return "## [safety]\nSafety contacts. Their wires are driven by hand or by a fault: `--fault estop2=0@1s`, "
            "`--fault door=0@1s`. What a stop does is on [its own page](../explanations/safety.md).\n\n" +
            fields_table(safety_fields(), &safety, &safety);
 }
@@ -85,10 +85,9 @@ std::string rack_file_reference() {
     const RackAxis rotary = default_axis('A');
     std::string out =
         "# The rack file\nTOML. `motionrack new` writes one to start from. Unknown keys, wrong types and values out of "
-        "range are errors; all "
-        "are told at once, with line and column. Text such as `card.c1 = \"mcx314\"` (a card alone, by its type) is a "
-        "rack too: default settings "
-        "and four ideal axes X Y Z A, 1000 pulses and 1000 encoder counts a mm or degree.\n\n";
+        "range are errors; all are reported at once, with line and column. Text such as `card.c1 = \"mcx314\"` (only a "
+        "card, by its type) is a rack, too: default settings and four ideal axes X Y Z A, 1000 pulses and 1000 encoder "
+        "counts a mm or degree.\n\n";
     out += "## [rack]\n" + fields_table(rack_fields(), &rack, &rack);
     out +=
         "## [card.NAME]\nOne section a card; NAME is yours: letters, digits, `_`. The card types are described "
@@ -134,9 +133,8 @@ std::string rack_file_reference() {
     turning.rotary = true;
     out +=
         "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). "
-        "In place of its speed "
-        "`profile = [[0, 50], [0.5, 120]]`: seconds and speeds, straight between, constant before and after. "
-        "`motionrack run` and `mr_part_set` "
+        "In place of its speed `profile = [[0, 50], [0.5, 120]]`: seconds and speeds, linear between, constant before "
+        "and after. `motionrack run` and `mr_part_set` "
         "change the speed: fault `drive.speed`.\n\n" +
         fields_table(track_fields(), &belt, &turning);
     const parts::SerialPositionSettings sender;
@@ -154,7 +152,7 @@ std::string rack_file_reference() {
     const RackScanner scanner;
     const RackLens lens;
     out +=
-        "## [scanner.NAME]\nMirrors, lens and laser over a part, which keeps what was marked; driven by a card of type "
+        "## [scanner.NAME]\nMirrors, lens and laser over a part, which stores the marks; driven by a card of type "
         "rtc5.\n\n" +
         fields_table(scanner_fields(), &scanner, &scanner);
     out +=

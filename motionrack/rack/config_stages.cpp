@@ -20,19 +20,19 @@ constexpr std::array<Field, 12> stage_table = {
     field<&RackStage::output>("output", 0, grating_bus::output_count - 1, "", "number of the card's analog output"),
     required(field<&RackStage::input>("input", 0, 127, "", "number of its scale at the decoder"), "required"),
     field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2",
-                                           "acceleration for a volt, without the load"),
+                                           "acceleration per volt, without the load"),
     formerly("top_accel_m_s2",
              field<&RackStage::top_accel_m_s2>("current_limit_accel_m_s2", 0.001, 1'000, "m/s2",
                                                "acceleration at the current limit, without the load")),
     formerly("top_speed_m_s", field<&RackStage::top_speed_m_s>("saturation_velocity_m_s", 0.001, 10, "m/s",
-                                                               "there the amplifier's voltage is used up")),
+                                                               "speed at which the amplifier saturates")),
     formerly("viscous_per_s", field<&RackStage::viscous_per_s>("viscous_friction_per_s", 0, 100, "1/s",
-                                                               "brake that grows with the speed, m/s2 for a m/s")),
+                                                               "viscous friction, m/s2 per m/s")),
     formerly("coulomb_m_s2",
-             field<&RackStage::coulomb_m_s2>("coulomb_friction_m_s2", 0, 1'000, "m/s2", "brake of rubbing parts")),
+             field<&RackStage::coulomb_m_s2>("coulomb_friction_m_s2", 0, 1'000, "m/s2", "Coulomb friction")),
     formerly("load", field<&RackStage::load>("load_mass_ratio", 0, 1'000, "", "mass on the stage in units of its own")),
-    absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "where it stands at the start"),
-                 "where its servo's profile begins"),
+    absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "initial position"),
+                 "start of its servo's profile"),
     formerly("end_minus_mm", field<&RackStage::end_minus_mm>("hard_stop_minus_mm", -1e4, 1e4, "mm", "end of travel")),
     formerly("end_plus_mm", field<&RackStage::end_plus_mm>("hard_stop_plus_mm", -1e4, 1e4, "mm", "end of travel")),
 };
@@ -40,18 +40,19 @@ constexpr std::array<Field, 12> stage_table = {
 constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::pitch_um>("pitch_um", 0.001, 1'000, "um", "period of the grating, whole picometres"),
     field<&RackScale::interpolation>("interpolation", 4, 65'536, "", "counts of a pitch, a multiple of 4"),
-    field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down where the stage goes up"),
-    formerly("zero_mm", field<&RackScale::zero_mm>("zero_offset_mm", -1e4, 1e4, "mm", "where its count is 0")),
+    field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down while the stage moves up"),
+    formerly("zero_mm", field<&RackScale::zero_mm>("zero_offset_mm", -1e4, 1e4, "mm", "position of count 0")),
     formerly("fastest_mhz", field<&RackScale::max_count_rate_mhz>("max_count_rate_mhz", 0.001, 1'000, "MHz",
                                                                   "million counts a second; faster counts are lost")),
-    absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "where the reference mark is"),
+    absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "position of the reference mark"),
                  "no such mark"),
     formerly("dirt_at_mm", field<&RackScale::dirt_at_mm>("dirt_position_mm", -1e4, 1e4, "mm",
-                                                         "where the dirt of the fault scale.dirt begins")),
+                                                         "start of the dirty part of the fault scale.dirt")),
 };
 
 constexpr std::array<Field, 16> stage_servo_table = {
-    field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz", "there the open loop crosses 1"),
+    field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz",
+                                         "frequency at which the open loop has gain 1"),
     absent_means(formerly("p_v_um", field<&RackStageServo::p_v_um>("kp_v_um", 0, 1e6, "V/um", "proportional gain")),
                  "by the bandwidth"),
     absent_means(
@@ -61,22 +62,23 @@ constexpr std::array<Field, 16> stage_servo_table = {
         formerly("d_v_s_um", field<&RackStageServo::d_v_s_um>("kd_v_s_um", 0, 1e6, "V s/um", "differential gain")),
         "by the bandwidth"),
     formerly("limit_um", field<&RackStageServo::limit_um>("max_following_error_um", 0, 1e6, "um",
-                                                          "a greater following error opens the loop; 0: none does")),
-    formerly("compute_us", field<&RackStageServo::compute_us>("control_delay_us", 0, 100'000, "us",
-                                                              "from the frame to the voltage, less than a period")),
+                                                          "following error above which the loop opens; 0: none")),
+    formerly("compute_us",
+             field<&RackStageServo::compute_us>("control_delay_us", 0, 100'000, "us",
+                                                "delay from the frame to the voltage, less than a period")),
     with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), stage_profiles),
-    field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: at constant speed from here"),
-    field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "to here, and back"),
-    field<&RackStageServo::step_mm>("step_mm", -1e4, 1e4, "mm", "steps: how far each goes"),
-    field<&RackStageServo::steps>("steps", 1, 1'000'000, "", "steps: so many up, then as many down"),
+    field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: start of the constant speed"),
+    field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "end of the constant speed; then back"),
+    field<&RackStageServo::step_mm>("step_mm", -1e4, 1e4, "mm", "steps: length of a step"),
+    field<&RackStageServo::steps>("steps", 1, 1'000'000, "", "number of steps up, then the same number down"),
     formerly("every_ms",
-             field<&RackStageServo::every_ms>("step_period_ms", 0.1, 1e6, "ms", "steps: time from one to the next")),
+             field<&RackStageServo::every_ms>("step_period_ms", 0.1, 1e6, "ms", "steps: time between two steps")),
     formerly("speed_mm_s",
              field<&RackStageServo::speed_mm_s>("max_velocity_mm_s", 0.001, 10'000, "mm/s", "greatest speed")),
     formerly("accel_mm_s2",
              field<&RackStageServo::accel_mm_s2>("max_accel_mm_s2", 0.001, 1e6, "mm/s2", "greatest acceleration")),
     formerly("jerk_mm_s3", field<&RackStageServo::jerk_mm_s3>("max_jerk_mm_s3", 0.001, 1e12, "mm/s3", "greatest jerk")),
-    field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "the profile begins then"),
+    field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "start time of the profile"),
 };
 
 class StageReader {
@@ -125,7 +127,7 @@ class StageReader {
 
     void check(const RackStage& stage, const TomlNode& node) {
         const RackCard* card = config_.card(stage.card);
-        if (card == nullptr) return refuse(node, "card", fmt::format("there is no card {}.", in_quotes(stage.card)));
+        if (card == nullptr) return refuse(node, "card", fmt::format("unknown card {}.", in_quotes(stage.card)));
         if (card->type != "grating_bus")
             return refuse(
                 node, "card",
@@ -164,12 +166,12 @@ class StageReader {
         if (table == nullptr) return;
         const double pm = stage.scale.pitch_um * 1e6;
         if (std::fabs(pm - std::floor(pm + 0.5)) > 1e-6)
-            refuse(
-                *table, "pitch_um",
-                fmt::format("a pitch of {} um is no whole number of picometres.", number_text(stage.scale.pitch_um)));
+            refuse(*table, "pitch_um",
+                   fmt::format("a pitch of {} um is not a whole number of picometres.",
+                               number_text(stage.scale.pitch_um)));
         if (stage.scale.interpolation % 4 != 0)
             refuse(*table, "interpolation",
-                   fmt::format("{} counts of a pitch are no multiple of 4, so that A and B could not show them.",
+                   fmt::format("{} counts of a pitch are no multiple of 4, which A and B cannot represent.",
                                stage.scale.interpolation));
     }
     bool check_servo(const RackStage& stage, const TomlNode& node) {
@@ -177,7 +179,7 @@ class StageReader {
         const TomlNode& table = *node.find("servo");
         if (stage.servo->compute_us >= config_.card(stage.card)->grating_bus.period_us)
             refuse(table, "control_delay_us",
-                   fmt::format("computing takes {} us, but there is a frame every {} us.",
+                   fmt::format("computing takes {} us, but the frame period is {} us.",
                                number_text(stage.servo->compute_us),
                                number_text(config_.card(stage.card)->grating_bus.period_us)));
         const std::string flaw = profile_flaw(stage);

@@ -1,5 +1,5 @@
-// Wires: the default rule of each card type, and the changes by the rack file. In the file, the input stands left and
-// the output that drives it right, so that the grammar of TOML itself permits one driver per input:
+// Wires: the default rule of each card type, and the changes by the rack file. In the file, the input must be on the
+// left and the output that drives it right, so that the grammar of TOML itself permits one driver per input:
 //
 //   [wires]
 //   "motion.xlmtp" = "Y.limit_plus"    # replaces X.limit_plus
@@ -154,7 +154,7 @@ class WireResolver {
         const auto found = known_.find(name);
         if (found != known_.end()) {
             if (found->second.missing.empty()) return &found->second;
-            error(place, fmt::format("There is no {}: {}.", name, found->second.missing));
+            error(place, fmt::format("The rack does not have {}: {}.", name, found->second.missing));
             return nullptr;
         }
         const std::string owner = name.substr(0, name.find('.'));
@@ -178,7 +178,7 @@ class WireResolver {
     void read_wire(const std::string& given, const TomlNode& node) {
         if (node.type != TomlType::text) {
             error(node.value_place,
-                  fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
+                  fmt::format("The wire {} is {}; write its source in quotes, such as \"X.home\", or \"open\".",
                               in_quotes(given), type_name(node.type)));
             return;
         }
@@ -214,8 +214,9 @@ class WireResolver {
                               name, node.text));
         } else if (left.direction == output) {
             error(node.key_place,
-                  fmt::format("{0} is an output and {1} an input; the input stands left: write \"{1}\" = \"{0}\".",
-                              name, node.text));
+                  fmt::format(
+                      "{0} is an output and {1} an input; the input must be on the left: write \"{1}\" = \"{0}\".",
+                      name, node.text));
         } else if (right.direction == input) {
             inputs_[name] = &node;
         } else if (left.carries != right.carries) {
@@ -239,7 +240,7 @@ class WireResolver {
             }
             if (at->text == name) {
                 told.insert(way.begin(), way.end());
-                error(node->key_place, fmt::format("These wires go round in a circle: {} = {}; no output drives them.",
+                error(node->key_place, fmt::format("These wires form a loop: {} = {}; no output drives them.",
                                                    fmt::join(way, " = "), name));
             } else {
                 error(node->key_place, fmt::format("{} and {} are both inputs; name the output that drives {}.", name,
@@ -262,10 +263,9 @@ class WireResolver {
                 const auto its = wires_.find(each.first);
                 return its != wires_.end() && its->second.from == output;
             });
-            error(
-                named != named_.end() ? named->second->key_place : Place{},
-                fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.",
-                            from, max_inputs));
+            error(named != named_.end() ? named->second->key_place : Place{},
+                  fmt::format("{} drives more than {} inputs, the limit of an output; leave some open.", from,
+                              max_inputs));
         }
     }
 

@@ -73,7 +73,7 @@ struct ByteValue {
 constexpr ByteValue quantities_of_card[] = {
     {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }, "frequency of the pulses at FOUT"},
     {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); },
-     "what its position counter shows"},
+     "value of its position counter"},
 };
 
 // Values beside the registers; own_number: card number written to port 1 to select the card.

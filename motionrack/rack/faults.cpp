@@ -101,7 +101,7 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
     }
     if (found.axis != nullptr && !has_part(*found.axis, found.name))
         return fail(ErrorKind::refused,
-                    fmt::format("Axis {} has nothing that could have the fault {}; see its section of the rack "
+                    fmt::format("Axis {} has no part with the fault {}; see its section of the rack "
                                 "file. Nothing was done.",
                                 target, found.name));
     return found;
@@ -151,9 +151,9 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
     if (found.track != nullptr && rack.stop_latch().latched() && found.name.substr(0, 6) == "drive.")
-        return fail(ErrorKind::refused, fmt::format("{} stands by a stop and stays so until that is reset. Nothing was "
-                                                    "done; reset it, then start {} again.",
-                                                    target, target));
+        return fail(ErrorKind::refused,
+                    fmt::format("{} is stopped until a reset. Nothing was done; reset the stop, then start {} again.",
+                                target, target));
     const Instant now = rack.kernel().now();
     const sim::DeviceId device = device_of(found);
     const auto names = names_of(found);

@@ -156,7 +156,7 @@ std::vector<FollowingWatch::Warning> FollowingWatch::take_warnings() {
         if (own.worst == 0 || own.excess != 0 || std::exchange(own.told, 1) != 0) continue;
         const RackAxis& axis = rack_.axes()[watched_[i].axis].config;
         out.push_back({watched_[i].axis, own.warned_at,
-                       fmt::format("the following error of {} was {:.3f} {}, above {:g} {}, where it is told; look at "
+                       fmt::format("the following error of {} was {:.3f} {}, above the warning limit of {:g} {}; check "
                                    "its motor, its load and its encoder",
                                    axis.letter, own.worst / axis.counts_per_unit(), axis.unit(),
                                    axis.following_warning(), axis.unit())});

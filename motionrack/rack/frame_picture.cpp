@@ -65,7 +65,7 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     const gb::Bus* bus = grating_bus_of(rack);
     if (bus == nullptr || bus->cards().empty())
         return fail(ErrorKind::refused,
-                    "The rack has no card of type grating_bus, so there is no frame to draw. Nothing was written.");
+                    "The rack has no card of type grating_bus, so it has no frames to draw. Nothing was written.");
     WireTap tap(rack.kernel());
     rack.start();
     const gb::CardSettings& settings = bus->cards().front()->settings();

@@ -20,10 +20,10 @@ Result<std::unique_ptr<FrameStepper>> FrameStepper::create(Rack& rack, std::stri
         return fail(ErrorKind::invalid_input,
                     "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
     if (!found && name.empty())
-        return fail(ErrorKind::invalid_input,
-                    fmt::format("No card of the rack's grating bus is its host; name the card "
-                                "whose frames are wanted: {}. Nothing was done.",
-                                known));
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("No card of the rack's grating bus is its host; name the card to read: {}. Nothing was done.",
+                        known));
     if (!found)
         return fail(
             ErrorKind::invalid_input,

@@ -116,8 +116,8 @@ class GratingCard final : public Member {
 
     std::vector<std::string_view> quantity_names() const override { return {"age_us", "sequence", "stale"}; }
     std::string_view quantity_doc(std::string_view name) const override {
-        if (name == "age_us") return "how old the frame is that it published last; -1: there is none";
-        if (name == "sequence") return "number of that frame; -1: there is none";
+        if (name == "age_us") return "age of its last published frame; -1: none";
+        if (name == "sequence") return "number of that frame; -1: none";
         return "1 while its frame is too old to be used, else 0";
     }
     std::optional<double> quantity(std::string_view name) const override {

@@ -102,9 +102,11 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
         if (!is_grating(other)) continue;
         const gb::CardSettings its = settings_among(other, before.first(i));
         if (own.scales != its.scales)
-            return CardFlaw{"scales", fmt::format("Card {} reads {} scales and card {} reads {}; all cards of a bus "
-                                                  "take the same number, as the host reads them.",
-                                                  other.name, its.scales, card.name, own.scales)};
+            return CardFlaw{
+                "scales",
+                fmt::format(
+                    "Card {} reads {} scales and card {} reads {}; all cards of a bus read the same number of scales.",
+                    other.name, its.scales, card.name, own.scales)};
         if (own.period != its.period)
             return CardFlaw{
                 "period_us",

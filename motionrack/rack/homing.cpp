@@ -285,12 +285,12 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
         return refuse(
             fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
                         type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
-    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}, but may be 1 to 4", h.type));
+    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}; it must be 1 to 4", h.type));
     const bool plus = h.direction == HomingDirection::plus;
     if (type.position_loop && plus && !cam)
         return refuse(
-            "its home switch is active at and below its place, so its edge is searched in - direction; give it a cam, "
-            "or the other direction");
+            "its home switch is active at and below its position, so its edge must be searched in - direction; give it "
+            "a cam, or the other direction");
     control::HomingRequest order;
     order.type = static_cast<control::HomingMethod>(h.type);
     order.towards_plus = plus;
@@ -303,8 +303,8 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
     if (h.type >= 3 && !h.position && !h.index_after)
         return refuse(
-            fmt::format("type {0} ends at the encoder's index, and nothing says where that is; give it home_offset_{1} "
-                        "(what the index is called) or index_after_{1} (how far behind the switch it is)",
+            fmt::format("type {0} ends at the encoder's index, whose position is unknown; give it home_offset_{1} "
+                        "(position of the index) or index_after_{1} (distance behind the switch)",
                         h.type, axis.unit()));
     const double to_home = h.type < 3 ? 0 : h.index_after.value_or(0);
     order.position = h.position.value_or(plus ? edge + to_home : edge - to_home);

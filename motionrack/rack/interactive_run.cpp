@@ -126,7 +126,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
             case ExecutionState::idle:
                 if (commands.stopped())
                     return fail(ErrorKind::stopped,
-                                fmt::format("Stopped on request in line {}; the axes came to rest along the path.",
+                                fmt::format("Stopped on request in line {}; the axes stopped along the path.",
                                             stream.current_line()),
                                 {stream.current_line(), 0}, file);
                 if (!feeder.more()) return feeder.outcome();

@@ -283,10 +283,11 @@ void Job::tell_stop(JobOutcome& out) {
     if (!latch.latched()) return;
     const bool asked = latch.is_ordered();
     if (asked || (!out.ended && out.ended.error().kind != ErrorKind::stopped)) return;
-    out.ended = fail(ErrorKind::machine,
-                     fmt::format("{} The program was stopped in line {} and nothing after it was driven. {} {}",
-                                 latch.sentence(), line_, latch.position_sentence(), "Mend the cause and start again."),
-                     {line_, 1});
+    out.ended =
+        fail(ErrorKind::machine,
+             fmt::format("{} The program was stopped in line {} and nothing after it was executed. {} {}",
+                         latch.sentence(), line_, latch.position_sentence(), "Remove the cause and start again."),
+             {line_, 1});
 }
 
 /// Records late segments as breaches. Returns one warning of each other kind, with its number of lines.

@@ -225,9 +225,8 @@ Result<void> JobRecorder::finish(const JobOutcome& outcome, trace::ReportData re
     end.report = std::move(report);
     const Result<void> closed = writer_.close(end);
     if (!closed || lost_ == 0) return closed;
-    return fail(
-        ErrorKind::io,
-        fmt::format("{} events came at one instant, more than a recording can hold, and were left out.", lost_));
+    return fail(ErrorKind::io,
+                fmt::format("{} events of one instant exceed the limit of a recording and were omitted.", lost_));
 }
 
 }  // namespace motionrack::rack

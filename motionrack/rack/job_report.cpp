@@ -88,13 +88,13 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
 std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.ended) return outcome.ended.error().message;
     if (!outcome.position_valid)
-        return "The program ended, but motors lost steps: the machine is not where the controller believes it is. "
+        return "The program ended, but motors lost steps: the true positions differ from the commanded ones. "
                "Lower speed or acceleration.";
     if (const std::vector<Breach>& breaches = outcome.breaches.all(); !breaches.empty())
         return fmt::format("The program ended, but motors may have lost steps: {}{}.", sentence_of(breaches.front()),
                            breaches.size() > 1 ? ". Other limits were broken too; see the warnings" : "");
-    if (outcome.rest_axis < 0) return "The program ended; every axis stands exactly where it was sent.";
-    return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.",
+    if (outcome.rest_axis < 0) return "The program ended; every axis is exactly at its commanded position.";
+    return fmt::format("The program ended; servos are at most {:.3f} {} ({}) from their commanded positions.",
                        outcome.rest_off, outcome.rest_axis < 3 ? "mm" : "deg",
                        control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
@@ -145,23 +145,21 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     for (const JobWarning& warning : outcome.warnings)
         data.warnings.push_back({to_seconds(warning.at - began), warning.line, warning.text});
     data.notes = {
-        fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two "
-                    "looks is not drawn.",
+        fmt::format("Positions are those of the motors' rotors, sampled every {:.3g} ms; motion between two samples is "
+                    "not drawn.",
                     to_seconds(job.monitor().period()) * 1e3),
-        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a "
-        "start, a stop, a corner) there "
-        "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in "
-        "pieces of a few pulses.",
+        "Speeds are those of the pulse train; acceleration is computed over four samples. Where the speed jumps (at a "
+        "start, a stop, a corner) no acceleration is drawn; the table has the maximum jump, less the part that comes "
+        "from rounding to whole pulses in short segments.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
         "Deviation is the distance of X, Y, Z from the program as it is written: before corners are cut, short moves "
-        "merged and places rounded to pulses. A rotary axis that lags behind does not show in it."};
+        "are merged and positions rounded to pulses. It does not include the lag of a rotary axis."};
     if (outcome.rest_axis >= 0)
         data.notes.push_back(
-            "A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and "
-            "friction let "
-            "it; each move is as long as the card's slope table makes it, not as the plan has it. The table has 24 "
-            "steps of speed up and 24 down, "
-            "each a jump of the voltage, so the acceleration is in turn above its limit and below it.");
+            "The speed of a servo follows its voltage after the card's relay, with its lag, current limit and "
+            "friction; the duration of a move follows from the card's slope table, not from the plan. The table has 24 "
+            "steps of speed up and 24 down, each a jump of the voltage, so the acceleration alternates above and below "
+            "its limit.");
     return data;
 }
 

@@ -38,8 +38,8 @@ inline constexpr std::array<Field, 5> galvo_keys = {
 
 inline constexpr std::array<Field, 3> laser_keys = {
     field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
-    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
-    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
+    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "delay from the gate to laser on"),
+    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "delay from the gate to laser off"),
 };
 
 }  // namespace motionrack::rack

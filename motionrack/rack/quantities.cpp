@@ -113,7 +113,7 @@ tl::unexpected<Error> no_such_part(Rack& rack, std::string_view name) {
     std::vector<std::string> parts;
     each_part(rack, [&](const auto& part) { parts.push_back(name_of(part)); });
     return fail(ErrorKind::invalid_input,
-                fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
+                fmt::format("Unknown quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
                             "this rack are: {}. Nothing was done.",
                             in_quotes(name), parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "))));
 }
@@ -150,7 +150,7 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
             fmt::format("{} follows from the machine and cannot be set; set the position. Nothing was done.", name));
     if (!std::isfinite(value))
         return fail(ErrorKind::refused,
-                    fmt::format("{} cannot become {}: that is no number. Nothing was done.", name, value));
+                    fmt::format("{} cannot become {}: that is not a number. Nothing was done.", name, value));
     parts::AxisMechanics& machine = *axis.machine;
     const double push = row->push(axis, value, rack.kernel().now());
     if (!(std::fabs(push) <= max_push))

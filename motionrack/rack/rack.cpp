@@ -299,8 +299,8 @@ Result<void> check_agrees(const RunningAxis& axis, double position) {
     if (std::fabs(counted - position) * units <= slack_pulses) return {};
     return fail(
         ErrorKind::refused,
-        fmt::format("Card {} has axis {} at {:.4f} {}, but it is at {:.4f}: somebody wrote to the card's counter, "
-                    "or its encoder is not counted. Nothing was moved; home it, or take another rack.",
+        fmt::format("Card {} has axis {} at {:.4f} {}, but it is at {:.4f}: another program wrote to the "
+                    "card's counter, or its encoder is not counted. Nothing was moved; home it, or take another rack.",
                     axis.config.card, axis.config.letter, counted, axis.config.unit(), position));
 }
 
@@ -344,9 +344,8 @@ control::Point Rack::start_position() const {
 std::string Rack::describe(const sim::Condition& condition) {
     if (condition.device == sim::no_device)
         return fmt::format(
-            "{}: at {:.6f} s this wire leads back to what drives it and did not come to rest after {} changes; it was "
-            "left as "
-            "it was. Look at the section [wires] of the rack file",
+            "{}: at {:.6f} s this wire is part of a loop and did not settle after {} changes; it was left as it was. "
+            "Check the section [wires] of the rack file",
             kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
     for (const RunningAxis& axis : axes_)
         if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device))

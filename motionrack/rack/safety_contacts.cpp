@@ -43,7 +43,7 @@ std::vector<std::string> SafetyContacts::take_alarms() {
     if (state_.differs == 0 || std::exchange(state_.told, 1) != 0) return {};
     return {fmt::format(
         "The two channels of the emergency stop have differed for {:g} ms at {:.3f} s: estop{} is open, "
-        "estop{} closed. No reset is taken until both are alike; look at both contacts and their wires.",
+        "estop{} closed. No reset is accepted until both are equal; check both contacts and their wires.",
         settings_.estop_discrepancy_ms, to_seconds(state_.differs_at), level(0) == 0 ? 1 : 2, level(0) == 0 ? 2 : 1)};
 }
 

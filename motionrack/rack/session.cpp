@@ -46,10 +46,9 @@ Result<void> refuse_time_beyond_end(Instant now) {
 Result<Duration> Session::time_of(std::uint64_t ns) const {
     MOTIONRACK_CHECK(check_free());
     if (ns > max_ns)
-        return fail(ErrorKind::refused,
-                    fmt::format("{} ns are more than one call may run, {} ns; nothing was run. Call "
-                                "several times.",
-                                ns, max_ns));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("{} ns exceed the limit of a call, {} ns; nothing was run. Call several times.", ns, max_ns));
     const Duration time = nanoseconds(static_cast<std::int64_t>(ns));
     MOTIONRACK_CHECK(room_for(time));
     return time;
@@ -205,8 +204,8 @@ void Session::tell_conditions() {
 
 Result<void> refuse_in_a_call_back() {
     return fail(ErrorKind::refused,
-                "A call-back of this rack, in the middle of a call that lets time pass, cannot let time pass, copy the "
-                "rack or close it. Nothing was done; return from the call-back first.");
+                "A call-back of this rack, during a call that advances time, cannot advance time, copy the rack or "
+                "close it. Nothing was done; return from the call-back first.");
 }
 
 // ---- recordings
@@ -248,7 +247,7 @@ Result<void> Session::stop_trace() {
     if (!ended) {
         ended.error().message += recorder_->can_end_again()
                                      ? " The recording goes on; end it again, or begin another in its place."
-                                     : " What was recorded is lost; begin another recording in its place.";
+                                     : " The recording is lost; begin another one.";
         return ended;
     }
     recorder_.reset();

@@ -29,10 +29,10 @@ std::string profile_flaw(const RackStage& stage) {
     if (!stage.servo) return {};
     const RackStageServo& s = *stage.servo;
     if (s.profile == StageProfile::scan && !(s.from_mm < s.to_mm))
-        return fmt::format("from_mm is {} and to_mm is {}; a scan goes from the smaller to the greater.",
-                           number_text(s.from_mm), number_text(s.to_mm));
+        return fmt::format("from_mm is {} and to_mm is {}; from_mm must be below to_mm.", number_text(s.from_mm),
+                           number_text(s.to_mm));
     if (s.profile != StageProfile::steps) return {};
-    if (s.step_mm == 0) return "step_mm is 0; a step goes somewhere.";
+    if (s.step_mm == 0) return "step_mm is 0; it must be other than 0.";
     const double way = std::fabs(s.step_mm) * nm_per_mm;
     const double move = gb::StepProfile(0, way, 1, 1e9, limits_of(s)).move_s();
     if (move > s.every_ms * 1e-3)
@@ -203,9 +203,8 @@ std::string describe_loop(const sim::Condition& condition, const RackStage& stag
             "trusted",
             stage.name, at, stage.card);
     return fmt::format(
-        "stage {}: at {:.6f} s it was {} nm from where it was to be, more than max_following_error_um = {}; card {} "
-        "opened its loop: "
-        "0 V",
+        "stage {}: at {:.6f} s its following error was {} nm, more than max_following_error_um = {}; card {} opened "
+        "its loop: 0 V",
         stage.name, at, condition.b, number_text(stage.servo->limit_um), stage.card);
 }
 

@@ -28,12 +28,12 @@ struct SourceWords {
 };
 constexpr std::array<SourceWords, stop_sources.size()> words = {{
     {StopSource::emergency_stop, "emergency stop", "Release it, then reset."},
-    {StopSource::stop_command, "STOP command", "Reset, then start anew."},
+    {StopSource::stop_command, "STOP command", "Reset, then start again."},
     {StopSource::drive_alarm, "drive alarm", "Clear it at the drive, then reset."},
     {StopSource::limit_switch, "limit switch", "Reset, then move it off the switch."},
     {StopSource::watchdog, "watchdog", "Reset, then home."},
     {StopSource::following_error, "following error",
-     "Look at its motor, its load and its encoder, then reset and home it."},
+     "Check its motor, its load and its encoder, then reset and home it."},
 }};
 
 const SourceWords& words_of(StopSource source) {
@@ -299,7 +299,7 @@ void StopLatch::settle(bool failed) {
 Result<void> StopLatch::reset() {
     if (contacts_.differs())
         return fail(ErrorKind::refused,
-                    "Not reset: the two channels of the emergency stop are unlike. Nothing was changed; look at both "
+                    "Not reset: the two channels of the emergency stop differ. Nothing was changed; check both "
                     "contacts and their wires, then reset.");
     for (const Input& input : inputs_) {
         if (!is_active(input)) continue;
@@ -352,7 +352,7 @@ std::string StopLatch::sentence() const {
 
 std::string StopLatch::position_sentence() const {
     constexpr std::array<std::string_view, 3> reasons = {"its motor did not follow, or its encoder does not count",
-                                                         "its card was reset and counts anew",
+                                                         "its card was reset and counts from 0",
                                                          "steps may have been lost"};
     std::array<std::string, reasons.size()> lost;
     for (const RunningAxis& axis : rack_.axes()) {

@@ -77,32 +77,33 @@ constexpr std::array reactions = {
     StopReaction{"mcx314", to({emergency_stop}), category_0, StopBy::card,
                  "the chip ends all pulses at once, at its input emgn", milliseconds(1)},
     StopReaction{"mcx314", to({limit_switch}), category_2, StopBy::card,
-                 "the chip decelerates the axis that moves towards it, and with it the path, until the piece that it "
-                 "drives ends; no axis moves: nothing begins to", milliseconds(1), true},
+                 "the chip decelerates the axis that moves towards it, and with it the path, until the end of its current "
+                 "segment; at standstill: motion is blocked", milliseconds(1), true},
     StopReaction{"mcx314", to({stop_command, drive_alarm, watchdog, following_error}), category_2, StopBy::drive,
-                 "all axes decelerate along their path and hold their places", a_slice, true},
+                 "all axes decelerate along their path and hold their positions", a_slice, true},
     StopReaction{"databoard4002", to({emergency_stop}), category_0, StopBy::card,
-                 "the relay takes the voltage off the amplifier, at its input ems; the axis is braked by the amplifier",
+                 "the relay disconnects the amplifier's voltage, at its input ems; the amplifier brakes the axis",
                  milliseconds(1), true},
     StopReaction{"databoard4002", to({limit_switch, watchdog}), category_0, StopBy::card,
                  "the card ends the move by itself, without a ramp: 0 V", milliseconds(1), true},
     StopReaction{"databoard4002", to({stop_command, drive_alarm, following_error}), category_2, StopBy::drive,
-                 "the axis decelerates with its own acceleration and holds its place", a_slice, true},
+                 "the axis decelerates with its own acceleration and holds its position", a_slice, true},
     StopReaction{"rtc5", every, category_0, StopBy::latch,
-                 "the laser goes off, lists end, and starts are no longer taken; the mirrors stay where they are",
+                 "the laser goes off, lists end, and starts are no longer accepted; the mirrors stay where they are",
                  milliseconds(2), false, laser_off},
     StopReaction{"belt", every, category_1, StopBy::latch,
-                 "belts and tables brake with their own deceleration, and go off", milliseconds(2), true, stop_belts},
+                 "belts and tables stop with their own deceleration, then power off", milliseconds(2), true,
+                 stop_belts},
     StopReaction{"stage", to({emergency_stop}), category_1, StopBy::latch,
-                 "stages brake on their own way; 50 ms later their loops are opened, 0 V", milliseconds(2), true,
+                 "stages decelerate along their profile; 50 ms later their loops open, 0 V", milliseconds(2), true,
                  stop_stages},
     StopReaction{"stage", but_the_button, category_2, StopBy::latch,
-                 "stages brake on their own way and hold their places", milliseconds(2), true, stop_stages},
+                 "stages decelerate along their profile and hold their positions", milliseconds(2), true, stop_stages},
     StopReaction{"grating_bus", every, category_0, StopBy::latch,
-                 "analog outputs without a loop go to 0 V; frames go on", milliseconds(2), false,
+                 "analog outputs without a loop go to 0 V; frames continue", milliseconds(2), false,
                  clear_analog_outputs},
     StopReaction{"ioflex02", every, category_0, StopBy::latch,
-                 "its outputs go to 0; counting goes on", milliseconds(2), false, clear_outputs},
+                 "its outputs go to 0; counting continues", milliseconds(2), false, clear_outputs},
     StopReaction{"spindle", every, category_0, StopBy::drive,
                  "spindle and coolant go off", a_slice},
 };
@@ -145,8 +146,9 @@ Result<void> start_part(Rack& rack, std::string_view name) {
     }
     const RunningStage* stage = rack.stage(name);
     if (stage == nullptr || stage->processor == nullptr)
-        return fail(ErrorKind::invalid_input,
-                    fmt::format("There is no belt, table or stage with a loop called {}. Nothing was started.", name));
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("No belt, table or stage with a control loop has the name {}. Nothing was started.", name));
     std::array<std::int64_t, grating_bus::output_count> counts{};
     for (const RunningStage& one : rack.stages())
         if (one.processor == stage->processor)

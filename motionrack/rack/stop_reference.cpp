@@ -13,11 +13,11 @@ struct SourceText {
 };
 constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
     {StopSource::emergency_stop,
-     "the rack's button (the wire `estop`), or a card's own input for it, however short; of two channels "
+     "the rack's button (the wire `estop`), or a card's own input for it, however short; with two channels "
      "(`estop_channels = 2`: `estop1`, `estop2`) the first that opens",
-     "once it is released; where two channels were unlike for 500 ms (`estop_discrepancy_ms`), which is an alarm of "
+     "once it is released; after a discrepancy of two channels for 500 ms (`estop_discrepancy_ms`), which is an alarm of "
      "its "
-     "own, once both are alike"},
+     "own, once both are equal"},
     {StopSource::stop_command,
      "STOP on the page, `POST /api/stop`, `machine.stop()`, `--at stop@TIME`; in a run the door, "
      "which is opened",
@@ -29,12 +29,12 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
      "left",
      "at any time: the axis must be moved off it"},
     {StopSource::watchdog,
-     "a DataBoard 4002 that was reset because its program hung; it is seen at the next slice (2 ms, of a run 50 ms)",
+     "a DataBoard 4002 that was reset because its program hung; detected at the next slice (2 ms, of a run 50 ms)",
      "at any time"},
     {StopSource::following_error,
      "the encoder of an axis that counts less, or more, than its card has sent by more than its "
-     "`following_error_alarm_mm` (`_deg`); looked at each millisecond",
-     "at any time; the error begins anew at 0, the position is not trusted"},
+     "`following_error_alarm_mm` (`_deg`); checked each millisecond",
+     "at any time; the error restarts at 0, the position is not trusted"},
 }};
 
 constexpr std::string_view begin = R"(# What a stop does
@@ -50,14 +50,14 @@ releases it:
          +----------------------> LATCH <--------------------------+
                                     |---> axes stop, nothing begins to move, dwells and holds end
                                     |---> laser off, belts stand, stages brake, outputs 0: the table of reactions
-                                    `---> error stop, with a sentence; what was under way is forgotten
+                                    `---> error stop, with a sentence; the program is discarded
 
     LATCH -- reset, once the cause is gone --> standstill -- a new command --> motion
 
 - **No motion before a reset.** Programs, lines, jogs, homing, marking and resume are refused, with what stopped the
   machine.
-- **A reset releases what was there when it was ordered.** A stop that comes later, while the machine still brakes,
-  stays until the next reset.
+- **A reset releases the causes that were present when it was ordered.** A later
+  stop, while the machine still decelerates, stays until the next reset.
 - **A reset moves nothing.** Programs and lines that were under way are forgotten; belts and stages stay
   where they are until the command `start_part`.
 - **A new start takes both**: the reset and a new command.
@@ -66,9 +66,9 @@ releases it:
 
 A door (`door = true` in `[safety]`, the wire `door`) that is opened holds the feed of a served machine, puts spindle
 and coolant off, stops jogs and searches for home, and raises an alarm; nothing begins to move while it is open.
-Closing it moves nothing: a resume does, and brings spindle and coolant back. A run has nobody to resume it, and ends.
+Closing it moves nothing: a resume does, and brings spindle and coolant back. A run has no operator, and ends.
 
-A card in service, whose library's functions somebody calls by hand, is driven by nothing else. Every source stops all
+A card in service is driven only by its library's functions, which the user calls by hand. Every source stops all
 of its axes at once, without a ramp, within 5 ms, and ends the service with the stop in force; so do, without one, the
 end of the service, lost control, a client that has gone, disabling, an open door and the end of the program. The
 controller then sets the card up again, and the positions of its axes are not trusted.
@@ -77,7 +77,7 @@ Of a real card in service (`motionrack serve --live`) the quick stop of all axes
 axes are looked at until they stand. Where the computer refuses the write, or an axis drives on, an alarm says so and
 stays: then only the emergency stop of the card's own wires is left. Its own switches and alarms stop its axes alone.
 
-This is a simulation and its software. It is no safety function: a real machine needs an emergency stop that is
+This is a simulation and its software. It is not a safety function: a real machine needs an emergency stop that is
 wired without any software.
 
 )";
@@ -118,7 +118,7 @@ std::string_view doer_of(StopBy by) {
         case StopBy::card:
             return "the card";
         case StopBy::drive:
-            return "whoever drives";
+            return "the executor";
         case StopBy::latch:
             return "the latch";
     }

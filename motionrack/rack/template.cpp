@@ -129,7 +129,7 @@ void write_axis(Writer& out, const RackAxis& axis) {
         out.section(name + ".motor", "the stepping motor; its pulses are microsteps");
         out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
     }
-    out.section(name + ".switches", "machine positions where they act; leave a switch out and the axis has none");
+    out.section(name + ".switches", "machine positions at which they act; an omitted switch does not exist");
     out.fields(switch_fields(), &axis.switches, &defaults.switches, unit);
     out.section(name + ".homing", "how the axis finds its home switch (motionrack home)");
     out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
@@ -142,8 +142,7 @@ void write_head(Writer& out, const RackConfig& config, const std::string& card_n
     card.name = card_name;
     card.slot = 0;
     const CardType& type = *find_card_type(card.type);
-    out.line(
-        "# A rack file: cards, axes, wires. Each comment tells what the key means; its range and unit; its default.");
+    out.line("# A rack file: cards, axes, wires. Each comment tells its meaning, range, unit and default.");
     const RackConfig defaults;
     const RackCard card_defaults;
     out.section("rack", "the whole machine");
@@ -163,7 +162,7 @@ std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     for (const RackAxis& axis : config.axes) write_axis(out, axis);
     out.section("controller", "how paths are cut where the part program does not say");
     out.fields(controller_fields(), &config.controller, &defaults.controller, "");
-    out.section("safety", "contacts for people: the emergency stop and a door");
+    out.section("safety", "safety contacts: the emergency stop and a door");
     out.fields(safety_fields(), &config.safety, &defaults.safety, "");
     out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
     if (type.channels.empty()) {
@@ -191,16 +190,14 @@ std::string marking() {
     Writer out;
     write_head(out, config, "scan", "rtc5");
     out.section("belt.line",
-                "what carries the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
+                "conveyor of the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
     out.fields(track_fields(), &line, &line_defaults, "mm");
-    out.line("# profile = [[0, 0], [0.5, 100]]        # in place of the speed: seconds and speeds, straight between");
-    out.section(
-        "belt.line.parts",
-        "parts at equal distances before a light barrier, which starts the card; leave it out and there are none");
+    out.line("# profile = [[0, 0], [0.5, 100]]        # instead of the speed: seconds and speeds, linear between");
+    out.section("belt.line.parts", "parts at equal distances before a light barrier, which starts the card; optional");
     out.fields(passing_fields(), &parts, &parts, "mm");
-    out.section("scanner.head", "mirrors and laser over the belt, and the part, which keeps what was marked");
+    out.section("scanner.head", "mirrors and laser over the belt, and the part, which stores the marks");
     out.fields(scanner_fields(), &head, &head_defaults, "", {"bits_per_mm"});
-    out.section("scanner.head.lens", "the field's optics; leave it out and the field is straight");
+    out.section("scanner.head.lens", "the field's optics; optional: without it the field is linear");
     out.fields(lens_keys, &lens, &lens, "");
     out.section("scanner.head.galvo", "the mirrors");
     out.fields(galvo_keys, &head.galvo, &head_defaults.galvo, "");
@@ -228,8 +225,8 @@ Result<std::string> rack_template(std::string_view variant) {
     for (const TemplateVariant& known : variants) names.push_back(known.name);
     const std::string hint = did_you_mean(variant, names);
     return fail(ErrorKind::invalid_input,
-                fmt::format("There is no rack template {}: the templates are {}{} Nothing was written.",
-                            in_quotes(variant), fmt::join(names, ", "), hint.empty() ? "." : hint));
+                fmt::format("Unknown rack template {}: the templates are {}{} Nothing was written.", in_quotes(variant),
+                            fmt::join(names, ", "), hint.empty() ? "." : hint));
 }
 
 }  // namespace motionrack::rack

@@ -35,7 +35,8 @@ class Scanner {
                 continue;
             }
             if (not_ascii(at_)) {
-                return error("Letters other than a-z and A-Z may stand only in quotes and comments. Nothing was read.");
+                return error(
+                    "Letters other than a-z and A-Z are allowed only in quotes and comments. Nothing was read.");
             }
             if (c == ' ' && digit(at_ + 1) && after_word()) {
                 return error(

@@ -40,7 +40,7 @@ std::vector<Error> Problems::take(std::vector<Error>& list) {
         list.resize(max_listed);
         const Place last = list.back().place;
         list.push_back(Error{ErrorKind::invalid_input,
-                             fmt::format("and {} more; mend the first ones and try again.", more), file_, last});
+                             fmt::format("and {} more; correct the first ones and try again.", more), file_, last});
     }
     return std::exchange(list, {});
 }
@@ -230,7 +230,7 @@ class FieldReader {
         const double value = whole_given ? static_cast<double>(node_.integer) : node_.number;
         const std::string seen = whole_given ? std::to_string(node_.integer) : number_text(value);
         if (!std::isfinite(value)) {
-            refuse(fmt::format("is {}, which is not a number that can be used; the range is {}", seen, range()));
+            refuse(fmt::format("is {}, which is not a finite number; the range is {}", seen, range()));
         } else if (value < field_.min || value > field_.max) {
             const bool one_value = field_.min == field_.max;
             refuse(fmt::format("is {}, {} {}", seen, one_value ? "but it can be" : "outside its range", range()));

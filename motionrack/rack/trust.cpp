@@ -70,21 +70,19 @@ void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
     const char letter = rack_.axes()[axis].config.letter;
     if (!knows_itself(axis))
         lose(axis, now,
-             fmt::format("axis {} does not know its position any more; look at its motor and its encoder, then home it",
-                         letter),
+             fmt::format("the position of axis {} is unknown; check its motor and its encoder, then home it", letter),
              out);
     if (const std::int64_t lost = lost_pulses(axis) - one.from.lost_pulses; lost != 0)
         lose(axis, now,
-             fmt::format("the motor of axis {} did not follow {} pulses; find home again", letter, std::abs(lost)),
-             out);
+             fmt::format("the motor of axis {} did not follow {} pulses; home it again", letter, std::abs(lost)), out);
     const auto off = static_cast<std::int32_t>(counted_wrongly(axis) - one.counted_wrongly);  // counters have 32 bits
     if (std::abs(off) <= 1 || std::exchange(one.told_counts, true)) return;
     out.push_back(
         {axis, now,
-         fmt::format("encoder of {}: the card's counter is {} counts off from what the motor turned; a line of "
-                     "the encoder or the card's input is faulty. Do not go by this counter; mend it, then "
-                     "home again",
-                     letter, off),
+         fmt::format(
+             "encoder of {}: the card's counter is {} counts off the motion of the motor; a line of "
+             "the encoder or the card's input is faulty. Do not use this counter; repair the line, then home again",
+             letter, off),
          false});
 }
 

@@ -34,7 +34,7 @@ class TrustWatch {
     struct Mark {
         Instant at{};  ///< earlier events are ignored
         std::int64_t lost_pulses = 0;
-        std::int64_t turned = 0;  ///< of a servo: counts of its encoder
+        std::int64_t turned = 0;  ///< counts of the encoder of a servo
     };
     Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis), turned(axis)}; }
     /// Returns the way of a servo since `mark`, mm or degrees. It is 0 for other axes, which have pulses to lose.

@@ -305,9 +305,8 @@ Result<void> WaveRecorder::finish() {
     drain();
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
     if (ended && lost_ > 0)
-        ended = fail(
-            ErrorKind::io,
-            fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
+        ended = fail(ErrorKind::io,
+                     fmt::format("{} changes of one instant exceed the limit of a recording and were omitted.", lost_));
     failed_ = !ended;
     if (ended) stop_listening();
     return ended;

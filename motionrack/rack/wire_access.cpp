@@ -44,7 +44,7 @@ void WireAccess::add_cards() {
             if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
                 wire.refused = fmt::format(
-                    "{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
+                    "{} is an output of the card; only inputs, switches and the emergency stop can be forced", name);
             wires_[name] = std::move(wire);
         }
     for (const auto& card : rack_.cards())
@@ -117,11 +117,9 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
     std::vector<std::string_view> names;
     for (const auto& [known, wire] : wires_) names.push_back(known);
     const std::string hint = did_you_mean(name, names);
-    return fail(
-        ErrorKind::invalid_input,
-        fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
-                    "file lists them. Nothing was done.",
-                    in_quotes(name), hint.empty() ? "." : hint));
+    return fail(ErrorKind::invalid_input, fmt::format("Unknown wire {}{} Wires are called CARD.PIN, NAME.END or estop, "
+                                                      "see the page of the rack file. Nothing was done.",
+                                                      in_quotes(name), hint.empty() ? "." : hint));
 }
 
 std::vector<WireAccess::Named> WireAccess::names() const {

@@ -121,7 +121,7 @@ class Picture {
         const auto file = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
         std::string out = fmt::format("{} on {}: {}", file(sweep_.program_name()), file(sweep_.rack_name()),
                                       rack::count_noun(values_.size(), "point"));
-        if (ok < values_.size()) out += fmt::format(", {} did not end well (crosses)", values_.size() - ok);
+        if (ok < values_.size()) out += fmt::format(", {} failed (crosses)", values_.size() - ok);
         return out;
     }
 

@@ -92,9 +92,8 @@ Result<PointText> read_point(std::string_view text) {
     if (!whole || !text.empty()) return damaged();
     if (version != MOTIONRACK_VERSION)
         return fail(ErrorKind::refused,
-                    fmt::format("The point was made by version {:.20} of motionrack and this is {}, "
-                                "which may drive it otherwise. Nothing was run; use "
-                                "the same version on all machines.",
+                    fmt::format("The point was made by version {:.20} of motionrack and this is {}, which may run it "
+                                "differently. Nothing was run; use the same version on all machines.",
                                 version, MOTIONRACK_VERSION));
     return out;
 }

@@ -76,13 +76,14 @@ class Preparation {
         for (const Parameter& parameter : parameters()) {
             TomlNode scratch = sweep_.rack_;
             if (parameter.kind == ParameterKind::rack && !rack::put_value(scratch, parameter.path, value))
-                problems_.error(parameter.place,
-                                fmt::format("{} cannot be varied: it is a table of the rack file, or below something "
-                                            "that is none. Write the whole name of a key, such as axis.X.max_limit_mm.",
-                                            parameter.name));
+                problems_.error(
+                    parameter.place,
+                    fmt::format("{} cannot be varied: it is a table of the rack file, or below a key that is not a "
+                                "table. Write the full name of a key, such as axis.X.max_limit_mm.",
+                                parameter.name));
             if (parameter.kind == ParameterKind::text &&
                 files_.program.find("{" + parameter.path[1] + "}") == std::string::npos)
-                problems_.error(parameter.place, fmt::format("{} has no {{{}}}, so nothing would be varied.",
+                problems_.error(parameter.place, fmt::format("{} has no {{{}}}, so the parameter has no effect.",
                                                              files_.program_name, parameter.path[1]));
         }
     }

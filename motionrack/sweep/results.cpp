@@ -21,7 +21,7 @@ bool is_hdf5(const std::string& path) {
 
 Result<void> put_in_place(const std::string& made, const std::string& path) {
     if (std::rename(made.c_str(), path.c_str()) == 0) return {};
-    return fail(ErrorKind::io, fmt::format("{} could not be put there: {}. Its rows are kept in {}.", path,
+    return fail(ErrorKind::io, fmt::format("{} could not be written: {}. Its rows are kept in {}.", path,
                                            std::generic_category().message(errno), made));
 }
 
@@ -143,7 +143,7 @@ Result<Rows> read_rows_csv(const std::string& path) {
     if (head.size() < 3 || head[0] != "key" || head[1] != "point")
         return fail(
             ErrorKind::refused,
-            "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
+            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.",
             {}, path);
     if (std::find(head.begin(), head.end(), "worst_deviation_mm") != head.end())
         return fail(ErrorKind::refused,

@@ -86,7 +86,7 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     if (!file || file->attribute_text("format") != format)
         return fail(
             ErrorKind::refused,
-            "The file is there and is no table of a sweep. It was left as it is; choose another name, or remove it.",
+            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.",
             {}, path);
     if (const std::int64_t version = file->attribute_number("format_version"); version != format_version)
         return fail(

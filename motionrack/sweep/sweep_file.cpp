@@ -51,12 +51,12 @@ class Reader {
             }
         }
         const TomlNode *sweep = file_.root.find("sweep"), *vary = file_.root.find("vary");
-        if (sweep == nullptr)
-            problems_.error({1, 1}, "There is no section [sweep]: it says which program runs on which rack.");
+        if (sweep == nullptr) problems_.error({1, 1}, "Section [sweep] is missing: it names the program and the rack.");
         if (vary == nullptr)
-            problems_.error({1, 1},
-                            "There is no section [vary]: it says what is varied, such as \"axis.X.max_accel_mm_s2\" = "
-                            "[500, 1000].");
+            problems_.error(
+                {1, 1},
+                "Section [vary] is missing: it names the varied parameters, such as \"axis.X.max_accel_mm_s2\" = "
+                "[500, 1000].");
         if (sweep != nullptr && sweep->type == TomlType::table) read_sweep(*sweep);
         if (vary != nullptr && vary->type == TomlType::table) read_vary(*vary);
     }
@@ -68,11 +68,13 @@ class Reader {
         random_ = settings.order == Order::random;
         if (!refused.empty()) return;
         if (random_ && !settings.points)
-            problems_.error(node.place_of("sampling"), "A random sweep needs points = NUMBER: how many are drawn.");
+            problems_.error(node.place_of("sampling"),
+                            "A random sweep needs points = NUMBER: the number of random points.");
         if (!random_ && settings.points)
-            problems_.error(node.place_of("points"),
-                            "points says how many are drawn by chance, but this sweep takes all combinations; write "
-                            "sampling = \"random\", or leave points out.");
+            problems_.error(
+                node.place_of("points"),
+                "points says the number of random points by chance, but this sweep takes all combinations; write "
+                "sampling = \"random\", or leave points out.");
     }
 
     void read_vary(const TomlNode& vary) {
@@ -89,7 +91,7 @@ class Reader {
                             "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
         if (file_.parameters.size() > max_parameters)
             problems_.error(file_.parameters[max_parameters].place,
-                            fmt::format("{} things are varied; at most {} can be. Leave some out.",
+                            fmt::format("{} parameters are varied; the limit is {}. Leave some out.",
                                         file_.parameters.size(), max_parameters));
         if (problems_.any_errors()) return;
         if (const std::int64_t points = file_.points(); points > max_points)
@@ -126,7 +128,7 @@ class Reader {
                 return problems_.error(node.key_place,
                                        fmt::format("{} is varied twice; leave one out.", parameter.name));
         if (parameter.kind == ParameterKind::text && (path.size() != 2 || !is_word(path[1])))
-            return problems_.error(node.key_place, fmt::format("{} names no text of the program: write \"text.NAME\" "
+            return problems_.error(node.key_place, fmt::format("{} is not a text of the program: write \"text.NAME\" "
                                                                "for {{NAME}}, up to 32 letters, digits and '_'.",
                                                                rack::in_quotes(parameter.name)));
         if (is_range(node) ? !read_range(node, parameter) : !read_values(node, parameter)) return;
@@ -164,7 +166,7 @@ class Reader {
             return false;
         };
         if (value.type == TomlType::number && !std::isfinite(value.number))
-            return refuse(fmt::format("{} has {} in its list, which is no number that can be used.", parameter.name,
+            return refuse(fmt::format("{} has {} in its list, which is not a finite number.", parameter.name,
                                       rack::number_text(value.number)));
         if (parameter.kind == ParameterKind::text && value.type == TomlType::text &&
             (value.text.size() > 1000 || value.text.find_first_of("\r\n") != std::string::npos))
@@ -200,7 +202,7 @@ class Reader {
                                       parameter.name, rack::number_text(settings.to)));
         if (!settings.steps && !random_)
             return refuse(node.value_place,
-                          fmt::format("{} has no steps: how many numbers from {} to {}.", parameter.name,
+                          fmt::format("{} has no steps: give the number of values from {} to {}.", parameter.name,
                                       rack::number_text(settings.from), rack::number_text(settings.to)));
         const NumberRange range{settings.from, settings.to, settings.whole};
         if (range.whole && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))

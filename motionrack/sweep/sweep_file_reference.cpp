@@ -9,7 +9,7 @@ namespace motionrack::sweep {
 namespace {
 
 constexpr std::string_view vary_doc =
-    "What is varied, one line each. A value stands for a list of itself.\n\n"
+    "Varied parameters, one line each. A single value is a list of one.\n\n"
     "| name | values | meaning |\n|---|---|---|\n"
     R"(| `"axis.X.max_limit_mm"`, any key of a [rack file](rack-file.md) | as the key takes them )"
     R"(| put into the rack file, in place of its value; `axis.X.max_limit_mm` without quotes is the same; )"
@@ -28,8 +28,8 @@ std::string sweep_file_reference() {
     const RangeSettings range;
     std::string out = fmt::format(
         "# The sweep file\nTOML, for [`motionrack sweep`](../howto/sweep.md). Unknown keys, wrong types, values out of "
-        "range, racks and programs that would be refused are told all at once, with line and column, "
-        "before anything runs. A sweep has at most {} points and {} things that are varied.\n\n",
+        "range, racks and programs that would be refused are reported all at once, with line and column, "
+        "before anything runs. A sweep has at most {} points and {} varied parameters.\n\n",
         max_points, max_parameters);
     out += "## [sweep]\n" + rack::fields_table(sweep_fields, &settings, &settings);
     out += fmt::format("## [vary]\n{}", vary_doc) + rack::fields_table(range_fields, &range, &range);

@@ -80,7 +80,7 @@ Result<void> VcdChanges::timescale() {
     return scale_ps_ > 0
                ? Result<void>()
                : Result<void>(refuse(fmt::format(
-                     "'{}' is no timescale that is read: 1, 10 or 100 of ps, ns, us, ms or s.", text.substr(0, 40))));
+                     "'{}' is not a supported timescale: 1, 10 or 100 of ps, ns, us, ms or s.", text.substr(0, 40))));
 }
 
 /// $var wire 1 ! x_step $end
@@ -135,7 +135,7 @@ Result<void> VcdChanges::time() {
     const auto [end, bad] = std::from_chars(word_.data() + 1, word_.data() + word_.size(), units);
     if (bad != std::errc() || end != word_.data() + word_.size() || units < 0 ||
         units > std::numeric_limits<std::int64_t>::max() / scale_ps_)
-        return refuse(fmt::format("'{}' is no time.", word_.substr(0, 40)));
+        return refuse(fmt::format("'{}' is not a time.", word_.substr(0, 40)));
     if (units * scale_ps_ < at_ps_) return refuse("The time lies before the one above it.");
     at_ps_ = units * scale_ps_;
     return {};

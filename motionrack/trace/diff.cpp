@@ -39,7 +39,7 @@ Result<FileKind> kind_of_file(const std::string& path) {
     while (first == ' ' || first == '\t' || first == '\r' || first == '\n') first = bytes.get();
     if (first == '$') return FileKind::vcd;
     if (first >= 0x20 && first < 0x7F) return FileKind::csv;
-    return fail(ErrorKind::invalid_input, "The file is none that is read here: HDF5, VCD or CSV.", {}, path);
+    return fail(ErrorKind::invalid_input, "Unknown file format. The file must be HDF5, VCD or CSV.", {}, path);
 }
 
 void sort_differences(Diff& diff) {
@@ -52,8 +52,8 @@ Result<Diff> diff_files(const std::string& a, const std::string& b, const DiffSe
     MOTIONRACK_TRY(const FileKind other, kind_of_file(b));
     if (kind != other)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} is {}, {} is {}; only two of the same kind can be compared.", a, name_of_kind(kind),
-                                b, name_of_kind(other)));
+                    fmt::format("{} is {}, {} is {}; only files of the same kind can be compared.", a,
+                                name_of_kind(kind), b, name_of_kind(other)));
     if (kind == FileKind::hdf5) {
         MOTIONRACK_TRY(const RecordingReader of_a, RecordingReader::open(a));
         MOTIONRACK_TRY(const RecordingReader of_b, RecordingReader::open(b));
@@ -99,7 +99,7 @@ std::string diff_text(const Diff& diff, const std::string& a, const std::string&
                            how_far);
     for (std::size_t i = 0; i < diff.differences.size() && i < differences_shown; ++i) {
         const Difference& one = diff.differences[i];
-        if (i == 1) out += "The other signals, where each differs first:\n";
+        if (i == 1) out += "The first differences of the other signals:\n";
         const std::string unit = one.unit.empty() ? "" : ", " + one.unit;
         out += fmt::format("  {}{}, {}\n    A: {}\n    B: {}\n", one.signal, unit, time_text(one), one.a, one.b);
     }

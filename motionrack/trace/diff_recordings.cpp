@@ -33,8 +33,8 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
     if (x.block_delete != y.block_delete)
         diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
     if (x.live != y.live)
-        diff.made_of.push_back(fmt::format(
-            "only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));
+        diff.made_of.push_back(
+            fmt::format("only {} was executed with orders, which splits long moves", x.live ? "A" : "B"));
     if (x.sample_period != y.sample_period)
         diff.made_of.push_back(fmt::format("samples are {} s apart in A, {} s in B", to_seconds(x.sample_period),
                                            to_seconds(y.sample_period)));

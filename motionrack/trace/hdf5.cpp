@@ -39,7 +39,7 @@ std::string why() {
         const std::size_t end = text.find('\'', begin + before.size());
         return text.substr(begin + before.size(), end == std::string::npos ? end : end - begin - before.size());
     }
-    return text.empty() ? "the HDF5 library does not say why" : text;
+    return text.empty() ? "the HDF5 library gives no reason" : text;
 }
 
 /// Selects the format of HDF5 1.10, the first with checksums and reading during writing.
@@ -176,7 +176,7 @@ Result<void> File::reopen() {
     file_ = Handle(H5Fopen(made_.path_until_whole().c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
     if (file_) return {};
     return fail(ErrorKind::io,
-                fmt::format("The recording could not be ended: {}. What was written is kept in {}.", why(),
+                fmt::format("The recording could not be ended: {}. The written part is kept in {}.", why(),
                             made_.path_until_whole()),
                 {}, path_);
 }
@@ -240,12 +240,11 @@ Result<void> File::close_library() {
     if (trouble_.empty()) return {};
     const std::string kept =
         made_.is_part_kept() ? " Perhaps some of it can be read in " + made_.path_until_whole() + "." : "";
-    return fail(
-        ErrorKind::io,
-        fmt::format("The recording {}. It is not whole and did not take its name.{} Make room or choose another "
-                    "place, and run again.",
-                    trouble_, kept),
-        {}, path_);
+    return fail(ErrorKind::io,
+                fmt::format("The recording {}. It is incomplete and was not renamed.{} Make room or choose another "
+                            "place, and run again.",
+                            trouble_, kept),
+                {}, path_);
 }
 
 Result<void> File::close() {
@@ -273,9 +272,10 @@ Result<void> check_signature(const std::string& path) {
         const int why_not = errno;
         const std::string part = path + disk::beside;
         if (why_not == ENOENT && ::access(part.c_str(), F_OK) == 0)
-            return fail(ErrorKind::io,
-                        fmt::format("The file is not there, but one that was cut off, or is being written: {}.", part),
-                        {}, path);
+            return fail(
+                ErrorKind::io,
+                fmt::format("The file does not exist, but an incomplete one does, cut off or being written: {}.", part),
+                {}, path);
         return fail(ErrorKind::io,
                     fmt::format("The file cannot be read: {}. Check the name and the rights.",
                                 std::generic_category().message(why_not)),
@@ -290,9 +290,10 @@ Result<void> check_signature(const std::string& path) {
         return fail(ErrorKind::io,
                     fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)), {}, path);
     if (got == sizeof begin && std::memcmp(begin, signature, sizeof begin) == 0) return {};
-    return fail(ErrorKind::invalid_input,
-                got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.",
-                {}, path);
+    return fail(
+        ErrorKind::invalid_input,
+        got == 0 ? "The file is empty." : "The file is not a recording: it does not begin as an HDF5 file does.", {},
+        path);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
     const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
     if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
         bytes > max_text || at >= size_)
-        return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} is no text.", path_), {},
+        return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} is not a text.", path_), {},
                     file_);
     const hsize_t begin = at, one = 1;
     const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &one, nullptr), H5Sclose);
@@ -67,12 +67,12 @@ Result<Reader> File::column(const std::string& path) const {
     hsize_t size = 0;
     if (!space || !type || H5Sget_simple_extent_ndims(space.get()) != 1 ||
         H5Sget_simple_extent_dims(space.get(), &size, nullptr) != 1)
-        return refuse("is no column");
+        return refuse("is not a column");
     const H5T_class_t kind = H5Tget_class(type.get());
     const std::uint64_t element = H5Tget_size(type.get());
     if ((kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING) || element == 0 ||
         (kind != H5T_STRING && element > 8))
-        return refuse("is no column of numbers or texts");
+        return refuse("is not a column of numbers or texts");
     if (kind == H5T_STRING && element > max_text)
         return refuse(fmt::format("says that its texts have {} bytes", element));
     const std::uint64_t stored = H5Dget_storage_size(out.set_.get());

@@ -131,7 +131,7 @@ Result<RecordingHead> head_from_json(std::string_view text) {
     } catch (const std::bad_alloc&) {
         throw;  // not an error of the recording
     } catch (const std::exception&) {
-        return fail(ErrorKind::invalid_input, "The recording is damaged: what it says of its run cannot be read.");
+        return fail(ErrorKind::invalid_input, "The recording is damaged: its description of the run cannot be read.");
     }
     return head;
 }

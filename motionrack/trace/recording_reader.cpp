@@ -28,7 +28,7 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
     MOTIONRACK_TRY(out.file_, hdf5::File::open(path));
     const hdf5::File& file = out.file_;
     if (file.attribute_text("format") != "motionrack recording")
-        return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
+        return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but not a recording of motionrack.", {}, path);
     const std::int64_t version = file.attribute_number("format_version");
     if (version != recording_format)
         return fail(
@@ -107,8 +107,8 @@ Result<void> RecordingReader::read_inputs() {
 
 std::string RecordingReader::cut_sentence() const {
     return fmt::format(
-        "{} was cut off, or is still being written: all before {:.6f} s is there, what came after it and how the run "
-        "ended is not.",
+        "{} was cut off, or is still being written: it is complete up to {:.6f} s; the rest and the end of the run are "
+        "missing.",
         path(), to_seconds(known_to_ - began_));
 }
 
@@ -254,8 +254,8 @@ ReportData RecordingReader::report_of_cut() const {
         data.axes.push_back(std::move(one));
     }
     data.notes = {
-        "Pulses, counts, blocks and the greatest values are counted when a run ends, so a recording that was cut off "
-        "has none of them."};
+        "Pulses, counts, blocks and peak values are written at the end of a run, so an incomplete recording has none "
+        "of them."};
     return data;
 }
 

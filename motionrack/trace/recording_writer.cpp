@@ -202,7 +202,7 @@ Result<void> RecordingWriter::close(const RecordingEnd& end) {
     signals_.clear();
     samples_.reset();
     for (hdf5::Writer* writer : {&input_times_, &input_texts_, &flushed_}) *writer = hdf5::Writer();
-    if (!good_) file_.set_trouble("could not be written, perhaps for want of room on the disk");
+    if (!good_) file_.set_trouble("could not be written, perhaps because the disk is full");
     MOTIONRACK_CHECK(file_.reopen());
     file_.make_group("outcome");
     for (const OutcomeField& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);

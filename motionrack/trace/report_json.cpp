@@ -172,7 +172,7 @@ Result<ReportData> report_from_json(std::string_view text) {
     } catch (const std::bad_alloc&) {
         throw;  // not an error of the recording
     } catch (const std::exception&) {
-        return fail(ErrorKind::invalid_input, "The recording is damaged: what its report says cannot be read.");
+        return fail(ErrorKind::invalid_input, "The recording is damaged: its report cannot be read.");
     }
     return data;
 }

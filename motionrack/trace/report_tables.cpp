@@ -143,7 +143,7 @@ std::string axes_html(const ReportData& data) {
     for (std::size_t i = 0; i < std::min<std::size_t>(data.axes.size(), 64); ++i) rows += axis_row(data.axes[i]);
     const std::vector<std::string> heads = {"Axis",      "Pulses sent",      "Encoder counts", "Steps lost",
                                             "Top speed", "Top acceleration", "Speed jump",     "Ends at"};
-    return section("axes", "Axes", table("axis-table", "What each axis was sent and what it did", heads, rows));
+    return section("axes", "Axes", table("axis-table", "Commanded and actual motion of each axis", heads, rows));
 }
 
 std::string blocks_html(const ReportData& data) {
@@ -159,7 +159,7 @@ std::string blocks_html(const ReportData& data) {
     }
     const std::vector<std::string> heads = {"Line",        "Program",   "Kind",    "Length",   "Start, s",
                                             "Duration, s", "Entry, /s", "Top, /s", "Exit, /s", "Deviation, mm"};
-    return section("blocks", "Blocks", note + table("block-table", "Each block as it was driven", heads, rows));
+    return section("blocks", "Blocks", note + table("block-table", "Executed blocks", heads, rows));
 }
 
 std::string warnings_html(const ReportData& data) {
@@ -181,7 +181,7 @@ std::string warnings_html(const ReportData& data) {
                grouped(static_cast<long long>(data.warnings.size())) + " warnings are listed.</p>\n";
     }
     return section("warnings", "Warnings",
-                   note + table("warning-table", "Warnings, in the order they came",
+                   note + table("warning-table", "Warnings, in their order",
                                 {"Time, s", "Line", "Machine at, mm", "What happened"}, rows));
 }
 
@@ -238,7 +238,7 @@ std::string notes_html(const ReportData& data) {
     items +=
         "<li>Lines in the pictures are drawn from fewer points than were recorded; the least and greatest values "
         "stay. The tables hold the numbers as recorded.</li>\n";
-    return section("notes", "What this report does not show", "<ul class=\"card\">\n" + items + "</ul>\n");
+    return section("notes", "Limits of this report", "<ul class=\"card\">\n" + items + "</ul>\n");
 }
 
 }  // namespace motionrack::trace

@@ -7,8 +7,8 @@
     outcome.axes["X"].actual_end      # mm
     outcome.trace.plot("x.velocity")   # NumPy arrays inside
 
-Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Everything that
-goes wrong is a :class:`motionrack.Error` with a sentence.
+Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Every error is a
+:class:`motionrack.Error` with a sentence.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from .trace import Trace
 
 
 def templates() -> list[str]:
-    """Names of the racks that :meth:`Rack.template` can make; the first is the default."""
+    """Names of the templates for :meth:`Rack.template`; the first is the default."""
     return _core.template_names()
 
 

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 
 class RackHandle:
-    """A rack; motionrack.Rack is what people use."""
+    """A rack; use motionrack.Rack."""
     def config(self) -> dict[str, Any]: ...
     def closed(self) -> bool: ...
     def started(self) -> bool: ...
@@ -68,7 +68,7 @@ def check(world: RackHandle, program: Program) -> None: ...
 def home(world: RackHandle, axes: str, type: int | None, ticks: int) -> tuple[Any, ...]: ...
 
 class SteppedMachine:
-    """A machine; motionrack.Machine is what people use."""
+    """A machine; use motionrack.Machine."""
     def __init__(self, world: RackHandle) -> None: ...
     def hold(self) -> None: ...
     def resume(self) -> None: ...
@@ -103,7 +103,7 @@ class LivePort:
     def __init__(self, place: str, type: str) -> None:
         """Opens the port; no register is touched. InvalidInput, FileError, Refused."""
     def map(self) -> dict[str, Any]:
-        """What is declared of the card."""
+        """Declaration of the card: registers, bits, states."""
     def now(self) -> float:
         """Seconds of the computer's clock since it was opened. Refused once it was closed."""
     def read(self, offset: int) -> int:
@@ -117,13 +117,13 @@ class LivePort:
     def quick_stop(self) -> None:
         """All axes end their pulses, and nothing is written until reset_stop."""
     def reset_stop(self) -> None:
-        """The stop does not hold any more; nothing moves by that."""
+        """Releases the stop; nothing moves by that."""
     def stopped(self) -> bool:
-        """Whether a stop holds."""
+        """Whether a stop is active."""
     def close(self) -> None:
-        """Stops all axes and lets the card go."""
+        """Stops all axes and closes the card."""
     def closed(self) -> bool:
-        """Whether it was closed."""
+        """Whether the card was closed."""
 
 
 class Mcx314:
@@ -143,7 +143,7 @@ class Mcx314:
     def SetRange(self, axes: int, value: int) -> None:
         """R, 16,000 to 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving."""
     def SetMaxSpeed(self, axes: int, value: int) -> None:
-        """The smallest whole multiple with which V <= 8,000 reaches so many pulses a second, 1 to 4,000,000."""
+        """The smallest whole multiple with which V <= 8,000 reaches this speed, 1 to 4,000,000 pulses a second."""
     def SetSV(self, axes: int, value: int) -> None:
         """Initial speed, 1 to 8,000 units of the multiple."""
     def SetV(self, axes: int, value: int) -> None:
@@ -155,15 +155,15 @@ class Mcx314:
     def SetAA(self, axes: int, value: int) -> None:
         """K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3."""
     def SetAO(self, axes: int, value: int | None) -> None:
-        """Pulses kept for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there."""
+        """Pulses reserved for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there."""
     def Pulse(self, axes: int, value: int) -> None:
         """Output pulses of a fixed drive, -268,435,455 to 268,435,455."""
     def AutoDec(self, axes: int = 15) -> None:
         """The chip finds the deceleration point itself. Arcs cannot."""
     def ManualDec(self, axes: int, value: int) -> None:
-        """Fixed drives decelerate after so many pulses, 0 to 268,435,455."""
+        """Sets the pulses after which fixed drives decelerate, 0 to 268,435,455."""
     def SetAsymmetric(self, axes: int, on: bool) -> None:
-        """Decelerations take D instead of A."""
+        """Decelerations use D instead of A."""
     def LPS(self, axes: int, value: int) -> None:
         """Sets the logical position, pulses, 32 bits with sign."""
     def EPS(self, axes: int, value: int) -> None:
@@ -237,7 +237,7 @@ class Mcx314:
     def BPStart(self) -> None:
         """Starts the pattern."""
     def BPEnd(self, timeout: float = 60.0) -> None:
-        """Gives the registers back and waits for the end, timeout in s."""
+        """Releases the registers and waits for the end, timeout in s."""
     def HLMTP(self, n: int, axes: int = 15) -> None:
         """The + limit switch acts at: 0 Low, 1 High."""
     def HLMTM(self, n: int, axes: int = 15) -> None:
@@ -275,7 +275,7 @@ class Mcx314:
     def ReadEPS(self, axis: int) -> int:
         """Real position of a channel (0 X to 3 U), encoder counts."""
     def ReadCV(self, axis: int) -> int:
-        """Present speed of a channel, units of the multiple; 0 at rest."""
+        """Present speed of a channel, units of the multiple; 0 at standstill."""
     def ReadCA(self, axis: int) -> int:
         """Present acceleration of a channel, units of 125 * M; at constant speed the last one."""
     def moving(self, axes: int = 15) -> bool:
@@ -325,7 +325,7 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetMaxSpeed(self, data: int) -> str:
         """The smallest multiple with which V reaches this speed, of all axes. Source: 4.3 Initial.
 
-data: greatest speed that V reaches; 1 to 4000000 pulses/s.
+data: maximum speed of V; 1 to 4000000 pulses/s.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetSV(self, axis: int, data: int) -> str:
@@ -364,10 +364,10 @@ data: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetAO(self, axis: int, data: int) -> str:
-        """Pulses kept for the end at SV. Source: 4.4 Basic motion.
+        """Pulses reserved for the end at SV. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-data: kept for the end at SV; 0 to 65535 pulses.
+data: reserved for the end at SV; 0 to 65535 pulses.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Pulse(self, axis: int, data: int) -> str:
@@ -383,7 +383,7 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ManualDec(self, axis: int, DecPulse: int) -> str:
-        """Fixed drives decelerate after so many pulses. Source: 4.4 Basic motion.
+        """Sets the pulses after which fixed drives decelerate. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
@@ -644,7 +644,7 @@ n: of all axes; 0 (off), 1 (on).
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTSig(self, n: int) -> str:
-        """What the software limits are compared with. Source: 4.6 Signals.
+        """Counter that the software limits are compared with. Source: 4.6 Signals.
 
 n: of all axes, COMP+ and COMP- are compared with; 0 (the logical position LP), 1 (the real position EP).
 Gives: a sentence.
@@ -657,9 +657,9 @@ axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderCWCCW(self, n: int, axis: int) -> str:
-        """Which edges of A/B count. Source: 4.6 Signals.
+        """Counted edges of A/B. Source: 4.6 Signals.
 
-n: edges of A/B that count; 0 (all), 1 (every second), 2 (every fourth).
+n: counted edges of A/B; 0 (all), 1 (every second), 2 (every fourth).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
@@ -699,7 +699,7 @@ A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType2(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
-        """As 1, then back at SV and slowly to the switch again. Source: 4.7 Home.
+        """HomeType1, then back at SV and slowly to the switch again. Source: 4.7 Home.
 
 WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
@@ -708,7 +708,7 @@ A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType3(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
-        """As 1, then on at SV to the encoder's index Z. Source: 4.7 Home.
+        """HomeType1, then on at SV to the encoder's index Z. Source: 4.7 Home.
 
 WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
@@ -717,7 +717,7 @@ A: acceleration; 1 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType4(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
-        """As 3 slowly, then as 2. Source: 4.7 Home.
+        """HomeType3 slowly, then HomeType2. Source: 4.7 Home.
 
 WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
@@ -729,14 +729,14 @@ Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end wel
         """Sets the logical position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-data: what the logical position becomes; -2147483648 to 2147483647 pulses.
+data: new logical position; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EPS(self, axis: int, data: int) -> str:
         """Sets the real (encoder) position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-data: what the real position becomes; -2147483648 to 2147483647 counts.
+data: new real position; -2147483648 to 2147483647 counts.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadLPS(self, axis: int) -> int:
@@ -752,7 +752,7 @@ axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: counts.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadCV(self, axis: int) -> int:
-        """Present speed of one axis; 0 at rest. Source: 4.8 Positions.
+        """Present speed of one axis; 0 at standstill. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
 Gives: x M pulses/s.
@@ -767,14 +767,14 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
         """COMP+, the + software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-data: place of the software limit; -2147483648 to 2147483647 pulses.
+data: position of the software limit; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCompM(self, axis: int, data: int) -> str:
         """COMP-, the - software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-data: place of the software limit; -2147483648 to 2147483647 pulses.
+data: position of the software limit; -2147483648 to 2147483647 pulses.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def RESET(self) -> str:
@@ -804,32 +804,32 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
         """Waits until none of the axes drives. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-milliseconds: how long at most; 0 to 60000 ms.
+milliseconds: maximum time; 0 to 60000 ms.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def moving(self, axis: int) -> int:
-        """Those of the axes that drive. The source names it without listing it.
+        """Mask of the axes that drive. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: mask of axes.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def at_limit(self, axis: int) -> int:
-        """Those of the axes at a limit switch or beyond a software limit. The source names it without listing it.
+        """Mask of the axes at a limit switch or beyond a software limit. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: mask of axes.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def report(self, axis: int) -> str:
-        """Whether axes drive, where they are, why they stopped. The source names it without listing it.
+        """State, position and stop reason of axes. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def asymmetric(self, axis: int, on: int) -> str:
-        """Whether decelerations take D. The source names it without listing it.
+        """Selects D instead of A for decelerations. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-on: decelerations take D instead of A; 0 (off), 1 (on).
+on: decelerations use D instead of A; 0 (off), 1 (on).
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def set_output(self, axis: int, output: int, level: int) -> str:
@@ -857,7 +857,7 @@ PX: from the segment's start; -8388608 to 8388607 pulses.
 PY: from the segment's start; -8388608 to 8388607 pulses.
 PZ: from the segment's start; -8388608 to 8388607 pulses.
 PU: from the segment's start; -8388608 to 8388607 pulses.
-V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
+V: velocity from here on; 0: unchanged; 0 to 8000 x M pulses/s.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_arc(self, axis: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, clockwise: int, V: int) -> str:
@@ -873,11 +873,11 @@ CY: from the segment's start; -8388608 to 8388607 pulses.
 CZ: from the segment's start; -8388608 to 8388607 pulses.
 CU: from the segment's start; -8388608 to 8388607 pulses.
 clockwise: direction; 0 (counterclockwise), 1 (clockwise).
-V: from here on; 0: unchanged; 0 to 8000 x M pulses/s.
+V: velocity from here on; 0: unchanged; 0 to 8000 x M pulses/s.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_end(self) -> int:
-        """Drives the last segment and waits for the end. The source names it without listing it.
+        """Executes the last segment and waits for the end. The source names it without listing it.
 
 Gives: segments.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
@@ -915,12 +915,12 @@ Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end wel
 
 
 class SpeedScale:
-    """How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt. `trim`: the table that came with the card, rows of V and rate as in the rack file; empty: the printed one."""
+    """Speed of the machine at a rate: counts per pulse of FOUT, or counts/s per volt. `trim`: the table that came with the card, rows of V and rate as in the rack file; empty: the printed one."""
     def __init__(self, counts_per_pulse: float | None = None, counts_per_volt: float | None = None, trim: str = '') -> None: ...
     def speed(self, rate: int) -> float:
         """Counts/s at a rate, 0 to 16383."""
     def rate_for(self, counts_s: float) -> int:
-        """The greatest rate that is not faster than so many counts/s."""
+        """The highest rate of at most this speed, counts/s."""
 
 
 class SlopeTable:
@@ -928,7 +928,7 @@ class SlopeTable:
     def __init__(self, entries: Sequence[tuple[int, int]]) -> None: ...
     @staticmethod
     def design(top_speed: float, acceleration: float, deceleration: float, scale: SpeedScale, load: float = 0.0, creep_speed: float = 0.0, lag_s: float = 0.0) -> SlopeTable:
-        """A table for what a machine may do: counts/s, counts/s2; load in inertias of the empty machine; creep_speed 0: a 24th of the top speed."""
+        """A table for the limits of a machine: counts/s, counts/s2; load in inertias of the empty machine; creep_speed 0: a 24th of the top speed."""
     def entries(self) -> list[tuple[int, int]]:
         """The 48 intervals: (rate, counts)."""
     def motion(self, distance: int, rate: int, scale: SpeedScale) -> dict[str, Any]:
@@ -939,9 +939,9 @@ class Databoard4002:
     """The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault."""
     def __init__(self, world: RackHandle, card: str, counts_per_mm: float = 1000.0, select: int = 13) -> None: ...
     def connect(self) -> int:
-        """Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers."""
+        """Checks for the card, clears its reset mark, returns its version. MachineFault if none answers."""
     def reset(self) -> None:
-        """C3: hardware reset; position, rate and table are gone."""
+        """C3: hardware reset; position, rate and table are lost."""
     def status(self) -> int:
         """STAT as a word; its bits: card.STAT."""
     def stops(self) -> str:
@@ -951,7 +951,7 @@ class Databoard4002:
     def athome(self) -> None:
         """A: the position becomes 0."""
     def set_deviation(self, counts: int) -> None:
-        """D: what lock may let it deviate by, 0 to 8,388,607 counts."""
+        """D: deviation allowed by lock, 0 to 8,388,607 counts."""
     def deviation(self) -> int:
         """D: present minus requested, counts."""
     def go(self) -> None:
@@ -961,7 +961,7 @@ class Databoard4002:
     def lock(self) -> None:
         """L: holds the position."""
     def manual(self) -> None:
-        """M: lets the position go."""
+        """M: releases the position."""
     def set_number(self, counts: int) -> None:
         """N, -8,388,608 to 8,388,607 counts."""
     def on_regulation(self) -> None:
@@ -969,7 +969,7 @@ class Databoard4002:
     def set_target(self, counts: int) -> None:
         """P, -8,388,608 to 8,388,607 counts."""
     def position(self) -> int:
-        """P: where it is, counts."""
+        """P: position, counts."""
     def quit(self) -> None:
         """Q: ends a positioning."""
     def set_rate(self, rate: int) -> None:
@@ -987,13 +987,13 @@ class Databoard4002:
     def wait_event(self, wanted: int, timeout: float, interrupt: bool = False) -> int:
         """Waits until one of the events 01h position, 02h zero, 04h reference, 20h stop has happened; the word. Timeout after timeout s."""
     def move_to(self, counts: int, timeout: float = 60.0, interrupt: bool = False) -> None:
-        """Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout after timeout s."""
+        """Moves to a position, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout after timeout s."""
     def move_by(self, counts: int, timeout: float = 60.0, interrupt: bool = False) -> None:
-        """Goes so many counts further; see move_to."""
+        """Moves by this number of counts; see move_to."""
     def move_to_mm(self, mm: float, timeout: float = 60.0, interrupt: bool = False) -> None:
-        """Goes there, mm by counts_per_mm; see move_to."""
+        """Moves to a position, mm by counts_per_mm; see move_to."""
     def position_mm(self) -> float:
-        """Where it is, mm by counts_per_mm."""
+        """Position, mm by counts_per_mm."""
     def find_zero(self, marks: int, far: int, rate: int, timeout: float = 60.0, interrupt: bool = False) -> None:
         """Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0."""
 
@@ -1005,7 +1005,7 @@ class SpeedMeter:
     def update(self, raw: int, age: int, ticks: int) -> tuple[float, float] | None:
         """A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one."""
     def restart(self) -> None:
-        """Forgets what was."""
+        """Discards earlier samples."""
 
 
 class Ioflex02:
@@ -1018,7 +1018,7 @@ class Ioflex02:
     cResNm: int
     cResNmSig: int
     def Init(self, Addr: int) -> int:
-        """Sets the base address, looks whether one card answers there, and loads the array with the image that the rack file gives the card, or else the one that is built in; takes seconds of the rack's time. 0 if all is well, else see why."""
+        """Sets the base address, looks whether one card answers there, and loads the array with the image of the rack file, or the built-in one; takes seconds of the rack's time. 0: done, else see why."""
     @property
     def Result(self) -> int:
         """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
@@ -1044,7 +1044,7 @@ class Ioflex02:
     def WriteCmd(self, Cmd0: int, Cmd1: int, Cmd2: int, Cmd3: int) -> None:
         """A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig."""
     def WriteCmdAxis(self, axis: int, Cmd: int) -> None:
-        """A command for one axis 0 to 3; the others keep what they wait for, which WriteCmd would end or begin anew."""
+        """A command for one axis 0 to 3; the others stay armed, while WriteCmd would end or restart them."""
     def ReadSts(self) -> tuple[bool, bool, bool, bool]:
         """Whether each axis is calibrated (sCal)."""
     def WriteOutL(self, Data: int) -> None:
@@ -1056,7 +1056,7 @@ class Ioflex02:
     def ReadInH(self) -> int:
         """High 8 of the 16 inputs: A, B, Z, Cal of axes 2 and 3."""
     def read(self) -> tuple[int, list[dict[str, Any]]]:
-        """Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down."""
+        """All values of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down."""
     def set_mode(self, axis: int, reversed: bool = False, edges: int = 4, index_low: bool = False, filter: int = 0) -> None:
         """How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples of 100 ns."""
     def wait_calibrated(self, axis: int, timeout: float = 60.0) -> None:
@@ -1072,24 +1072,24 @@ class Ioflex02:
         """A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
     @staticmethod
     def image_info(image: bytes) -> dict[str, Any]:
-        """What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""
+        """Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""
 
 
 class GratingCard:
     """The function library of a motion card on a grating bus: the positions of one instant."""
     def __init__(self, world: RackHandle, card: str) -> None: ...
     def open(self) -> dict[str, Any]:
-        """Looks whether such a card answers: how it is set, with the addresses of its own list; period in s."""
+        """Checks for the card and returns its settings, with the addresses of its own list; period in s."""
     def read(self) -> tuple[int, int, npt.NDArray[np.int64]]:
-        """The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong."""
+        """The last published frame: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong."""
     def wait(self, timeout: float) -> tuple[int, int, npt.NDArray[np.int64]]:
         """Waits for a frame that was not read yet, and reads it; Timeout after timeout s."""
     def addresses(self) -> list[int]:
-        """Which scales the frame read last has: the address of each word, as the host gave it; empty before the first."""
+        """Scales of the last frame read: the address of each word, as set by the host; empty before the first."""
     def stale(self) -> bool:
-        """Whether the frame published last is two periods old."""
+        """Whether the last published frame is two periods old."""
     def errors(self) -> dict[str, Any]:
-        """What went wrong on the bus since the last clear_errors, each at most 65,535."""
+        """Errors on the bus since the last clear_errors, each at most 65,535."""
     def clear_errors(self) -> None:
         """Clears those counters."""
     def set_position(self, scale: int, count: int) -> None:
@@ -1103,7 +1103,7 @@ def frame_picture(world: RackHandle, frame: int) -> str:
     """One frame of the rack as waves (SVG); a rack of its own is run for it."""
 
 class Rtc5:
-    """The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. List commands go to the list that set_start_list has opened. What is out of range, or not possible now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words the RTC5 manual 1.10 d (German), page 198."""
+    """The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. List commands go to the list that set_start_list has opened. A call that is out of range, or not possible now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words the RTC5 manual 1.10 d (German), page 198."""
     def __init__(self, world: RackHandle, card: str) -> None: ...
     def set_end_of_list(self) -> None:
         """List command: the list ends."""
@@ -1136,13 +1136,13 @@ class Rtc5:
     def micro_vector_rel(self, X: float, Y: float, LasOn: float, LasOff: float) -> None:
         """List command: as micro_vector_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. LasOn -2147483648 to 2147483647 times 0.5 us. LasOff -2147483648 to 2147483647 times 0.5 us."""
     def set_jump_speed(self, Speed: float) -> None:
-        """List command: of jumps from here on. Speed 1.6 to 800000 bits/ms."""
+        """List command: speed of later jumps. Speed 1.6 to 800000 bits/ms."""
     def set_mark_speed(self, Speed: float) -> None:
-        """List command: of marks and arcs from here on. Speed 1.6 to 800000 bits/ms."""
+        """List command: speed of later marks and arcs. Speed 1.6 to 800000 bits/ms."""
     def set_scanner_delays(self, Jump: float, Mark: float, Polygon: float) -> None:
-        """List command: waits after jumps, polylines and corners. Jump 0 to 4294967295 times 10 us. Mark 0 to 4294967295 times 10 us. Polygon 0 to 4294967295 times 10 us."""
+        """List command: delays after jumps, polylines and corners. Jump 0 to 4294967295 times 10 us. Mark 0 to 4294967295 times 10 us. Polygon 0 to 4294967295 times 10 us."""
     def set_laser_delays(self, LaserOnDelay: float, LaserOffDelay: float) -> None:
-        """List command: from the path's begin and end to the laser's. LaserOnDelay -32768 to 65535 times 0.5 us. LaserOffDelay -32768 to 65535 times 0.5 us."""
+        """List command: delays of the laser at the begin and end of the path. LaserOnDelay -32768 to 65535 times 0.5 us. LaserOffDelay -32768 to 65535 times 0.5 us."""
     def laser_on_list(self, Period: float) -> None:
         """List command: laser on for the time, position held. Period 0 to 4294967295 times 10 us."""
     def laser_signal_on_list(self) -> None:
@@ -1172,43 +1172,43 @@ class Rtc5:
     def activate_fly_2d(self, ScaleX: float, ScaleY: float) -> None:
         """List command: as set_fly_2d; the encoders keep their counts. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
     def fly_return(self, X: float, Y: float) -> None:
-        """List command: every correction off, then a jump. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+        """List command: turns all corrections off, then jumps. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
     def fly_return_z(self, X: float, Y: float, Z: float) -> None:
-        """List command: as fly_return; Z is there at once. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Z -8388608 to 8388607 bits."""
+        """List command: as fly_return; Z changes at once. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Z -8388608 to 8388607 bits."""
     def set_rot_center_list(self, X: float, Y: float) -> None:
-        """List command: what the rotary corrections turn about. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+        """List command: centre of the rotary corrections. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
     def store_encoder(self, Pos: float) -> None:
-        """List command: keeps both counts for read_encoder. Pos 0 to 255."""
+        """List command: stores both counts for read_encoder. Pos 0 to 255."""
     def wait_for_encoder(self, Value: float, EncoderNo: float) -> None:
         """List command: as wait_for_encoder_mode with Mode 0. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
     def wait_for_encoder_mode(self, Value: float, EncoderNo: float, Mode: float) -> None:
-        """List command: holds until the count is there. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255. Mode -2147483648 to 2147483647."""
+        """List command: waits until the count is reached. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255. Mode -2147483648 to 2147483647."""
     def wait_for_encoder_in_range(self, EncXmin: float, EncXmax: float, EncYmin: float, EncYmax: float) -> None:
-        """List command: holds until both counts are in range. EncXmin -2147483648 to 2147483647 counts. EncXmax -2147483648 to 2147483647 counts. EncYmin -2147483648 to 2147483647 counts. EncYmax -2147483648 to 2147483647 counts."""
+        """List command: waits until both counts are in range. EncXmin -2147483648 to 2147483647 counts. EncXmax -2147483648 to 2147483647 counts. EncYmin -2147483648 to 2147483647 counts. EncYmax -2147483648 to 2147483647 counts."""
     def wait_for_mcbsp(self, Axis: float, Value: float, Mode: float) -> None:
-        """List command: holds until the McBSP value is there. Axis 0 to 255. Value -2147483648 to 2147483647 counts. Mode -2147483648 to 2147483647."""
+        """List command: waits until the McBSP value is reached. Axis 0 to 255. Value -2147483648 to 2147483647 counts. Mode -2147483648 to 2147483647."""
     def set_fly_limits(self, Xmin: float, Xmax: float, Ymin: float, Ymax: float) -> None:
-        """List command: the area that bits 4 to 7 watch. Xmin -8388608 to 8388607 bits. Xmax -8388608 to 8388607 bits. Ymin -8388608 to 8388607 bits. Ymax -8388608 to 8388607 bits."""
+        """List command: the area monitored by bits 4 to 7. Xmin -8388608 to 8388607 bits. Xmax -8388608 to 8388607 bits. Ymin -8388608 to 8388607 bits. Ymax -8388608 to 8388607 bits."""
     def set_fly_limits_z(self, Zmin: float, Zmax: float) -> None:
-        """List command: what bits 24 and 25 watch. Zmin -8388608 to 8388607 bits. Zmax -8388608 to 8388607 bits."""
+        """List command: the Z range monitored by bits 24 and 25. Zmin -8388608 to 8388607 bits. Zmax -8388608 to 8388607 bits."""
     def if_fly_x_overflow(self, Mode: float) -> None:
         """List command: the next command only if bit 4 or 5 is set; clears them. Mode -2147483648 to 2147483647."""
     def if_fly_y_overflow(self, Mode: float) -> None:
-        """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
+        """List command: the same for bits 6 and 7. Mode -2147483648 to 2147483647."""
     def if_fly_z_overflow(self, Mode: float) -> None:
-        """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
+        """List command: the same for bits 24 and 25. Mode -2147483648 to 2147483647."""
     def if_not_fly_x_overflow(self, Mode: float) -> None:
         """List command: the next command only if they are not set; clears them. Mode -2147483648 to 2147483647."""
     def if_not_fly_y_overflow(self, Mode: float) -> None:
-        """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
+        """List command: the same for bits 6 and 7. Mode -2147483648 to 2147483647."""
     def if_not_fly_z_overflow(self, Mode: float) -> None:
-        """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
+        """List command: the same for bits 24 and 25. Mode -2147483648 to 2147483647."""
     def clear_fly_overflow(self, Mode: float) -> None:
         """List command: clears bits 4, 5 (Mode bit 0), 6, 7 (bit 1), 24, 25 (bit 2); 0: all. Mode -2147483648 to 2147483647."""
     def park_position(self, Mode: float, X: float, Y: float) -> None:
         """List command: jumps away; with Mode 0 the correction pauses. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
     def park_return(self, Mode: float, X: float, Y: float) -> None:
-        """List command: jumps back: Mode 0 to where it left, else to X, Y. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+        """List command: jumps back: Mode 0 to the position before, else to X, Y. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
     def set_ext_start_delay_list(self, Delay: float, EncoderNo: float) -> None:
         """List command: track delay of external starts. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
     def simulate_ext_start(self, Delay: float, EncoderNo: float) -> None:
@@ -1222,7 +1222,7 @@ class Rtc5:
     def set_multi_mcbsp_in_list(self, Ctrl: float, P: float, Mode: float) -> None:
         """List command: McBSP words carry their type: x, y, z, laser power and parameters. Ctrl 0 to 255. P 0 to 4294967295 times 10 us. Mode -2147483648 to 2147483647."""
     def get_mcbsp_list(self) -> None:
-        """List command: puts the present McBSP word to memory location 0."""
+        """List command: stores the present McBSP word in memory location 0."""
     def set_mcbsp_x_list(self, ScaleX: float) -> None:
         """List command: online positioning of X; 0 is off. ScaleX -1000000000 to 1000000000."""
     def set_mcbsp_y_list(self, ScaleY: float) -> None:
@@ -1232,7 +1232,7 @@ class Rtc5:
     def set_mcbsp_matrix_list(self) -> None:
         """List command: online positioning of matrix coefficients."""
     def apply_mcbsp_list(self, HeadNo: float, at_once: float) -> None:
-        """List command: what came by online positioning, to a head. HeadNo 1 to 4. at_once 0 to 255."""
+        """List command: applies the online positioning to a head. HeadNo 1 to 4. at_once 0 to 255."""
     def set_matrix_list(self, HeadNo: float, Ind1: float, Ind2: float, Mij: float, at_once: float) -> None:
         """List command: one coefficient of the matrix. HeadNo 1 to 4. Ind1 0 to 255. Ind2 0 to 255. Mij -50 to 50. at_once 0 to 255."""
     def set_offset_list(self, HeadNo: float, XOffset: float, YOffset: float, at_once: float) -> None:
@@ -1246,19 +1246,19 @@ class Rtc5:
     def set_trigger4(self, Period: float, Signal1: float, Signal2: float, Signal3: float, Signal4: float) -> None:
         """List command: as set_trigger, four signals. Period 0 to 4294967295 times 10 us. Signal1 0 to 255. Signal2 0 to 255. Signal3 0 to 255. Signal4 0 to 255."""
     def set_wobbel(self, Transversal: float, Longitudinal: float, Freq: float) -> None:
-        """List command: marks are drawn by an ellipse across and along the motion; amplitudes of 0 or a frequency of 0 are off. Transversal 0 to 131071 bits. Longitudinal 0 to 131071 bits. Freq -6000 to 6000 Hz."""
+        """List command: marks are widened by an ellipse across and along the motion; amplitudes of 0 or a frequency of 0 are off. Transversal 0 to 131071 bits. Longitudinal 0 to 131071 bits. Freq -6000 to 6000 Hz."""
     def list_call(self, Pos: float) -> None:
-        """List command: goes on at Pos, until list_return. Pos 0 to 1048575."""
+        """List command: continues at Pos, until list_return. Pos 0 to 1048575."""
     def sub_call(self, Index: float) -> None:
         """List command: the same with a subroutine of load_sub. Index 0 to 1023."""
     def list_return(self) -> None:
-        """List command: goes on behind the call."""
+        """List command: continues after the call."""
     def set_start_list(self, ListNo: int, Pos: int = 0) -> None:
         """List commands go to list 1 or 2 from here on, from that position."""
     def load_list(self, ListNo: int, Pos: int = 0) -> int:
-        """The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list opened, or 0."""
+        """As set_start_list, for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); returns the opened list, or 0."""
     def load_sub(self, index: int) -> None:
-        """What is put up to list_return becomes subroutine 0 to 1023."""
+        """The commands up to list_return become subroutine 0 to 1023."""
     def config_list(self, list1: int, list2: int) -> None:
         """Positions of list 1 and list 2; -1: the rest."""
     def execute_list(self, ListNo: int, Pos: int = 0) -> None:
@@ -1268,7 +1268,7 @@ class Rtc5:
     def start_loop(self) -> None:
         """Lists 1 and 2 run in turn."""
     def quit_loop(self) -> None:
-        """No longer in turn."""
+        """Ends the alternation of the lists."""
     def pause_list(self) -> None:
         """Holds the list."""
     def restart_list(self) -> None:
@@ -1276,11 +1276,11 @@ class Rtc5:
     def stop_execution(self) -> None:
         """Ends the list at once."""
     def external_start(self) -> None:
-        """As if the start line rose."""
+        """Simulates a start signal."""
     def external_stop(self) -> None:
-        """As if the stop line rose."""
+        """Simulates a stop signal."""
     def enable_laser(self) -> None:
-        """Lets the laser's signals out."""
+        """Enables the laser's signals."""
     def disable_laser(self) -> None:
         """Keeps them in."""
     def goto_xy(self, x: float, y: float) -> None:
@@ -1304,27 +1304,27 @@ class Rtc5:
     def get_status(self) -> tuple[int, int]:
         """(status, position in the list)."""
     def get_marking_info(self) -> int:
-        """What went wrong in marking, bits; reading clears them. See marking_info_text."""
+        """Errors of marking, bits; reading clears them. See marking_info_text."""
     @staticmethod
     def marking_info_text(bits: int) -> list[str]:
         """A sentence for each bit."""
     def get_startstop_info(self) -> int:
-        """What the start and stop lines did, bits."""
+        """Events of the start and stop lines, bits."""
     def get_value(self, signal: int) -> int:
         """A signal by its number, 0 to 255."""
     def get_encoder(self) -> tuple[int, int]:
         """(encoder 0, encoder 1), counts."""
     def list_space(self) -> int:
-        """Free positions of the list that is being put into."""
+        """Free positions of the open list."""
     def busy(self) -> bool:
         """Whether a list runs; takes no time."""
     def output(self) -> tuple[int, int, bool]:
         """Where head A is (bits) and whether its laser is on; takes no time."""
     def wait(self, timeout: float = 60.0) -> None:
-        """Until the card rests; Timeout after timeout s."""
+        """Waits for standstill of the card; Timeout after timeout s."""
     @property
     def question_seconds(self) -> float:
-        """Time that a question takes, s, before the card answers; 10 us at first."""
+        """Duration of a query, s; initially 10 us."""
     @question_seconds.setter
     def question_seconds(self, value: float) -> None: ...
     def select_cor_table(self, HeadA: int, HeadB: int) -> None:
@@ -1342,7 +1342,7 @@ class Rtc5:
     def get_input_pointer(self) -> int:
         """The position that the next list command gets, over all lists. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def get_list_space(self) -> int:
-        """Positions that are free in the list that is being put into. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+        """Free positions in the open list. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def execute_list_1(self) -> None:
         """Starts list 1; refused while a list runs or the card moves. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def execute_list_2(self) -> None:
@@ -1358,19 +1358,19 @@ class Rtc5:
     def write_io_port(self, Value: int) -> None:
         """Sets the 16 digital outputs. Value 0 to 65535. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def get_io_status(self) -> int:
-        """The 16 digital outputs. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+        """The 16 digital outputs. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def simulate_encoder(self, EncoderNo: int) -> None:
         """0: none; 1, 2, 3: encoder 0, 1, both count 1000000 counts/s by themselves. EncoderNo 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
     def read_encoder(self) -> tuple[int, int, int, int]:
-        """Counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+        """Counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def set_rot_center(self, X: int, Y: int) -> None:
-        """What the rotary corrections turn about. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Centre of the rotary corrections. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_fly_tracking_error(self, TrackingErrorX: int, TrackingErrorY: int) -> None:
-        """How late the mirrors are; encoders are taken ahead by it. TrackingErrorX 0 to 65535 times 10 us. TrackingErrorY 0 to 65535 times 10 us. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 428."""
+        """Lag of the mirrors; encoder counts are extrapolated by it. TrackingErrorX 0 to 65535 times 10 us. TrackingErrorY 0 to 65535 times 10 us. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 428."""
     def init_fly_2d(self, OffsetX: int, OffsetY: int) -> None:
-        """Both encoders become 0, and these are added to their counts in 2D corrections. OffsetX -2147483648 to 2147483647 counts. OffsetY -2147483648 to 2147483647 counts. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 185."""
+        """Zeroes both encoders; these values are added to their counts in 2D corrections. OffsetX -2147483648 to 2147483647 counts. OffsetY -2147483648 to 2147483647 counts. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 185."""
     def get_fly_2d_offset(self) -> tuple[int, int]:
-        """(OffsetX, OffsetY) of init_fly_2d, counts. Takes the time of a question. Source: the RTC5 manual 1.9 e, page 185."""
+        """(OffsetX, OffsetY) of init_fly_2d, counts. Takes the time of a query. Source: the RTC5 manual 1.9 e, page 185."""
     def set_encoder_speed_ctrl(self, EncoderNo: int, Speed: float, Smooth: float) -> None:
         """Target (taken as 100 to 16000 counts/ms) and smoothing of the speed of encoder 0, 1, or both (2, 3). EncoderNo 0 to 3. Speed -1000000000 to 1000000000 counts/ms. Smooth 0 to 1. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 419."""
     def set_ext_start_delay(self, Delay: int, EncoderNo: int) -> None:
@@ -1378,21 +1378,21 @@ class Rtc5:
     def set_extstartpos(self, Pos: int) -> None:
         """Where the list of an external start begins, over all lists. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
     def simulate_ext_start_ctrl(self) -> None:
-        """As if the start line rose. Source: the RTC5 manual 1.9 e, page 511."""
+        """Simulates a start signal. Source: the RTC5 manual 1.9 e, page 511."""
     def simulate_ext_stop(self) -> None:
-        """As if the stop line rose. Source: the maker's header of the RTC5 of 2013."""
+        """Simulates a stop signal. Source: the maker's header of the RTC5 of 2013."""
     def mcbsp_init(self, XDelay: int, RDelay: int) -> None:
-        """Taken and changes nothing: the frame on the wire is not there. XDelay 0 to 2 bits. RDelay 0 to 2 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the frame on the wire is not simulated. XDelay 0 to 2 bits. RDelay 0 to 2 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def mcbsp_init_spi(self, ClockLevel: int, ClockDelay: int) -> None:
-        """Taken and changes nothing: the frame on the wire is not there. ClockLevel 0 to 1. ClockDelay 0 to 1. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the frame on the wire is not simulated. ClockLevel 0 to 1. ClockDelay 0 to 1. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_mcbsp_freq(self, Freq: int) -> int:
-        """Gives Freq back and changes nothing: the frame on the wire is not there. Freq 1 to 50000000 Hz. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Returns Freq without effect: the frame on the wire is not simulated. Freq 1 to 50000000 Hz. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def get_mcbsp(self) -> int:
-        """The present word, signed, which goes to memory location 0 too; refused before the first word. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+        """The present word, signed, which goes to memory location 0 too; refused before the first word. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def read_mcbsp(self, No: int) -> int:
-        """Memory location No; refused where nothing was put there yet, with what must come first. Location 0 is filled from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm. No 0 to 3. Takes the time of a question. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+        """Memory location No; refused while it is empty, with the command that fills it. Location 0 is filled from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm. No 0 to 3. Takes the time of a query. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
     def read_multi_mcbsp(self, No: int) -> int:
-        """The last value of a type, after set_multi_mcbsp_in. No 0 to 7. Takes the time of a question. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
+        """The last value of a type, after set_multi_mcbsp_in. No 0 to 7. Takes the time of a query. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
     def set_mcbsp_in(self, Mode: int, Scale: float) -> None:
         """X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode 2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3. Mode 0 to 3. Scale -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
     def set_multi_mcbsp_in(self, Ctrl: int, P: int, Mode: int) -> None:
@@ -1406,43 +1406,43 @@ class Rtc5:
     def set_mcbsp_matrix(self) -> None:
         """Online positioning of matrix coefficients. Source: the RTC5 manual 1.9 e, page 166."""
     def apply_mcbsp(self, HeadNo: int, at_once: int) -> None:
-        """What came by online positioning, to a head; at_once 2: with the next jump. HeadNo 1 to 4. at_once 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
+        """Applies the online positioning to a head; at_once 2: with the next jump. HeadNo 1 to 4. at_once 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 166."""
     def set_mcbsp_out(self, Signal1: int, Signal2: int) -> None:
         """Sends two signals of get_value in turn, one word in 10 us. Signal1 0 to 255. Signal2 0 to 255. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def measurement_status(self) -> tuple[int, int]:
-        """(Busy, Pos): whether set_trigger records; Pos + 1 samples are there, none: -1. Takes the time of a question. Source: the maker's header of the RTC5 of 2013."""
+        """(Busy, Pos): whether set_trigger records; Pos + 1 samples are there, none: -1. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def stop_trigger(self) -> None:
         """Ends a recording; its samples stay. Source: the maker's header of the RTC5 of 2013."""
     def set_laser_mode(self, Mode: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Mode 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Mode 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_laser_control(self, Ctrl: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Ctrl 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Ctrl 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_standby(self, HalfPeriod: int, PulseLength: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_laser_pulses_ctrl(self, HalfPeriod: int, PulseLength: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_firstpulse_killer(self, Length: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_qswitch_delay(self, Delay: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_laser_pulses(self, HalfPeriod: int, PulseLength: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. HalfPeriod 0 to 4294967295. PulseLength 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_laser_timing(self, HalfPeriod: int, PulseLength1: int, PulseLength2: int, TimeBase: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. HalfPeriod 0 to 4294967295. PulseLength1 0 to 4294967295. PulseLength2 0 to 4294967295. TimeBase 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. HalfPeriod 0 to 4294967295. PulseLength1 0 to 4294967295. PulseLength2 0 to 4294967295. TimeBase 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_firstpulse_killer_list(self, Length: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Length 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_qswitch_delay_list(self, Delay: int) -> None:
-        """Taken and changes nothing: the laser is a gate here, on or off. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
+        """Accepted without effect: the laser is only on or off here. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def init_rtc5_dll(self) -> int:
         """Gives 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013."""
     def rtc5_count_cards(self) -> int:
         """Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013."""
     def select_rtc(self, CardNo: int) -> int:
-        """The commands of this object go to the rack's card CardNo of type rtc5 from here on, 1 is the first in the rack file; gives CardNo. Refused where there is none. Source: the maker's header of the RTC5 of 2013."""
+        """Directs the commands of this object to the rack's card CardNo of type rtc5 from here on, 1 is the first in the rack file; returns CardNo. Refused if it does not exist. Source: the maker's header of the RTC5 of 2013."""
     def free_rtc5_dll(self) -> None:
-        """Lets the card go: commands of this object are refused until select_rtc. Source: the maker's header of the RTC5 of 2013."""
+        """Releases the card: commands of this object are refused until select_rtc. Source: the maker's header of the RTC5 of 2013."""
     def get_last_error(self) -> int:
-        """Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the exception. 2 there is no card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of 2013."""
+        """Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the exception. 2 unknown card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of 2013."""
     def get_error(self) -> int:
         """The error bits of all commands since reset_error. Source: the maker's header of the RTC5 of 2013."""
     def reset_error(self, Code: int) -> None:
@@ -1451,14 +1451,14 @@ class Rtc5:
     def error_text(bits: int) -> list[str]:
         """A sentence for each of the bits 0 to 6 of get_last_error."""
     def load_program_file(self, Path: str | None = None) -> int:
-        """Sets the card back to power-up, but for McBSP location 0, which goes on; the name is not looked at. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
+        """Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
     def load_correction_file(self, Name: str | None, No: int, Dim: int = 2) -> int:
         """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. InvalidInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
     def table_note(self, TableNo: int) -> str:
-        """What is worth knowing of the file of table TableNo 1 to 4: that its checksum is not known; "": nothing."""
+        """Note on the file of table TableNo 1 to 4: its checksum is not known; "": no note."""
     def load_fly_2d_table(self, Name: str | None, No: int) -> int:
         """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Gives 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
     def set_mcbsp_out_ptr(self, SignalPtr: Sequence[int]) -> None:
         """Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal that is not there. Source: the maker's header of the RTC5 of 2013."""
     def get_waveform(self, Channel: int, Number: int) -> npt.NDArray[np.int32]:
-        """The first Number samples of Channel 1 to 4 of a recording (set_trigger). Refused where so many are not there. Source: the maker's header of the RTC5 of 2013."""
+        """The first Number samples of Channel 1 to 4 of a recording (set_trigger). Refused if fewer are available. Source: the maker's header of the RTC5 of 2013."""

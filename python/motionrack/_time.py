@@ -17,10 +17,10 @@ def ticks_of(seconds: float = 0.0, ms: float = 0, us: float = 0, ns: float = 0) 
             total += value * size
             continue
         if not math.isfinite(value):
-            raise Refused(f"A time is {value}; it is a finite number. Nothing was done.")
+            raise Refused(f"A time is {value}; it must be a finite number. Nothing was done.")
         total += math.floor(value * size + 0.5)
     if abs(total) > 9_000_000_000_000_000_000:
-        raise Refused(f"A time is {total / TICKS_PER_SECOND:.0f} s; it is at most 900000000 s. Nothing was done.")
+        raise Refused(f"A time is {total / TICKS_PER_SECOND:.0f} s; it must be at most 900000000 s. Nothing was done.")
     return total
 
 

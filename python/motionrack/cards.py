@@ -1,7 +1,7 @@
 """Cards of a rack by their own maps: registers, fields, channels, values, the function library.
 
     card = rack.cards["c1"]
-    card.RR0.DRV             a field, looked at without any effect and without taking time
+    card.RR0.DRV             a field, read without side effects and without time
     card.RR3.read().DEND     an access of the bus with all its effects
     card.WR0 = 0x0120        an access of the bus
     card.x.LP                what belongs to a channel
@@ -21,7 +21,7 @@ from .registers import MappedCard, Register
 
 
 class Channel:
-    """What a card has once a channel: ``card.x.LP`` (a whole number), ``card.x.RR1`` (a register)."""
+    """Values and registers of one channel: ``card.x.LP`` (a whole number), ``card.x.RR1`` (a register)."""
 
     __slots__ = ("_card", "_name")
 
@@ -62,7 +62,7 @@ class Card(MappedCard):
     _driver: Any
     _library: _core.Mcx314Library | None
 
-    # ---- what it is ----
+    # ---- identity ----
 
     @property
     def name(self) -> str:
@@ -86,15 +86,15 @@ class Card(MappedCard):
 
     @property
     def values(self) -> list[str]:
-        """What ``peek`` knows beside the registers: ``"x.LP"``."""
+        """Names of ``peek`` other than registers: ``"x.LP"``."""
         return list(self._about["values"])
 
     @property
     def pins(self) -> dict[str, str]:
-        """Its pins and what they are; ``rack.wires["c1.xlmtp"]`` is the level of one."""
+        """Its pins and their meanings; ``rack.wires["c1.xlmtp"]`` is the level of one."""
         return dict(self._about["pins"])
 
-    # ---- looking, reading, writing ----
+    # ---- peeking, reading, writing ----
 
     def peek(self, name: str) -> int:
         """A register or value by its name (``"RR0"``, ``"x.LP"``), without any effect; takes no time.
@@ -111,12 +111,12 @@ class Card(MappedCard):
         _core.write(self._world, self._name, bits, int(self._about["base"]) + offset, value)
 
     def view(self, clearing: bool = False) -> str:
-        """What its registers show through the bus, in words; ``clearing``: RR3 too, which reading clears.
-        Refused for cards without a view."""
+        """The meaning of its registers, read through the bus; ``clearing``: also RR3, which reading clears. Refused
+        for cards without a view."""
         return _core.view(self._world, self._name, clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
-        """Until its interrupt line is active, at most ``timeout`` s, then Timeout."""
+        """Waits until its interrupt line is active; Timeout after ``timeout`` s."""
         if not _core.wait_interrupt(self._world, self._name, ticks_of(timeout)):
             raise Timeout(f"Card {self._name} asked for no interrupt within {timeout:g} s.")
 
@@ -135,7 +135,7 @@ class Card(MappedCard):
         return self._driver
 
     def open(self, **settings: Any) -> Any:
-        """A function library with settings of its own: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to
+        """A function library with its own settings: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to
         255)."""
         kinds: dict[str, Any] = {
             "mcx314": _core.Mcx314,
@@ -213,7 +213,7 @@ class Cards(Mapping[str, Card]):
     def __getitem__(self, name: str) -> Card:
         if name not in self._names:
             raise NoSuchName(
-                f"There is no card {name!r} in this rack; its cards are: {', '.join(self._names) or 'none'}. Nothing "
+                f"Unknown card {name!r}; the cards of this rack are: {', '.join(self._names) or 'none'}. Nothing "
                 "was done."
             )
         if name not in self._cards:

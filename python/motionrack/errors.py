@@ -1,25 +1,23 @@
-"""What goes wrong, by name. All of them are :class:`Error`; each sentence says what was seen, the limit,
-and what was (not) done.
+"""Errors by name. All of them are :class:`Error`; each sentence has the value, the limit and the effect.
 
     InvalidInput      a rack file, a part program or a name is wrong; nothing was done
     Refused       well formed, but outside a limit or at the wrong time; nothing was done
     MachineFault  the machine stopped: a limit switch, an alarm, the emergency stop, a card that does not answer
-    Timeout       what was waited for did not come in time
+    Timeout       a wait timed out
     FileError   a file could not be read or written
-    Stopped       the run was ended by its user; what was recorded is kept
+    Stopped       the run was ended by its user; the recording is kept
 
-Ctrl-C is a KeyboardInterrupt, as everywhere in Python: what moves is brought to rest first.
+Ctrl-C is a KeyboardInterrupt, as everywhere in Python: moving axes stop first.
 """
 
 from __future__ import annotations
 
 
 class Error(Exception):
-    """Something of motionrack went wrong.
+    """An error of motionrack.
 
-    ``message`` is the sentence; ``file``, ``line``, ``column`` say where in a text (line and column count from 1, 0:
-    nowhere). ``problems`` has every problem of a rack file or a program, in the order of their lines,
-    where there can be several.
+    ``message`` is the sentence; ``file``, ``line``, ``column`` are its location in a text (line and column count from
+    1, 0: nowhere). ``problems`` has every problem of a rack file or a program, in the order of their lines.
     """
 
     def __init__(self, message: str = "", file: str = "", line: int = 0, column: int = 0) -> None:
@@ -41,8 +39,7 @@ class InvalidInput(Error):
 
 
 class NoSuchName(InvalidInput, KeyError):
-    """A mapping (cards, parts, wires, signals of a trace) has nothing of that name;
-    the sentence has the names that there are."""
+    """A mapping (cards, parts, wires, signals of a trace) does not have that name; the sentence lists the known names."""
 
     def __str__(self) -> str:
         return str(self.args[0])
@@ -53,11 +50,11 @@ class Refused(Error):
 
 
 class MachineFault(Error):
-    """The machine stopped or did not do what it was told."""
+    """The machine stopped, or did not execute a command."""
 
 
 class Timeout(Error, TimeoutError):
-    """What was waited for did not come in time; the rack stands where the time ended."""
+    """A wait timed out; the rack is at the end of that time."""
 
 
 class FileError(Error):

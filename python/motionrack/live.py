@@ -7,7 +7,7 @@
         card.library.wait(1, 10000)
         print(card.library.ReadLPS(1), card.RR0.read().DRV)
 
-The block ends with the axes at rest, however it ends. docs/howto/live-port.md says what to do before.
+The axes are at standstill after the block, also after an exception. docs/howto/live-port.md has the preparations.
 """
 
 from __future__ import annotations
@@ -37,9 +37,10 @@ class LiveCard(MappedCard):
     functions of its source.
 
     Ctrl-C, an exception in a ``with`` block, its end, :meth:`close` and :meth:`quick_stop` stop all axes, at once and
-    without a ramp. Ctrl-C is heard while a call waits, by Python's main thread. A stop holds: until :meth:`reset_stop`
-    nothing is written, and calls raise Stopped. What ends without these (a signal other than Ctrl-C, loss of power)
-    leaves the axes driving: limit switches and emergency stop belong to the card, not to the program.
+    without a ramp. Ctrl-C acts while a call waits, in Python's main thread. A stop stays active: until
+    :meth:`reset_stop` nothing is written, and calls raise Stopped. What ends without these (a signal other than
+    Ctrl-C, loss of power) leaves the axes driving: limit switches and emergency stop belong to the card, not to the
+    program.
 
     One thread at a time, the others are Refused; only :meth:`quick_stop` may come from any. While it is open no second
     port can be opened on its registers, in this program or another one of motionrack.
@@ -70,7 +71,7 @@ class LiveCard(MappedCard):
 
     @property
     def place(self) -> str:
-        """Where it is, as it was opened."""
+        """The address with which it was opened."""
         return self._place
 
     @property
@@ -80,7 +81,7 @@ class LiveCard(MappedCard):
 
     @property
     def seconds(self) -> float:
-        """The computer's clock since it was opened, s. Refused once it was closed."""
+        """Real time since it was opened, s. Refused once it was closed."""
         return self._port.now()
 
     # ---- its function library ----
@@ -88,7 +89,7 @@ class LiveCard(MappedCard):
     @property
     def library(self) -> _core.Mcx314Library:
         """The functions of the card's source under their names, each with the arguments, ranges and sentences of its
-        declaration. It takes the card to be as after ``RESET()``. Refused beside ``driver``, and once the card
+        declaration. It assumes the state after ``RESET()``. Refused beside ``driver``, and once the card
         was closed."""
         if self._library is None:
             object.__setattr__(self, "_library", _core.Mcx314Library.of_live_port(self._port))
@@ -112,23 +113,23 @@ class LiveCard(MappedCard):
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
-        """A stop does not hold any more. Nothing moves by that, and no drive that it ended goes on."""
+        """Releases a stop. Nothing moves by that, and stopped drives do not continue."""
         self._port.reset_stop()
 
     @property
     def stopped(self) -> bool:
-        """Whether a stop holds."""
+        """Whether a stop is active."""
         return self._port.stopped()
 
     def close(self) -> None:
-        """Stops all axes at once and lets the card go; again it does nothing. Refused in the middle of a call of this
+        """Stops all axes at once and closes the card; a second call has no effect. Refused in the middle of a call of this
         thread. FileError where the stop could not be written; it is closed all the same."""
         self._port.close()
         _open.discard(self)
 
     @property
     def closed(self) -> bool:
-        """Whether it was closed."""
+        """Whether the card was closed."""
         return self._port.closed()
 
     def __enter__(self) -> LiveCard:
@@ -137,33 +138,31 @@ class LiveCard(MappedCard):
     def __exit__(self, kind: ExceptionKind | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self.close()
 
-    # ---- looking, reading, writing ----
+    # ---- peeking, reading, writing ----
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also
-        while a stop holds. InvalidInput, FileError."""
+        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also during a stop. InvalidInput, FileError."""
         self._check_bits(bits)
         return self._port.read(offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. What library or driver
-        has set is not known to them then. InvalidInput, Refused, Stopped, FileError."""
+        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. Library and driver do not know of the change. InvalidInput, Refused, Stopped, FileError."""
         self._check_bits(bits)
         self._port.write(offset, value)
 
     def peek(self, name: str) -> int:
-        """Always InvalidInput: a real card shows nothing without an access."""
+        """Always InvalidInput: a real card cannot be read without an access."""
         raise InvalidInput(
             f"Register {name} of a real card cannot be looked at without an access. Nothing was read. Use read()."
         )
 
     def view(self, clearing: bool = False) -> str:
-        """What its registers show, in words; ``clearing``: RR3 too, which reading clears. It writes WR0, with NOP and
-        read commands, which move nothing; also while a stop holds. FileError."""
+        """The meaning of its registers; ``clearing``: also RR3, which reading clears. It writes WR0, with NOP and
+        read commands, which move nothing; also during a stop. FileError."""
         return self._port.view(clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
-        """Until its interrupt comes, at most ``timeout`` s (0 to 9e8, or infinite), then Timeout. Stopped; Refused
+        """Waits for its interrupt; Timeout after ``timeout`` s (0 to 9e8, or infinite). Stopped; Refused
         without ``interrupt=`` (a UIO node has its own)."""
         if not self._port.wait_interrupt(timeout):
             if self.stopped:

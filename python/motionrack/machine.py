@@ -31,7 +31,7 @@ class AxisStatus:
 
 @dataclass(frozen=True)
 class Alarm:
-    """It is there until it was acknowledged and its cause is gone; ``seconds`` since the start."""
+    """Active until it is acknowledged and its cause is removed; ``seconds`` since the start."""
 
     number: int
     seconds: float
@@ -70,7 +70,7 @@ class Machine:
     """
 
     def __init__(self, rack: Rack) -> None:
-        """Of the same file as ``rack``, at time 0, disabled. Refused where no program can run on it."""
+        """A machine with the file of ``rack``, at time 0, disabled. Refused if no program can run on it."""
         self._core: _core.SteppedMachine | None = _core.SteppedMachine(rack._world)
 
     @classmethod
@@ -94,7 +94,7 @@ class Machine:
         return self._core
 
     def close(self) -> None:
-        """Stops what moves and ends the machine."""
+        """Stops all motion and ends the machine."""
         self._core = None
 
     def __enter__(self) -> Machine:
@@ -108,7 +108,7 @@ class Machine:
     # ---- time ----
 
     def advance(self, seconds: float = 0.0, *, ms: float = 0) -> None:
-        """Lets the machine run for so long, in whole slices of 2 ms."""
+        """Runs the machine for the sum of the times given, in whole slices of 2 ms."""
         self._operated().advance(ticks_of(seconds, ms))
 
     def wait(self, until: str | Callable[[Status], object], timeout: float, poll: float = 2e-3) -> Status:
@@ -155,24 +155,24 @@ class Machine:
         self._operated().enable(True, axes)
 
     def disable(self, axes: str = "") -> None:
-        """Stops whatever moves, then disables these axes; ``""``: all."""
+        """Stops all motion, then disables these axes; ``""``: all."""
         self._operated().enable(False, axes)
 
     def start_program(self, program: str, name: str = "") -> None:
-        """Checks a program whole, then begins it: InvalidInput with line and column,
+        """Checks the whole program, then starts it: InvalidInput with line and column,
         Refused unless the machine stands enabled and trusted."""
         self._operated().start_program(program, name)
 
     def hold(self) -> None:
-        """Comes to rest along the path."""
+        """Feed hold: decelerates along the path."""
         self._operated().hold()
 
     def resume(self) -> None:
-        """Goes on after a hold."""
+        """Resumes after a feed hold."""
         self._operated().resume()
 
     def stop(self) -> None:
-        """Decelerates whatever moves, and forgets programs; nothing moves until a reset. Never refused."""
+        """Decelerates all motion and discards programs; nothing moves until a reset. Never refused."""
         self._operated().stop()
 
     def reset(self) -> None:
@@ -184,8 +184,7 @@ class Machine:
         self._operated().home(axes)
 
     def jog(self, axis: str, speed: float) -> None:
-        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) for as long as it is called again within 0.25
-        s."""
+        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) while it is called again within 0.25 s."""
         self._operated().jog(axis, speed)
 
     def jog_by(self, axis: str, distance: float, speed: float) -> None:
@@ -197,11 +196,11 @@ class Machine:
         self._operated().set_position(axis, position)
 
     def set_overrides(self, feed: float = 1.0, rapid: float = 1.0) -> None:
-        """Parts of the programmed speeds: feed more than 0 up to 2, rapid more than 0 up to 1."""
+        """Feed override and rapid override: feed more than 0 up to 2, rapid more than 0 up to 1."""
         self._operated().set_overrides(feed, rapid)
 
     def acknowledge_alarm(self, alarm: int) -> bool:
-        """Acknowledges an alarm by its number; False if there is none."""
+        """Acknowledges an alarm by its number; False for an unknown number."""
         return self._operated().acknowledge_alarm(alarm)
 
     # ---- the machine ----
@@ -211,11 +210,11 @@ class Machine:
         return self._operated().wire(name)
 
     def set_wire(self, name: str, value: float | None) -> None:
-        """Drives a wire; None releases it. See :class:`Wires`."""
+        """Forces a wire; None releases it. See :class:`Wires`."""
         self._operated().set_wire(name, value)
 
     def fault(self, target: str, fault: str, value: float | None = None) -> None:
-        """Breaks something at this instant, or mends it; see :meth:`Rack.fault`."""
+        """Injects a fault at this instant, or repairs it; see :meth:`Rack.fault`."""
         self._operated().fault(fault if value is None else f"{fault}={value:.17g}", target)
 
     def __repr__(self) -> str:

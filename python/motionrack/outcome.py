@@ -1,4 +1,4 @@
-"""What came of a part program, and of homing."""
+"""Results of a part program, and of homing."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .trace import Trace, Values
 
 @dataclass(frozen=True)
 class AxisOutcome:
-    """What one axis did. Positions in ``unit`` (mm or deg), speeds per s, accelerations per s2."""
+    """Result of one axis. Positions in ``unit`` (mm or deg), speeds per s, accelerations per s2."""
 
     axis: str
     unit: str
-    servo: bool  #: it follows a voltage: pulses are those of its encoder, none are sent
+    servo: bool  #: a servo: pulses are counts of its encoder, none are sent
     min_position: float
     max_position: float
     max_velocity: float
@@ -27,20 +27,20 @@ class AxisOutcome:
     pulses_sent: int  #: of both directions
     pulses_net: int  #: forward less backward
     pulse_position: int  #: the card's counter LP at the end
-    pulse_start: int  #: and when the program began
-    encoder_counts: int  #: by which the card's encoder counter EP has changed
-    expected_counts: int  #: and would have if every pulse had moved the motor
+    pulse_start: int  #: counter LP at the start of the program
+    encoder_counts: int  #: change of the card's encoder counter EP
+    expected_counts: int  #: expected change, if every pulse had moved the motor
     lost_pulses: int  #: pulses that the motor did not follow
     planned_end: float
-    actual_end: float  #: where the machine is, by the positions of the last homing
+    actual_end: float  #: true position, by the last homing
     peak_velocity: float
-    peak_accel: float  #: over 4 samples without a jump
+    peak_accel: float  #: over 4 samples without a velocity step
     peak_velocity_step: float  #: largest change of velocity at once
 
 
 @dataclass(frozen=True)
 class ExecutedMove:
-    """A planned move as it was driven: length in mm (deg), speeds per s, start and end in s since the rack's start."""
+    """An executed move: length in mm (deg), speeds per s, start and end in s since the rack's start."""
 
     move: int
     line: int
@@ -51,12 +51,12 @@ class ExecutedMove:
     exit_velocity: float
     start: float
     end: float
-    deviation_mm: float  #: the worst in it
+    deviation_mm: float  #: maximum deviation in it
 
 
 @dataclass(frozen=True)
 class Warning:
-    """A sentence about something that happened, at an instant (s since the rack's start); line 0: none."""
+    """A condition as a sentence, at an instant (s since the rack's start); line 0: none."""
 
     seconds: float
     line: int
@@ -75,7 +75,7 @@ class MaxDeviation:
 
 @dataclass(frozen=True)
 class ProgramEvent:
-    """A spindle, tool or message word, with the block that was handed out before it (-1: none)."""
+    """A spindle, tool or message word, with the block executed before it (-1: none)."""
 
     line: int
     after_block: int
@@ -84,35 +84,35 @@ class ProgramEvent:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A part program that was run. ``ok``: it ended as programmed, and no step was lost; else ``error`` says why."""
+    """A part program that was run. ``ok``: it ended as programmed without lost steps; else ``error`` has the reason."""
 
     ok: bool
     error: Error | None
     duration_s: float  #: virtual time of the job
-    ticks: int  #: the same in ticks of 100 ps
+    ticks: int  #: virtual time of the job in ticks of 100 ps
     planned_duration_s: float
     path_mm: float  #: planned path of X, Y, Z
     moves: int  #: planned
     dwells: int
-    stops: int  #: moves that end at rest
+    stops: int  #: moves that end at standstill
     peak_path_velocity: float  #: mm/s, planned
     lines: int  #: read
-    moves_read: int  #: of the program, without dwells
+    moves_read: int  #: moves of the program, without dwells
     program_ended: bool  #: by M2 or M30
     axes: Mapping[str, AxisOutcome]
     max_deviation: MaxDeviation
-    tolerance_mm: float  #: the greatest deviation that the program allows somewhere
+    tolerance_mm: float  #: maximum deviation that the program allows
     warnings: list[Warning]
-    faults_not_done: list[str]  #: planned faults: the run ended before, or the part refused them
+    faults_not_done: list[str]  #: planned faults that were not injected: the run ended before, or the part refused them
     program_events: list[ProgramEvent]
     program_events_left_out: int
     executed_moves: list[ExecutedMove]
     executed_moves_left_out: int
-    chip_segments: int  #: commands that the card was given
-    events: int  #: of the kernel: what the run cost
+    chip_segments: int  #: commands to the card
+    events: int  #: events of the kernel during the run
     trace_hash: str  #: of the event trace, 16 digits; see Trace.hash
-    rest_axis: str | None  #: of the servos the one that stands farthest from where it was sent
-    rest_off: float  #: and how far, mm or deg
+    rest_axis: str | None  #: servo axis with the largest position error
+    rest_off: float  #: position error of that axis, mm or deg
     position_valid: bool  #: False once steps were lost
     trace: Trace = field(repr=False)
     _ran: Any = field(repr=False, compare=False)
@@ -124,15 +124,15 @@ class Outcome:
         return self
 
     def summary(self) -> str:
-        """What ``motionrack run`` prints at the end."""
+        """The summary of ``motionrack run``."""
         return str(self._ran.summary())
 
     def json(self) -> str:
-        """What ``motionrack run --json`` prints."""
+        """The output of ``motionrack run --json``."""
         return str(self._ran.json())
 
     def svg(self, perspective: bool = False) -> str:
-        """The programmed and the driven path from above or in perspective (SVG). Refused once the rack was closed."""
+        """The programmed and the executed path from above or in perspective (SVG). Refused once the rack was closed."""
         return str(self._ran.svg(perspective))
 
     def write_report(self, path: str) -> None:
@@ -155,7 +155,7 @@ class Outcome:
 
 
 def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
-    """Everything that C++ has of a job, with names and units."""
+    """All data of a job from C++, with names and units."""
     data = dict(ran.data())
     axes = {axis["axis"]: AxisOutcome(**axis) for axis in data.pop("axes")}
     error = ran.error()
@@ -196,7 +196,7 @@ def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) ->
 
 @dataclass(frozen=True)
 class Homing:
-    """What homing found. ``axes`` has for each axis what ``motionrack home --json`` tells:
+    """Result of homing. ``axes`` has for each axis the report of ``motionrack home --json``:
     states, edges, places (mm or deg), s."""
 
     ok: bool
@@ -205,7 +205,7 @@ class Homing:
     axes: Mapping[str, dict[str, Any]]
     pictures: Mapping[str, str] = field(
         repr=False
-    )  #: position, speed and states over time, SVG, of each axis that was begun
+    )  #: position, speed and states over time, SVG, of each axis that started
     _text: str = field(repr=False)
     _json: str = field(repr=False)
 
@@ -216,11 +216,11 @@ class Homing:
         return self
 
     def summary(self) -> str:
-        """What ``motionrack home`` prints."""
+        """The report of ``motionrack home``."""
         return self._text
 
     def json(self) -> str:
-        """What ``motionrack home --json`` prints."""
+        """The output of ``motionrack home --json``."""
         return self._json
 
     def __str__(self) -> str:
@@ -231,7 +231,7 @@ class Homing:
 
 
 def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, str]) -> Homing:
-    """A homing as C++ tells it."""
+    """A homing report from C++."""
     data = json.loads(as_json)
     return Homing(
         ok=bool(data["homed"]),

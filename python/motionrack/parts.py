@@ -11,7 +11,7 @@ from .errors import InvalidInput, NoSuchName
 class Wires(MutableMapping[str, float]):
     """Every wire: ``CARD.PIN``, ``NAME.END`` or ``estop``. A digital wire is 0 or 1, an analog one is V.
 
-    Setting one drives it from outside, and cuts off what drove it; ``del`` or None releases it. InvalidInput (no such
+    Setting one forces it from outside, in place of its driver; ``del`` or None releases it. InvalidInput (no such
     wire), Refused (an output, another value).
     """
 
@@ -49,10 +49,10 @@ class Wires(MutableMapping[str, float]):
 
 
 class Part:
-    """An axis, a stage, a belt, a table or a scan head: what is true of it, whatever any counter says;
+    """An axis, a stage, a belt, a table or a scan head: its true values, independent of all counters;
     names end in their units.
 
-    Setting a quantity pushes the part there by hand, where that is possible; Refused where it is not.
+    Setting a quantity pushes the part by hand; Refused if that is not possible.
     """
 
     def __init__(self, world: _core.RackHandle, name: str, quantities: dict[str, str]) -> None:
@@ -70,7 +70,7 @@ class Part:
 
     @property
     def quantities(self) -> dict[str, str]:
-        """What it has, and what each is."""
+        """Its quantities and their meanings."""
         return dict(self._quantities)
 
     def __getattr__(self, name: str) -> float:
@@ -101,7 +101,7 @@ class Parts(Mapping[str, Part]):
     def __getitem__(self, name: str) -> Part:
         if name not in self._parts:
             raise NoSuchName(
-                f"There is no part {name!r} in this rack; its parts are: {', '.join(self._parts) or 'none'}. Nothing "
+                f"Unknown part {name!r}; the parts of this rack are: {', '.join(self._parts) or 'none'}. Nothing "
                 "was done."
             )
         return self._parts[name]

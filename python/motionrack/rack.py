@@ -18,8 +18,7 @@ Progress = Callable[[float, int, int], None]
 
 
 class Rack:
-    """A rack of cards. Its time is virtual: it passes in the calls that say so and in accesses of a card's bus,
-    nowhere else.
+    """A rack of cards. Its time is virtual: it passes only in the calls that say so and in accesses of a card's bus.
 
     One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give
     the same event trace, bit for bit. As a context manager it is closed at the end of the block.
@@ -48,7 +47,7 @@ class Rack:
 
     @classmethod
     def template(cls, name: str = "router") -> Rack:
-        """A rack to begin with: one of :func:`motionrack.templates`. InvalidInput."""
+        """A rack from a template: one of :func:`motionrack.templates`. InvalidInput."""
         return cls(*_core.open_text(_core.template_text(name), ""))
 
     def new_instance(self) -> Rack:
@@ -56,17 +55,16 @@ class Rack:
         return Rack(self._world.new_instance(), self.warnings)
 
     def change_card(self, name: str, **settings: float) -> None:
-        """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file:
+        """Changes settings of a card before the rack's time begins, in the units of their keys in a rack file:
         ``change_card("host", period_us=250)``.
 
-        Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked
-        at, as it is in a rack file: for experiments with what a rack file refuses. InvalidInput, Refused.
+        Each value is checked against its range, and the card alone must be valid. Unlike in a rack file, the fit to other cards is not checked: for experiments that a rack file refuses. InvalidInput, Refused.
         """
         for key, value in settings.items():
             self._world.set_card(name, key, float(value))
 
     def close(self) -> None:
-        """Ends the rack and frees it; a recording that runs is ended. Everything of it is Refused afterwards."""
+        """Ends the rack and frees it; a running recording ends. All its calls are Refused afterwards."""
         if not self._world.closed():
             self._world.close()
 
@@ -106,8 +104,8 @@ class Rack:
         return self._world.ticks()
 
     def advance(self, seconds: float = 0.0, *, ms: float = 0, us: float = 0, ns: float = 0) -> None:
-        """Lets the world run for so long, 0 to 14 years in all; whole numbers are exact to the tick of 100 ps.
-        Refused beyond that."""
+        """Advances the rack by the sum of the times given, 0 to 14 years in all; whole numbers are exact to the
+        tick of 100 ps. Refused beyond that."""
         self._world.advance(ticks_of(seconds, ms, us, ns))
 
     def wait(self, condition: Callable[[], object], timeout: float, poll: float = 1e-3) -> None:
@@ -118,13 +116,11 @@ class Rack:
             raise Refused(f"poll is {poll} s; it must be more than 0. Nothing was run.")
         while not condition():
             if self.ticks >= end:
-                raise Timeout(
-                    f"What was waited for did not come within {timeout:g} s; the rack is at {self.time:.9g} s."
-                )
+                raise Timeout(f"The wait timed out after {timeout:g} s; the rack is at {self.time:.9g} s.")
             self._world.advance(min(step, end - self.ticks))
 
     def wait_wire(self, name: str, level: int, timeout: float) -> None:
-        """Runs until a digital wire has that level, and stands at the very instant; Timeout after ``timeout`` s.
+        """Runs until a digital wire has that level, and stops at that instant; Timeout after ``timeout`` s.
         InvalidInput.
 
         A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for,
@@ -133,7 +129,7 @@ class Rack:
         if level not in (0, 1):
             raise Refused(f"The level of a wire is 0 or 1, not {level}. Nothing was run.")
         if not self._world.wait_wire(name, level, ticks_of(timeout)):
-            raise Timeout(f"{name} did not become {level} within {timeout:g} s; the rack is at {self.time:.9g} s.")
+            raise Timeout(f"{name} did not reach {level} within {timeout:g} s; the rack is at {self.time:.9g} s.")
 
     # ---- looking ----
 
@@ -143,7 +139,7 @@ class Rack:
         return _core.peek(self._world, card, value)
 
     def get(self, name: str) -> float:
-        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is its name's end.
+        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is at the end of its name.
         InvalidInput."""
         return self._world.quantity(name)
 
@@ -151,18 +147,17 @@ class Rack:
         """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``;
         of a belt or table ``speed_mm_s`` (``speed_deg_s``).
 
-        A motor in step goes to the nearest place of the same electrical phase,
-        so read the quantity to see where it came to. InvalidInput, Refused.
+        A motor in step moves to the nearest position of the same electrical phase: read the quantity for the result. InvalidInput, Refused.
         """
         self._world.set_quantity(name, float(value))
 
     @property
     def conditions(self) -> list[tuple[float, str]]:
-        """What happened to the machine and cards so far (a lost step, a command ignored): s, and a sentence."""
+        """Conditions of the machine and cards so far (a lost step, a command ignored): s, and a sentence."""
         return [(seconds_of(ticks), text) for ticks, text in self._world.conditions()]
 
     def bus_conflicts(self) -> int:
-        """How often two cards drove a line of the grating bus against each other so far.
+        """Number of conflicts of two cards on a line of the grating bus so far.
         Refused without a grating bus."""
         return _core.bus_conflicts(self._world)
 
@@ -176,21 +171,21 @@ class Rack:
         return self._world.trace_hash()
 
     def state_hash(self) -> str:
-        """Equal worlds, equal hash: 16 digits."""
+        """Equal states have equal hashes: 16 digits."""
         return self._world.state_hash()
 
     # ---- breaking things ----
 
     @property
     def faults(self) -> dict[str, list[str]]:
-        """Everything that can be broken, and how: the faults of each target."""
+        """The faults of each target."""
         return dict(self._world.fault_targets())
 
     def fault(self, target: str, fault: str, value: float | None = None) -> None:
-        """Breaks something at this instant, or mends it: ``fault("X", "encoder.broken_a")``, ``fault("X",
+        """Injects a fault at this instant, or repairs it: ``fault("X", "encoder.broken_a")``, ``fault("X",
         "motor.lose_steps", 64)``.
 
-        Without a value it is 1; 0 mends what can be mended. InvalidInput (names), Refused (the part is missing, the
+        The default value is 1; 0 repairs a repairable fault. InvalidInput (names), Refused (the part is missing, the
         value).
         """
         self._world.fault(fault if value is None else f"{fault}={value:.17g}", target)
@@ -199,7 +194,7 @@ class Rack:
         """Plans a fault before the rack's time begins, as a command line does:
         ``"X.limit_plus=0@0.5s"``, ``"X.encoder.broken_a@1s"``.
 
-        Or in pieces: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6).
+        Or by parts: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6).
         A wire takes 0, 1 or ``"release"``.
         """
         if at is not None:
@@ -224,7 +219,7 @@ class Rack:
     ) -> Outcome:
         """Runs a part program to standstill: its text, or the file at ``path``, beside which its subprograms lie.
         It begins where the axes stand: where the rack file says, or after other programs and :meth:`home` where the
-        pulses since have led, by whatever command. G-code modes begin anew.
+        pulses since have led, by whatever command. G-code modes are reset.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
@@ -249,36 +244,36 @@ class Rack:
         name: str | None = None,
         tools: str | os.PathLike[str] | None = None,
     ) -> None:
-        """Raises what is wrong with a part program on this rack, with all ``problems``;
+        """Raises the errors of a part program on this rack, with all ``problems``;
         moves nothing and takes no time. See :meth:`run`."""
         _core.check(self._world, _program(program, path, name, tools, block_delete)[0])
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
-        """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the
-        rack file's; ``timeout`` in s of each group. What failed is the outcome's ``error``."""
+        """Homes axes: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the
+        rack file's; ``timeout`` in s of each group. A failure is in the outcome's ``error``."""
         return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
 
     # ---- recordings ----
 
     def record(self, *signals: str, period: float = 1e-3, max_samples: int = 1_000_000) -> Recording:
-        """Begins to look at wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities
+        """Starts to sample wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities
         (``"X.position_mm"``) each ``period`` s (1e-6 to 3600).
 
             with rack.record("X.position_mm", "c1.x.LP") as recording:
                 rack.advance(1)
             recording.trace.plot()
 
-        Of more than ``max_samples`` instants every second one is left out, and the period doubled. One recording at a
+        Of more than ``max_samples`` instants every second one is dropped, and the period doubled. One recording at a
         time.
         InvalidInput, Refused.
         """
         return Recording(self._world, signals, ticks_of(period), max_samples, self.name)
 
     def waves(self, path: str | os.PathLike[str], *signals: str) -> Waves:
-        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd``, ``.csv``
+        """Starts to write waves of wires, pulses and counters to a file that ends in ``.vcd``, ``.csv``
         or ``.h5``, until :meth:`Waves.stop` or the end of the block.
 
-        ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand.
+        ``signals``: patterns with * and ?; default: all except pins that cards drive on demand.
         Refused, InvalidInput, FileError.
         """
         return Waves(self._world, os.fspath(path), signals)
@@ -286,17 +281,17 @@ class Rack:
     # ---- the whole world ----
 
     def copy(self) -> Rack:
-        """A rack of its own in the same state: the same calls from here on do the same in both.
+        """An independent rack in the same state: the same calls have the same results in both.
         Recordings stay with this one."""
         return Rack(self._world.copy(), self.warnings)
 
     def snapshot(self) -> Snapshot:
-        """The state of the whole world, for :meth:`restore`. Function libraries are programs of the host:
-        what they remember is not in it."""
+        """The state of the whole world, for :meth:`restore`. The state of function libraries belongs to the host and
+        is not included."""
         return Snapshot(self._world.copy())
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Puts the world back into a state of this rack or of one of the same file, time included.
+        """Restores a state of this rack or of one of the same file, time included.
         Refused while a recording runs."""
         if snapshot._world.config() != self._world.config():
             raise Refused("The snapshot is of a rack of another kind; nothing was done.")
@@ -318,7 +313,7 @@ def _program(
     tools: str | os.PathLike[str] | None,
     block_delete: bool,
 ) -> tuple[_core.Program, str]:
-    """A program with what goes with it, and its name in messages."""
+    """A program with its files, and its name in messages."""
     if (program is None) == (path is None):
         raise InvalidInput("A program is given as text or by its path, one of the two. Nothing was moved.")
     folder = "" if path is None else os.path.dirname(os.fspath(path)) or "."
@@ -340,7 +335,7 @@ class Snapshot:
         return seconds_of(self._world.ticks())
 
     def hash(self) -> str:
-        """Equal worlds, equal hash: 16 digits."""
+        """Equal states have equal hashes: 16 digits."""
         return self._world.state_hash()
 
     def __repr__(self) -> str:

@@ -25,12 +25,12 @@ _ENDS = (
 
 
 def unit_of(signal: str) -> str:
-    """The unit that the end of a quantity's name says; ``""``: none."""
+    """The unit at the end of a quantity's name; ``""``: none."""
     return next((unit for end, unit in _ENDS if signal.endswith(end)), "")
 
 
 class _Open:
-    """Something that begins when it is made and ends with its block, or before."""
+    """A recording that starts with its creation and ends with its block, or before."""
 
     def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
@@ -59,7 +59,7 @@ class Recording(_Open):
         return self
 
     def stop(self) -> Trace:
-        """Ends it, with a last look at this instant."""
+        """Ends the recording, with a last sample at this instant."""
         if self._trace is None:
             ticks, signals = self._world.end_samples()
             self._trace = Trace(
@@ -70,7 +70,7 @@ class Recording(_Open):
 
     @property
     def trace(self) -> Trace:
-        """What was recorded. Refused while it still runs."""
+        """The recorded data. Refused while the recording runs."""
         if self._trace is None:
             raise Refused("The recording still runs; stop it first.")
         return self._trace

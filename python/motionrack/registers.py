@@ -22,7 +22,7 @@ def _shift(mask: int) -> int:
 
 
 class Word(int):
-    """What a register showed: a whole number whose fields are attributes, ``word.DRV``."""
+    """The value of a register: a whole number whose fields are attributes, ``word.DRV``."""
 
     _reg: Mapping[str, Any]
 
@@ -57,8 +57,8 @@ class Word(int):
 class Register:
     """One register of a card, or of one of its channels.
 
-    Its fields are attributes, looked at without effect: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the
-    bus: they have all their effects and take the card's bus time.
+    Its fields are attributes, read without side effects: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the
+    bus: they have all side effects and take the card's bus time.
     """
 
     __slots__ = ("_card", "_reg", "_name")
@@ -70,12 +70,12 @@ class Register:
 
     @property
     def name(self) -> str:
-        """As the card's reference page has it; of a channel with its name in front."""
+        """Its name in the card's reference page; of a channel with a prefix."""
         return self._name
 
     @property
     def meaning(self) -> str:
-        """What it is, in a line."""
+        """Its meaning, in a line."""
         return str(self._reg["meaning"])
 
     @property
@@ -98,11 +98,11 @@ class Register:
         return Word(self._card.peek(self._name), self._reg)
 
     def read(self) -> Word:
-        """Reads it over the bus, with all effects; of a register that exists once a channel:
-        that of the channel the card shows."""
+        """Reads it over the bus, with all effects; of a register per channel: that of the channel selected on the
+        card."""
         if self.access == "write":
             raise Refused(
-                f"Register {self._name} can only be written; nothing was done. Use peek() to see what was written."
+                f"Register {self._name} can only be written; nothing was done. Use peek() to see the written value."
             )
         return Word(self._card.read(self.offset, self._bits()), self._reg)
 
@@ -175,18 +175,18 @@ class MappedCard(ABC):
 
     @property
     def title(self) -> str:
-        """What it is, in a line."""
+        """Its meaning, in a line."""
         return str(self._map["title"])
 
     @property
     def map(self) -> dict[str, Any]:
-        """Everything that is declared of the card: registers, commands, machines (of states) and pins."""
+        """The declaration of the card: registers, commands, state machines and pins."""
         return dict(self._map)
 
     @property
     def registers(self) -> dict[str, Register]:
-        """All registers by their names. Behind a live port those that exist once an axis belong to the axis of the
-        last command."""
+        """All registers by their names. Behind a live port registers per axis belong to the axis of the last
+        command."""
         return {str(reg["name"]): Register(self, reg) for reg in self._map["registers"]}
 
     @abstractmethod

@@ -21,7 +21,7 @@ class Trace(Mapping[str, Values]):
     """Signals of a rack over time: ``trace.time``, ``trace["x.position"]``.
 
     Counts, pulses, registers and digital wires are int64, all else float64 in the unit of ``units``.
-    Case does not matter where it is clear.
+    Case is ignored if the name is unique.
     """
 
     def __init__(
@@ -81,9 +81,9 @@ class Trace(Mapping[str, Values]):
     def hash(self) -> str:
         """The hash of the rack's event trace when this one ended: 16 digits.
 
-        Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, whether
-        it is recorded or not: the same programs on the same rack have the same hash, in C++, C,
-        on the command line and here.
+        Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, also
+        without recording: the same programs on the same rack have the same hash, in C++, C, on the command line and
+        here.
         """
         return self._trace_hash
 
@@ -94,7 +94,7 @@ class Trace(Mapping[str, Values]):
     # ---- pictures ----
 
     def _charts(self, names: tuple[str, ...]) -> list[tuple[str, list[str]]]:
-        """What is drawn: by units, in the order of the names; all signals if none are given."""
+        """Signals to draw: by units, in the order of the names; all signals if none are given."""
         charts: dict[tuple[str, str], list[str]] = {}
         for name in [self._name(each) for each in names] or list(self._signals):
             kind = name.rsplit(".", 1)[-1] if self._units.get(name) else name

@@ -88,7 +88,7 @@ const rack::RackCard& config_of_card(RackHandle& world, const std::string& name)
     for (const rack::RackCard& card : world.config().cards)
         if (card.name == name) return card;
     static_cast<void>(value_of(rack::card_named(world.rack(), name)));
-    refuse("There is no such card.");
+    refuse("The card is unknown.");
 }
 
 /// Returns the description of a card: {type, map, channels, widths, base, values, quantities, faults}.
@@ -140,9 +140,8 @@ std::string view(RackHandle& world, const std::string& card, bool clearing) {
         if (kind->view == nullptr || on->port() == nullptr)
             return fail(
                 ErrorKind::refused,
-                fmt::format(
-                    "The registers of a {} cannot be read as a list; nothing was done. Look at them one by one.",
-                    kind->type));
+                fmt::format("The registers of a {} cannot be read as a list; nothing was done. Read them one by one.",
+                            kind->type));
         return rack::view_text(kind->view(*on->port(), clearing), false);
     });
 }

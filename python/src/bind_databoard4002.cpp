@@ -23,8 +23,8 @@ db::Waiting waiting(bool interrupt) {
 
 void bind_commands(BoardClass& c) {
     c.def("connect", call<db::Driver>(&db::Driver::connect),
-          "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
-    c.def("reset", call<db::Driver>(&db::Driver::reset), "C3: hardware reset; position, rate and table are gone.");
+          "Checks for the card, clears its reset mark, returns its version. MachineFault if none answers.");
+    c.def("reset", call<db::Driver>(&db::Driver::reset), "C3: hardware reset; position, rate and table are lost.");
     c.def(
         "status", [](Board& self) { return run_exclusive(*self.world, [&] { return self.driver->status().word; }); },
         "STAT as a word; its bits: card.STAT.");
@@ -37,18 +37,18 @@ void bind_commands(BoardClass& c) {
         "Whether the emergency stop is active.");
     c.def("athome", call<db::Driver>(&db::Driver::athome), "A: the position becomes 0.");
     c.def("set_deviation", call<db::Driver>(&db::Driver::set_deviation), py::arg("counts"),
-          "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
+          "D: deviation allowed by lock, 0 to 8,388,607 counts.");
     c.def("deviation", call<db::Driver>(&db::Driver::deviation), "D: present minus requested, counts.");
     c.def("go", call<db::Driver>(&db::Driver::go), "G: begins a positioning.");
     c.def("initialise", call<db::Driver>(&db::Driver::initialise), "I.");
     c.def("lock", call<db::Driver>(&db::Driver::lock), "L: holds the position.");
-    c.def("manual", call<db::Driver>(&db::Driver::manual), "M: lets the position go.");
+    c.def("manual", call<db::Driver>(&db::Driver::manual), "M: releases the position.");
     c.def("set_number", call<db::Driver>(&db::Driver::set_number), py::arg("counts"),
           "N, -8,388,608 to 8,388,607 counts.");
     c.def("on_regulation", call<db::Driver>(&db::Driver::on_regulation), "O.");
     c.def("set_target", call<db::Driver>(&db::Driver::set_target), py::arg("counts"),
           "P, -8,388,608 to 8,388,607 counts.");
-    c.def("position", call<db::Driver>(&db::Driver::position), "P: where it is, counts.");
+    c.def("position", call<db::Driver>(&db::Driver::position), "P: position, counts.");
     c.def("quit", call<db::Driver>(&db::Driver::quit), "Q: ends a positioning.");
     c.def("set_rate", call<db::Driver>(&db::Driver::set_rate), py::arg("rate"),
           "R, 0 to 16383; 0 switches the relay off.");
@@ -97,9 +97,9 @@ void bind_events(BoardClass& c) {
             py::arg("counts"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, doc);
     };
     move("move_to", &db::Driver::move_to,
-         "Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout "
-         "after timeout s.");
-    move("move_by", &db::Driver::move_by, "Goes so many counts further; see move_to.");
+         "Moves to a position, counts, with the present rate, mode and table. MachineFault if a stop holds the move, "
+         "Timeout after timeout s.");
+    move("move_by", &db::Driver::move_by, "Moves by this number of counts; see move_to.");
     c.def(
         "move_to_mm",
         [](Board& self, double mm, double timeout, bool interrupt) {
@@ -108,8 +108,8 @@ void bind_events(BoardClass& c) {
                 *self.world, [&] { return self.driver->move_to_mm(mm, time, waiting(interrupt)); }, time);
         },
         py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
-        "Goes there, mm by counts_per_mm; see move_to.");
-    c.def("position_mm", call<db::Driver>(&db::Driver::position_mm), "Where it is, mm by counts_per_mm.");
+        "Moves to a position, mm by counts_per_mm; see move_to.");
+    c.def("position_mm", call<db::Driver>(&db::Driver::position_mm), "Position, mm by counts_per_mm.");
     c.def(
         "find_zero",
         [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
@@ -153,17 +153,17 @@ py::dict motion_of(const db::SlopeTable& table, Wide distance, int rate, const d
 }
 
 void bind_slopes(py::module_& m) {
-    py::class_<db::SpeedScale>(m, "SpeedScale",
-                               "How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a "
-                               "volt. `trim`: the table that "
-                               "came with the card, rows of V and rate as in the rack file; empty: the printed one.")
+    py::class_<db::SpeedScale>(
+        m, "SpeedScale",
+        "Speed of the machine at a rate: counts per pulse of FOUT, or counts/s per volt. `trim`: the table that "
+        "came with the card, rows of V and rate as in the rack file; empty: the printed one.")
         .def(py::init([](std::optional<double> counts_per_pulse, std::optional<double> counts_per_volt,
                          const std::string& trim) {
                  if (counts_per_pulse.has_value() == counts_per_volt.has_value())
                      refuse("A speed scale is counts_per_pulse or counts_per_volt, one of the two.");
                  const double value = counts_per_pulse ? *counts_per_pulse : *counts_per_volt;
                  if (!(value > 0 && value < 1e12))
-                     refuse(fmt::format("A speed scale is {}; it is more than 0. Nothing was made.", value));
+                     refuse(fmt::format("A speed scale is {}; it must be more than 0. Nothing was made.", value));
                  db::SpeedScale out;
                  out.trim = value_of(db::trim_from_text(trim));
                  out.analog = counts_per_volt.has_value();
@@ -175,12 +175,12 @@ void bind_slopes(py::module_& m) {
             "speed",
             [](const db::SpeedScale& scale, int rate) {
                 if (rate < 0 || rate > db::max_rate)
-                    refuse(fmt::format("The rate is {}; it is 0 to {}.", rate, db::max_rate));
+                    refuse(fmt::format("The rate is {}; it must be 0 to {}.", rate, db::max_rate));
                 return scale.speed(rate);
             },
             py::arg("rate"), "Counts/s at a rate, 0 to 16383.")
         .def("rate_for", &db::SpeedScale::rate_for, py::arg("counts_s"),
-             "The greatest rate that is not faster than so many counts/s.");
+             "The highest rate of at most this speed, counts/s.");
     py::class_<db::SlopeTable>(
         m, "SlopeTable",
         "48 intervals (rate 0 to 16383, counts 0 to 16,777,215): deceleration 0 to 23, acceleration 24 to 47.")
@@ -194,7 +194,7 @@ void bind_slopes(py::module_& m) {
             },
             py::arg("top_speed"), py::arg("acceleration"), py::arg("deceleration"), py::arg("scale"),
             py::arg("load") = 0.0, py::arg("creep_speed") = 0.0, py::arg("lag_s") = 0.0,
-            "A table for what a machine may do: counts/s, counts/s2; load in inertias of the empty machine; "
+            "A table for the limits of a machine: counts/s, counts/s2; load in inertias of the empty machine; "
             "creep_speed 0: a 24th of the top speed.")
         .def(
             "entries",
@@ -218,19 +218,19 @@ void bind_databoard4002(py::module_& m) {
     BoardClass c(
         m, "Databoard4002",
         "The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault.");
-    c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card, double counts_per_mm,
-                      int select) {
-              const RackLock turn(*world, RackLock::Access::run);
-              sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
-              if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
-                  refuse(fmt::format("There are {} counts a mm; it is more than 0. Nothing was made.", counts_per_mm));
-              if (select < 0 || select > 255)
-                  refuse(fmt::format("The card's number is {}; it is 0 to 255. Nothing was made.", select));
-              db::DriverSettings settings;
-              settings.counts_per_mm = counts_per_mm;
-              settings.select = static_cast<std::uint8_t>(select);
-              return Board{world, std::make_unique<db::Driver>(port, port, settings)};
-          }),
+    c.def(py::init(
+              [](const std::shared_ptr<RackHandle>& world, const std::string& card, double counts_per_mm, int select) {
+                  const RackLock turn(*world, RackLock::Access::run);
+                  sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
+                  if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
+                      refuse(fmt::format("counts_per_mm is {}; it must be above 0. Nothing was made.", counts_per_mm));
+                  if (select < 0 || select > 255)
+                      refuse(fmt::format("The card's number is {}; it must be 0 to 255. Nothing was made.", select));
+                  db::DriverSettings settings;
+                  settings.counts_per_mm = counts_per_mm;
+                  settings.select = static_cast<std::uint8_t>(select);
+                  return Board{world, std::make_unique<db::Driver>(port, port, settings)};
+              }),
           py::arg("world"), py::arg("card"), py::arg("counts_per_mm") = 1000.0, py::arg("select") = 13);
     bind_commands(c);
     bind_events(c);

@@ -62,10 +62,10 @@ void bind_card(py::module_& m) {
              py::arg("world"), py::arg("card"))
         .def(
             "open", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->open(); })); },
-            "Looks whether such a card answers: how it is set, with the addresses of its own list; period in s.")
+            "Checks for the card and returns its settings, with the addresses of its own list; period in s.")
         .def(
             "read", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->read(); })); },
-            "The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "
+            "The last published frame: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "
             "is stale, or its CRC is wrong.")
         .def(
             "wait",
@@ -86,20 +86,19 @@ void bind_card(py::module_& m) {
                 const auto addresses = self.driver->addresses();
                 return std::vector<int>(addresses.begin(), addresses.end());
             },
-            "Which scales the frame read last has: the address of each word, as the host gave it; empty before the "
-            "first.")
+            "Scales of the last frame read: the address of each word, as set by the host; empty before the first.")
         .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale),
-             "Whether the frame published last is two periods old.")
+             "Whether the last published frame is two periods old.")
         .def(
             "errors",
             [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->errors(); })); },
-            "What went wrong on the bus since the last clear_errors, each at most 65,535.")
+            "Errors on the bus since the last clear_errors, each at most 65,535.")
         .def("clear_errors", call<gb::GratingCard>(&gb::GratingCard::clear_errors), "Clears those counters.")
         .def(
             "set_position",
             [](Grating& self, int scale, std::int64_t count) {
                 if (scale < 0 || scale >= static_cast<int>(gb::max_scales))
-                    refuse("There is no such scale; they are 0 to 127. Nothing was done.");
+                    refuse("The scale must be 0 to 127. Nothing was done.");
                 self.driver->set_position(scale, count);
             },
             py::arg("scale"), py::arg("count"),

@@ -19,13 +19,13 @@ using FlexClass = py::class_<Flex>;
 
 int axis_in_range(int axis) {
     if (axis < 0 || axis >= static_cast<int>(io::axis_count))
-        refuse(fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis));
+        refuse(fmt::format("Axis {} must be 0 to 3. Nothing was done.", axis));
     return axis;
 }
 
 io::tIOFlexCmd command_of(int number) {
     if (number < io::cNop || number > io::cResNmSig)
-        refuse(fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", number));
+        refuse(fmt::format("Calibration command {} must be 0 to 3. Nothing was written.", number));
     return static_cast<io::tIOFlexCmd>(number);
 }
 
@@ -39,7 +39,7 @@ void bind_source(FlexClass& c) {
         "Init",
         [](Flex& self, int address) {
             if (address < 0 || address > 0xFFFF)
-                refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", address));
+                refuse(fmt::format("The base address is {}; it must be 0 to 65535. Nothing was done.", address));
             return run_exclusive(*self.world, [&] {
                 self.driver->use_image(
                     rack::ioflex02_image_at(self.world->config(), static_cast<std::uint32_t>(address)));
@@ -48,8 +48,7 @@ void bind_source(FlexClass& c) {
         },
         py::arg("Addr"),
         "Sets the base address, looks whether one card answers there, and loads the array with the image that the rack "
-        "file gives the card, or else the one that is built in; takes seconds of the rack's time. 0 if all is well, "
-        "else see why.");
+        "file gives the card, or else the built-in one; takes seconds of the rack's time. 0: done, else see why.");
     c.def_property_readonly(
         "Result", [](const Flex& self) { return self.driver->Result; },
         "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
@@ -92,7 +91,7 @@ void bind_calibration(FlexClass& c) {
             run_exclusive(*self.world, [&] { self.driver->WriteCmdAxis(axis_in_range(axis), cmd); });
         },
         py::arg("axis"), py::arg("Cmd"),
-        "A command for one axis 0 to 3; the others keep what they wait for, which WriteCmd would end or begin anew.");
+        "A command for one axis 0 to 3; the others stay armed, while WriteCmd would end or restart them.");
     c.def(
         "ReadSts",
         [](Flex& self) {
@@ -127,7 +126,7 @@ void bind_layer(FlexClass& c) {
             }
             return std::pair(reading.ticks, axes);
         },
-        "Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw "
+        "All values of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw "
         "(counts), age of the last count (1.2 us), down.");
     c.def(
         "set_mode",
@@ -155,13 +154,14 @@ void bind_layer(FlexClass& c) {
 // ---- images
 
 py::bytes make_image(const std::string& project, int ident, const std::array<int, 4>& modes, const py::bytes& bits) {
-    if (ident < 0 || ident > 255) refuse(fmt::format("The version is {}; it is 0 to 255. No image was made.", ident));
+    if (ident < 0 || ident > 255)
+        refuse(fmt::format("The version is {}; it must be 0 to 255. No image was made.", ident));
     io::ImageContent content;
     content.project = project;
     content.ident = static_cast<std::uint8_t>(ident);
     for (std::size_t i = 0; i < modes.size(); ++i) {
         if (modes[i] < 0 || modes[i] > 0xFF)
-            refuse(fmt::format("The mode of axis {} is {}; it is 0 to 255. No image was made.", i, modes[i]));
+            refuse(fmt::format("The mode of axis {} is {}; it must be 0 to 255. No image was made.", i, modes[i]));
         content.payload[2 * i] = static_cast<std::uint8_t>(modes[i]);
     }
     const std::vector<std::uint8_t> more = bytes_of(bits);
@@ -188,7 +188,7 @@ void bind_images(FlexClass& c) {
             const std::vector<std::uint8_t> file = bytes_of(image);
             const int base = address.value_or(self.driver->base_address());
             if (base < 0 || base > 0xFFFF)
-                refuse(fmt::format("The base address is {}; it is 0 to 65535. Nothing was done.", base));
+                refuse(fmt::format("The base address is {}; it must be 0 to 65535. Nothing was done.", base));
             return run_exclusive(*self.world, [&] {
                 if (address) self.driver->Flex02::Init(static_cast<std::uint16_t>(base));
                 self.driver->Configure(file);
@@ -205,7 +205,7 @@ void bind_images(FlexClass& c) {
                  "A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes "
                  "that the array keeps and does not look at.");
     c.def_static("image_info", &image_info, py::arg("image"),
-                 "What an image says of itself: project, ident, payload (bytes), modes, and whether Init would take it "
+                 "Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it "
                  "(fits). InvalidInput for one that the card would refuse.");
 }
 
@@ -229,7 +229,7 @@ void bind_speed(py::module_& m) {
             },
             py::arg("raw"), py::arg("age"), py::arg("ticks"),
             "A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one.")
-        .def("restart", &io::SpeedMeter::restart, "Forgets what was.");
+        .def("restart", &io::SpeedMeter::restart, "Discards earlier samples.");
 }
 
 }  // namespace

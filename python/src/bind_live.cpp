@@ -12,7 +12,8 @@ void bind_live(py::module_& m) {
         .def(py::init<const std::string&, const std::string&>(), py::arg("place"), py::arg("type"),
              "Opens the port; no register is touched. InvalidInput, FileError, Refused.")
         .def(
-            "map", [](const LiveCard& card) { return map_dict(card.map()); }, "What is declared of the card.")
+            "map", [](const LiveCard& card) { return map_dict(card.map()); },
+            "Declaration of the card: registers, bits, states.")
         .def(
             "now", [](LiveCard& card) { return to_seconds(card.now()); },
             "Seconds of the computer's clock since it was opened. Refused once it was closed.")
@@ -25,10 +26,10 @@ void bind_live(py::module_& m) {
             "wait_interrupt", [](LiveCard& card, double timeout) { return card.wait_interrupt(duration(timeout)); },
             py::arg("timeout"), "Whether its interrupt came within timeout s.")
         .def("quick_stop", &LiveCard::quick_stop, "All axes end their pulses, and nothing is written until reset_stop.")
-        .def("reset_stop", &LiveCard::reset_stop, "The stop does not hold any more; nothing moves by that.")
-        .def("stopped", &LiveCard::stopped, "Whether a stop holds.")
-        .def("close", &LiveCard::close, "Stops all axes and lets the card go.")
-        .def("closed", &LiveCard::closed, "Whether it was closed.");
+        .def("reset_stop", &LiveCard::reset_stop, "Releases the stop; nothing moves by that.")
+        .def("stopped", &LiveCard::stopped, "Whether a stop is active.")
+        .def("close", &LiveCard::close, "Stops all axes and closes the card.")
+        .def("closed", &LiveCard::closed, "Whether the card was closed.");
 }
 
 }  // namespace motionrack::python

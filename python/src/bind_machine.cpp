@@ -34,7 +34,7 @@ char only_letter(const std::string& axis) {
 }
 
 void advance(SteppedMachine& self, std::int64_t time) {
-    if (time < 0) refuse("Time does not run backwards; nothing was run.");
+    if (time < 0) refuse("Time cannot run backwards; nothing was run.");
     std::optional<py::error_already_set> raised;
     {
         const py::gil_scoped_release free;
@@ -193,7 +193,7 @@ void bind_rest(Class& c) {
 }  // namespace
 
 void bind_machine(py::module_& m) {
-    Class c(m, "SteppedMachine", "A machine; motionrack.Machine is what people use.");
+    Class c(m, "SteppedMachine", "A machine; use motionrack.Machine.");
     c.def(py::init([](RackHandle& world) {
               const RackLock turn(world, RackLock::Access::run);
               return value_of(SteppedMachine::make(world.config()));

@@ -16,7 +16,7 @@ using Wide = std::int64_t;
 unsigned mask(unsigned axes) {
     if (axes < 1 || axes > mcx314::xyzu)
         refuse(fmt::format(
-            "{} is no mask of axes; X is 1, Y 2, Z 4, U 8, and their sums are 1 to 15. Nothing was done.", axes));
+            "{} is not a mask of axes: it must be 1 to 15, the sum of X 1, Y 2, Z 4 and U 8. Nothing was done.", axes));
     return axes;
 }
 
@@ -42,7 +42,7 @@ void bind_parameters(Mcx314Class& c) {
           "R, 16,000 to 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving.");
     c.def("SetMaxSpeed", call<Driver>(static_cast<Result<void> (Driver::*)(unsigned, Wide)>(&Driver::SetMaxSpeed)),
           py::arg("axes"), py::arg("value"),
-          "The smallest whole multiple with which V <= 8,000 reaches so many pulses a second, 1 to 4,000,000.");
+          "The smallest whole multiple with which V <= 8,000 reaches this speed, 1 to 4,000,000 pulses a second.");
     number("SetSV", &Driver::SetSV, "Initial speed, 1 to 8,000 units of the multiple.");
     number("SetV", &Driver::SetV, "Drive speed, 1 to 8,000 units of the multiple; also while driving.");
     number("SetA", &Driver::SetA, "Acceleration, 1 to 8,000 units of 125 * M pulses/s2.");
@@ -50,13 +50,13 @@ void bind_parameters(Mcx314Class& c) {
            "Deceleration, 1 to 8,000 units of 125 * M pulses/s2; used where SetAsymmetric is on.");
     number("SetAA", &Driver::SetAA, "K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3.");
     c.def("SetAO", call<Driver>(&Driver::SetAO), py::arg("axes"), py::arg("value"),
-          "Pulses kept for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there.");
+          "Pulses reserved for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there.");
     number("Pulse", &Driver::Pulse, "Output pulses of a fixed drive, -268,435,455 to 268,435,455.");
     c.def("AutoDec", call<Driver>(&Driver::AutoDec), py::arg("axes") = mcx314::xyzu,
           "The chip finds the deceleration point itself. Arcs cannot.");
-    number("ManualDec", &Driver::ManualDec, "Fixed drives decelerate after so many pulses, 0 to 268,435,455.");
+    number("ManualDec", &Driver::ManualDec, "Sets the pulses after which fixed drives decelerate, 0 to 268,435,455.");
     c.def("SetAsymmetric", call<Driver>(&Driver::SetAsymmetric), py::arg("axes"), py::arg("on"),
-          "Decelerations take D instead of A.");
+          "Decelerations use D instead of A.");
     number("LPS", &Driver::LPS, "Sets the logical position, pulses, 32 bits with sign.");
     number("EPS", &Driver::EPS, "Sets the real (encoder) position, counts, 32 bits with sign.");
     number("SetCompP", &Driver::SetCompP, "COMP+, pulses or counts, 32 bits with sign.");
@@ -164,7 +164,7 @@ void bind_mcx314_status(Mcx314Class& c) {
     };
     counter("ReadLPS", &Driver::ReadLPS, "Logical position of a channel (0 X to 3 U), pulses.");
     counter("ReadEPS", &Driver::ReadEPS, "Real position of a channel (0 X to 3 U), encoder counts.");
-    counter("ReadCV", &Driver::ReadCV, "Present speed of a channel, units of the multiple; 0 at rest.");
+    counter("ReadCV", &Driver::ReadCV, "Present speed of a channel, units of the multiple; 0 at standstill.");
     counter("ReadCA", &Driver::ReadCA,
             "Present acceleration of a channel, units of 125 * M; at constant speed the last one.");
     c.def(

@@ -124,7 +124,7 @@ void bind_chain(Mcx314Class& c) {
             run_exclusive(
                 *self.world, [&] { return self.driver->BPEnd(time); }, time);
         },
-        py::arg("timeout") = 60.0, "Gives the registers back and waits for the end, timeout in s.");
+        py::arg("timeout") = 60.0, "Releases the registers and waits for the end, timeout in s.");
 }
 
 }  // namespace

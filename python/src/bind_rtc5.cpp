@@ -72,12 +72,12 @@ void bind_lists(Rtc5Class& c) {
             return ask(self, [&](Engine& engine) { return engine.load_list(list, position); });
         },
         py::arg("ListNo"), py::arg("Pos") = 0,
-        "The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list "
-        "opened, or 0.");
+        "As set_start_list, for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); "
+        "returns the opened list, or 0.");
     c.def(
         "load_sub",
         [](Rtc5& self, std::uint32_t index) { order(self, [&](Engine& engine) { return engine.load_sub(index); }); },
-        py::arg("index"), "What is put up to list_return becomes subroutine 0 to 1023.");
+        py::arg("index"), "The commands up to list_return become subroutine 0 to 1023.");
     c.def(
         "config_list",
         [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
@@ -98,13 +98,13 @@ void bind_lists(Rtc5Class& c) {
     };
     plain("auto_change", &Engine::auto_change, "The other list starts when this one ends.");
     plain("start_loop", &Engine::start_loop, "Lists 1 and 2 run in turn.");
-    plain("quit_loop", &Engine::quit_loop, "No longer in turn.");
+    plain("quit_loop", &Engine::quit_loop, "Ends the alternation of the lists.");
     plain("pause_list", &Engine::pause_list, "Holds the list.");
     plain("restart_list", &Engine::restart_list, "Goes on after pause_list.");
     plain("stop_execution", &Engine::stop_execution, "Ends the list at once.");
-    plain("external_start", &Engine::external_start, "As if the start line rose.");
-    plain("external_stop", &Engine::external_stop, "As if the stop line rose.");
-    plain("enable_laser", &Engine::enable_laser, "Lets the laser's signals out.");
+    plain("external_start", &Engine::external_start, "Simulates a start signal.");
+    plain("external_stop", &Engine::external_stop, "Simulates a stop signal.");
+    plain("enable_laser", &Engine::enable_laser, "Enables the laser's signals.");
     plain("disable_laser", &Engine::disable_laser, "Keeps them in.");
 }
 
@@ -188,7 +188,7 @@ void bind_answers(Rtc5Class& c) {
         [](Rtc5& self) {
             return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_marking_info(); });
         },
-        "What went wrong in marking, bits; reading clears them. See marking_info_text.");
+        "Errors of marking, bits; reading clears them. See marking_info_text.");
     c.def_static(
         "marking_info_text", [](std::uint32_t bits) { return rtc5::decoded(bits, rtc5::map::marking_info_bits); },
         py::arg("bits"), "A sentence for each bit.");
@@ -197,7 +197,7 @@ void bind_answers(Rtc5Class& c) {
         [](Rtc5& self) {
             return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_startstop_info(); });
         },
-        "What the start and stop lines did, bits.");
+        "Events of the start and stop lines, bits.");
     c.def(
         "get_value",
         [](Rtc5& self, std::uint32_t signal) {
@@ -217,7 +217,7 @@ void bind_answers(Rtc5Class& c) {
         [](Rtc5& self) {
             return order(self, [](Engine& engine) { return engine.state().lists.input_end - engine.input_pointer(); });
         },
-        "Free positions of the list that is being put into.");
+        "Free positions of the open list.");
     c.def(
         "busy", [](Rtc5& self) { return order(self, [](Engine& engine) { return engine.busy(); }); },
         "Whether a list runs; takes no time.");
@@ -240,7 +240,7 @@ void bind_answers(Rtc5Class& c) {
                     while (!self.engine().at_rest()) {
                         if (self.world->now() >= end)
                             return fail(ErrorKind::machine,
-                                        fmt::format("The card did not come to rest within {:.6g} s; its list goes on.",
+                                        fmt::format("The card did not stop within {:.6g} s; its list continues.",
                                                     to_seconds(time)));
                         MOTIONRACK_CHECK(
                             self.world->advance(std::min(Duration(microseconds(100)), end - self.world->now())));
@@ -249,26 +249,27 @@ void bind_answers(Rtc5Class& c) {
                 },
                 time);
         },
-        py::arg("timeout") = 60.0, "Until the card rests; Timeout after timeout s.");
+        py::arg("timeout") = 60.0, "Waits for standstill of the card; Timeout after timeout s.");
     c.def_property(
         "question_seconds", [](const Rtc5& self) { return to_seconds(self.question_time); },
         [](Rtc5& self, double seconds) {
             const Duration time = duration(seconds);
-            if (time > whole_seconds(1000)) refuse("A question takes 0 to 1000 s.");
+            if (time > whole_seconds(1000)) refuse("A query takes 0 to 1000 s.");
             self.question_time = time;
         },
-        "Time that a question takes, s, before the card answers; 10 us at first.");
+        "Duration of a query, s; initially 10 us.");
 }
 
 }  // namespace
 
 void bind_rtc5(py::module_& m) {
-    Rtc5Class c(m, "Rtc5",
-                "The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. "
-                "List commands go to the list that set_start_list has opened. What is out of range, or not possible "
-                "now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. "
-                "Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words "
-                "the RTC5 manual 1.10 d (German), page 198.");
+    Rtc5Class c(
+        m, "Rtc5",
+        "The RTC5's commands under their documented names, in bits, bits/ms and 10 us: every one of rtc5sim.h. "
+        "List commands go to the list that set_start_list has opened. A call that is out of range, or not possible "
+        "now, is refused: nothing is changed, Refused has the sentence and get_last_error the board's bits. "
+        "Source of the list commands: the maker's header of the RTC5 of 2013, and of those with position words "
+        "the RTC5 manual 1.10 d (German), page 198.");
     c.def(py::init([](const std::shared_ptr<RackHandle>& world, const std::string& card) {
               const RackLock turn(*world, RackLock::Access::run);
               card_of_type(*world, card, "rtc5");

@@ -40,7 +40,7 @@ std::string doc_of(const ControlCommand& command) {
     std::string meaning(command.meaning);
     meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
     return fmt::format("{}\n\n{}.{}{}{} Source: {}.", signature(command.name, parameters, answer_type(command)),
-                       meaning, command.ranges(), command.asks ? " Takes the time of a question." : "",
+                       meaning, command.ranges(), command.asks ? " Takes the time of a query." : "",
                        parameters.empty() ? "" : " Refused out of range; nothing is changed.", command.source);
 }
 
@@ -62,7 +62,7 @@ std::vector<double> numbers_given(std::string_view command, const std::vector<st
         const auto at = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
         if (at >= names.size() || at < by_place.size())
             throw py::type_error(
-                fmt::format("{}: there is no parameter {}, or it was given twice; nothing was done", command, name));
+                fmt::format("{}: parameter {} is unknown, or was given twice; nothing was done", command, name));
         out.resize(std::max(out.size(), at + 1));
         out[at] = number_of(value);
         known[at] = true;

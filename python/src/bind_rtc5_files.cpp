@@ -29,7 +29,7 @@ std::uint32_t select_rtc(Rtc5& self, std::uint32_t number) {
     const RackLock turn(*self.world, RackLock::Access::run);
     const std::vector<rtc5::Card*> cards = cards_of(*self.world);
     if (number < 1 || number > cards.size())
-        refuse(fmt::format("select_rtc: there is no card {}; the rack has {} of type rtc5. Nothing was done.", number,
+        refuse(fmt::format("select_rtc: unknown card {}; the rack has {} of type rtc5. Nothing was done.", number,
                            cards.size()));
     self.card = cards[number - 1];
     return number;
@@ -106,12 +106,13 @@ void bind_cards(Rtc5Class& c) {
             return cards_of(*self.world).size();
         },
         "Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013.");
-    c.def("select_rtc", &select_rtc, py::arg("CardNo"),
-          "The commands of this object go to the rack's card CardNo of type rtc5 from here on, 1 is the first in the "
-          "rack file; gives CardNo. Refused where there is none. Source: the maker's header of the RTC5 of 2013.");
+    c.def(
+        "select_rtc", &select_rtc, py::arg("CardNo"),
+        "Directs the commands of this object to the rack's card CardNo of type rtc5 from here on, 1 is the first in "
+        "the rack file; returns CardNo. Refused if it does not exist. Source: the maker's header of the RTC5 of 2013.");
     c.def(
         "free_rtc5_dll", [](Rtc5& self) { self.card = nullptr; },
-        "Lets the card go: commands of this object are refused until select_rtc. Source: the maker's header of the "
+        "Releases the card: commands of this object are refused until select_rtc. Source: the maker's header of the "
         "RTC5 of 2013.");
 }
 
@@ -119,8 +120,7 @@ void bind_errors_of_cards(Rtc5Class& c) {
     c.def(
         "get_last_error", [](Rtc5& self) { return self.last_error; },
         "Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the "
-        "exception. 2 there is no card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list "
-        "is "
+        "exception. 2 unknown card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is "
         "full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of "
         "2013.");
     c.def(
@@ -146,7 +146,7 @@ void bind_rtc5_files(Rtc5Class& c) {
             return 0;
         },
         py::arg("Path") = py::none(),
-        "Sets the card back to power-up, but for McBSP location 0, which goes on; the name is not looked at. Gives 0. "
+        "Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Gives 0. "
         "Source: the RTC5 manual 1.10 d (German), page 198.");
     c.def(
         "load_correction_file", &load_correction_file, py::arg("Name"), py::arg("No"), py::arg("Dim") = 2,
@@ -156,7 +156,7 @@ void bind_rtc5_files(Rtc5Class& c) {
         "where it cannot be read; the table is then as before. A UserWarning where it is of a program before version "
         "4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125.");
     c.def("table_note", &table_note, py::arg("TableNo"),
-          "What is worth knowing of the file of table TableNo 1 to 4: that its checksum is not known; \"\": nothing.");
+          "Note on the file of table TableNo 1 to 4: its checksum is not known; \"\": no note.");
     c.def(
         "load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),
         "Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. "
@@ -172,8 +172,8 @@ void bind_rtc5_files(Rtc5Class& c) {
         "Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal "
         "that is not there. Source: the maker's header of the RTC5 of 2013.");
     c.def("get_waveform", &get_waveform, py::arg("Channel"), py::arg("Number"),
-          "The first Number samples of Channel 1 to 4 of a recording (set_trigger). Refused where so many are not "
-          "there. Source: the maker's header of the RTC5 of 2013.");
+          "The first Number samples of Channel 1 to 4 of a recording (set_trigger). Refused if fewer are available. "
+          "Source: the maker's header of the RTC5 of 2013.");
 }
 
 }  // namespace motionrack::python

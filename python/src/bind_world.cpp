@@ -228,7 +228,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
 }  // namespace
 
 void bind_world(py::module_& m) {
-    py::class_<RackHandle, Shared> world(m, "RackHandle", "A rack; motionrack.Rack is what people use.");
+    py::class_<RackHandle, Shared> world(m, "RackHandle", "A rack; use motionrack.Rack.");
     bind_looking(world);
     bind_moving(world);
     m.def(

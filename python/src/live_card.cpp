@@ -22,7 +22,7 @@ const CardMap& map_of(const std::string& type) {
         if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
     raise({ErrorKind::invalid_input,
            kind == nullptr
-               ? fmt::format("There is no type of card {}; a real card is one of: {}. Nothing was opened.", type, known)
+               ? fmt::format("Unknown card type {}; a real card is one of: {}. Nothing was opened.", type, known)
                : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or live "
                              "ports do not reach them. Nothing was opened. Real cards can be: {}.",
                              type, known)});

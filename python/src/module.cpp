@@ -3,7 +3,7 @@
 
 PYBIND11_MODULE(_core, m) {
     using namespace motionrack::python;
-    m.doc() = "The C++ side of the package; use the names of motionrack itself.";
+    m.doc() = "The C++ part of the package; use the names of motionrack.";
     bind_errors(m);
     bind_world(m);
     bind_job(m);

@@ -112,7 +112,7 @@ Result<void> RackHandle::advance(Duration time) {
     running();
     if (time < Duration{})
         return fail(ErrorKind::refused,
-                    fmt::format("Time does not run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().",
+                    fmt::format("Time cannot run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().",
                                 to_seconds(time)));
     if (time > latest - now())
         return fail(ErrorKind::refused,
@@ -132,8 +132,9 @@ Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration 
                 name));
     }
     if (timeout < Duration{} || timeout > latest - now())
-        return fail(ErrorKind::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.",
-                                                    to_seconds(timeout), to_seconds(latest - now())));
+        return fail(ErrorKind::refused,
+                    fmt::format("The time-out is {:.9g} s; it must be 0 to {:.0f} s. Nothing was run.",
+                                to_seconds(timeout), to_seconds(latest - now())));
     struct Listening {
         RunBreaker& bell;
         ~Listening() { bell.listen_no_more(); }

@@ -15,10 +15,11 @@ Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Du
     if (period < microseconds(1) || period > whole_seconds(3600))
         return fail(
             ErrorKind::refused,
-            fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
+            fmt::format("The period is {:.9g} s; it must be 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
     if (most < 2 || most > 100'000'000)
-        return fail(ErrorKind::refused,
-                    fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("At most {} samples are to be kept; it must be 2 to 100000000. Nothing was started.", most));
     MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
     sampler_ = std::move(sampler);
     bell_->break_every(period);

@@ -13,8 +13,7 @@ Result<void> RackHandle::plan_faults(const std::vector<std::string>& texts) {
     if (rack().started())
         return fail(
             ErrorKind::refused,
-            "Faults are planned before the rack's time begins, and it has begun; nothing was planned. Advance to the "
-            "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.new_instance().");
+            "Faults can only be planned before the rack's time begins; nothing was planned. Advance to the instant and inject it then (Rack.fault, Rack.wires), or plan it for Rack.new_instance().");
     rack::Rack other(config_);
     MOTIONRACK_CHECK(rack::FaultSchedule::create(other, texts));
     fault_texts_.insert(fault_texts_.end(), texts.begin(), texts.end());
@@ -30,9 +29,9 @@ Result<void> RackHandle::set_sample_period(Duration period) {
                 "The samples' period was {} s when the rack's time began; it cannot become {} s. Nothing was run.",
                 to_seconds(sample_period_), to_seconds(period)));
     if (period < microseconds(1) || period > whole_seconds(3600))
-        return fail(
-            ErrorKind::refused,
-            fmt::format("The samples' period is {} s; it is 1e-6 to 3600 s. Nothing was run.", to_seconds(period)));
+        return fail(ErrorKind::refused,
+                    fmt::format("The samples' period is {} s; it must be 1e-6 to 3600 s. Nothing was run.",
+                                to_seconds(period)));
     sample_period_ = period;
     return {};
 }
@@ -55,13 +54,13 @@ Result<void> RackHandle::set_profile(const std::string& profile) {
 Result<void> RackHandle::set_card(const std::string& name, const std::string& key, double value) {
     if (rack().started())
         return fail(ErrorKind::refused,
-                    "The rack's time has begun, and its cards are as they are; nothing was changed. Change the card of "
+                    "The rack's time has begun, so its cards cannot be changed; nothing was changed. Change the card of "
                     "Rack.new_instance().");
     const auto card = std::find_if(config_.cards.begin(), config_.cards.end(),
                                    [&](const rack::RackCard& each) { return each.name == name; });
     if (card == config_.cards.end())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("There is no card {} in this rack. Nothing was changed.", rack::in_quotes(name)));
+                    fmt::format("The rack has no card {}. Nothing was changed.", rack::in_quotes(name)));
     const rack::CardType& type = *rack::find_card_type(card->type);
     rack::RackCard changed = *card;
     std::string known;
@@ -71,8 +70,8 @@ Result<void> RackHandle::set_card(const std::string& name, const std::string& ke
         if (field.key != key) continue;
         if (!(value >= field.min && value <= field.max))
             return fail(ErrorKind::refused,
-                        fmt::format("{} of card {} cannot become {}; it is {}. Nothing was changed.", key, name, value,
-                                    rack::range_text(field, "")));
+                        fmt::format("{} of card {} cannot become {}; it must be {}. Nothing was changed.", key, name,
+                                    value, rack::range_text(field, "")));
         field.set(type.settings_of(changed), rack::FieldValue(value), field);
         if (type.flaw != nullptr)
             if (const auto flaw = type.flaw(changed, {}))

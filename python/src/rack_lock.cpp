@@ -32,7 +32,7 @@ RackLock::RackLock(Host& host, Access what) : host_(host) {
     }
     if (now != me) refuse("Another thread is using this rack or card. Nothing was done. One thread at a time.");
     if (what == Access::run)
-        refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may look, not move.");
+        refuse("The rack or card is in the middle of a run. Nothing was done. A progress call may read, not move.");
 }
 
 void RackLock::wait(std::thread::id me) {
@@ -49,7 +49,7 @@ RackLock::~RackLock() {
 Duration duration(double seconds) {
     if (std::isinf(seconds) && seconds > 0) return never;
     if (!(seconds >= 0 && seconds <= 9e8))
-        refuse(fmt::format("A time is {} s; it is 0 to 9e8 s, or infinite. Nothing was done.", seconds));
+        refuse(fmt::format("A time is {} s; it must be 0 to 9e8 s, or infinite. Nothing was done.", seconds));
     return from_seconds(seconds);
 }
 

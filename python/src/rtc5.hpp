@@ -19,7 +19,7 @@ struct Rtc5 {
     std::uint32_t errors = 0, last_error = 0;  ///< error bits of the board
 
     rtc5::Engine& engine() const {
-        if (card == nullptr) refuse("free_rtc5_dll let the card go. Nothing was done; select_rtc takes one again.");
+        if (card == nullptr) refuse("free_rtc5_dll released the card. Nothing was done; select_rtc takes one again.");
         return card->engine();
     }
 };

@@ -154,11 +154,11 @@ class Opening(OnAFile):
     def test_a_card_that_is_open_is_not_opened_again(self) -> None:
         card = LiveCard(self.place)
         for place in (self.place, f"memory:{self.path}"):
-            with self.assertRaisesRegex(Refused, f"The card at {self.path} is open already"):
+            with self.assertRaisesRegex(Refused, f"The card at {self.path} is already open"):
                 LiveCard(place)
         program = f"import motionrack; motionrack.LiveCard({self.place!r})"
         ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
-        self.assertIn("is open already, in another program", ran.stderr)
+        self.assertIn("is already open in this or another program", ran.stderr)
         card.close()
         card.close()
         with self.assertRaisesRegex(Refused, "was closed. Nothing was done. Open it again."):
@@ -168,8 +168,8 @@ class Opening(OnAFile):
     def test_says_what_is_wrong_with_a_place_and_with_a_type(self) -> None:
         for place, kind, sentence in (
             ("/dev/uio0", InvalidInput, "it has no ':'"),
-            (f"port:{self.path},width=7", InvalidInput, "width is 7, but may be 8 to 16"),
-            ("uio:/dev/uio-that-is-not", FileError, "There is no /dev/uio-that-is-not"),
+            (f"port:{self.path},width=7", InvalidInput, "width is 7; it must be 8 to 16"),
+            ("uio:/dev/uio-that-is-not", FileError, "/dev/uio-that-is-not does not exist"),
             (f"port:{self.path},offset=2", FileError, "has 16 bytes, but the card's registers end at byte 18"),
         ):
             with self.assertRaisesRegex(kind, sentence):
@@ -177,7 +177,7 @@ class Opening(OnAFile):
         for other in ("databoard4002", "ioflex02", "grating_bus", "rtc5"):
             with self.assertRaisesRegex(InvalidInput, f"A real {other} cannot be opened.*Real cards can be: mcx314"):
                 LiveCard(self.place, other)
-        with self.assertRaisesRegex(InvalidInput, "There is no type of card rtc6"):
+        with self.assertRaisesRegex(InvalidInput, "Unknown card type rtc6"):
             LiveCard(self.place, "rtc6")
 
     def test_library_and_driver_are_not_for_one_card_at_a_time(self) -> None:
@@ -238,7 +238,7 @@ class RegistersByHand(OnAFile):
             card.library.SetV(1, 1)
         with self.assertRaisesRegex(FileError, "0Ch"):
             card.quick_stop()
-        with self.assertRaisesRegex(FileError, "No access is made from here on"):
+        with self.assertRaisesRegex(FileError, "No further access is made"):
             card.close()
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)

@@ -86,8 +86,8 @@ class Commands(unittest.TestCase):
             lambda: rtc.set_hi(1, 17, 1, 0, 0): "set_hi: GalvoGainX is 17, outside -16 to 16; nothing was changed",
             lambda: rtc.set_rot_center(1): "set_rot_center has 2 parameters, not 1; nothing was done",
             lambda: rtc.set_extstartpos(2000): "set_extstartpos: Pos is 2000, outside 0 to 1999; nothing was changed",
-            lambda: rtc.mark_abs(1): "mark_abs has 2 parameters, not 1; it was not put into the list",
-            lambda: rtc.select_rtc(2): "select_rtc: there is no card 2; the rack has 1 of type rtc5. Nothing was done.",
+            lambda: rtc.mark_abs(1): "mark_abs has 2 parameters, not 1; it was not added to the list",
+            lambda: rtc.select_rtc(2): "select_rtc: unknown card 2; the rack has 1 of type rtc5. Nothing was done.",
             lambda: rtc.load_correction_file(None, 5): "load_correction_file: No is 5, outside 1 to 4",
             lambda: rtc.get_waveform(1, 1): "get_waveform: nothing was recorded",
             lambda: rtc.set_mcbsp_out_ptr([6]): "6",
@@ -279,7 +279,7 @@ class Words(unittest.TestCase):
             self.assertEqual(self.rtc.get_last_error(), REJECTED)
         with self.assertRaises(Refused) as caught:
             self.rtc.get_mcbsp()
-        self.assertIn("no word has come over McBSP yet", str(caught.exception))
+        self.assertIn("no word was received over McBSP yet", str(caught.exception))
 
     def test_the_scale_is_found_as_the_manual_prints_it_and_the_mark_is_in_its_place(self) -> None:
         belt = (
@@ -379,9 +379,9 @@ class Files(unittest.TestCase):
 
     def test_a_checksum_that_is_not_known_is_a_warning(self) -> None:
         end = 1_056_852
-        with self.assertWarnsRegex(UserWarning, "of an older program, whose checksum is not known; it was not checked"):
+        with self.assertWarnsRegex(UserWarning, "from an older program, whose checksum is unknown; it was not checked"):
             self.rtc.load_correction_file(self.file(program=310, damage=(end - 1, end - 3)), 3)
-        self.assertIn("not known", self.rtc.table_note(3))
+        self.assertIn("unknown", self.rtc.table_note(3))
         self.assertEqual(self.rtc.get_table_para(3, 1), K)
 
     def test_a_compensation_table_is_used(self) -> None:

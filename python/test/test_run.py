@@ -276,7 +276,7 @@ class Programs(unittest.TestCase):
             rack = Rack.template("router")
             with self.assertRaisesRegex(InvalidInput, "no tool table"):
                 rack.check(path=f"{folder}/part.ngc")
-            with self.assertRaisesRegex(InvalidInput, "came without a folder"):
+            with self.assertRaisesRegex(InvalidInput, "no folder to search"):
                 rack.check(Path(folder, "part.ngc").read_text(encoding="utf-8"), tools=f"{folder}/tools.tbl")
             with self.assertRaisesRegex(motionrack.FileError, "nowhere.tbl"):
                 rack.check(path=f"{folder}/part.ngc", tools=f"{folder}/nowhere.tbl")

@@ -36,7 +36,7 @@ Result<CoveredFault> covered_fault(const rack::TomlNode& node) {
         return fail(ErrorKind::invalid_input, "A fault needs id and about.", node.key_place);
     if (out.rows.empty() && out.tests.empty() && out.reason.empty() && out.missing.empty())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} has neither rows nor tests, nor a reason, nor what is missing.", out.id),
+                    fmt::format("{} has neither rows nor tests, nor a reason, nor a missing test.", out.id),
                     node.key_place);
     return out;
 }
@@ -111,7 +111,7 @@ std::string coverage_page(const std::vector<CoverageSection>& sections, const st
         }
     }
     return fmt::format(
-               "# What can go wrong, and what tries it\n\n<!-- written by `fault_page coverage`, from "
+               "# Coverage of faults\n\n<!-- written by `fault_page coverage`, from "
                "tests/fault/coverage.toml -->\n\n{} faults of machines, cards, programs, networks and people. {} are "
                "tried by a row of [the catalogue of faults](faults.md), which has what stops, how soon and with which "
                "words, or by the test that is named; {} cannot happen here, for the reason that stands beside them; "

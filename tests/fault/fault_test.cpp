@@ -229,7 +229,7 @@ void AFault::run_shell() const {
     expect_words(ran.out);
     if (fault().after.empty()) return;
     const Ran after = in_shell(fault().after);
-    EXPECT_EQ(after.code, 0) << "what is to be kept is not: " << one().text(fault().after) << "\n" << after.out;
+    EXPECT_EQ(after.code, 0) << "the kept data are wrong: " << one().text(fault().after) << "\n" << after.out;
 }
 
 TEST_P(AFault, DoesWhatTheCatalogueSays) {

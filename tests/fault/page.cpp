@@ -66,27 +66,22 @@ std::string catalogue_page(const std::vector<Group>& groups) {
     std::size_t count = 0;
     for (const Group& group : groups) count += group.faults.size();
     std::string out = fmt::format(
-        "# Faults\n\n<!-- written by `fault_page`, from tests/fault/catalogue.toml -->\n\n"
-        "{} faults that parts, cards, wires, the bus, files, the network and the process can have: what is injected, "
-        "what must stop and within what time, the words that "
-        "the user reads, and what is kept. `ctest -L fault` runs each of them at two operating points and checks all "
-        "of it; faults of parts, cards and wires in a program, in a search for home and of stages are injected into a "
-        "served machine, too, which raises one alarm with these words. Times are of the simulated world, from the "
-        "fault to "
+        "# Faults\n\n<!-- written by `fault_page`, from tests/fault/catalogue.toml -->\n\n{} faults that parts, cards, "
+        "wires, the bus, files, the network and the process can have: effect, required stop and its time limit, "
+        "message and kept data. `ctest -L fault` runs each of them at two operating points and checks all of it; "
+        "faults of parts, cards and wires in a program, in a search for home and of stages are injected into a served "
+        "machine, too, which raises one alarm with these words. Times are of the simulated world, from the fault to "
         "the last change of any position, unless a line says otherwise. {{name}} is a number or a word that the "
-        "operating point has.\n\n"
-        "Faults are injected by `--fault NAME=VALUE@TIME` of `motionrack run`, `home` and `frames`, in "
-        "[Python](../howto/python.md) and [C](c.md), and on the panel: see "
-        "[wire a machine](../howto/wire.md#what-if-a-wire-breaks).\n",
+        "operating point has.\n\nFaults are injected by `--fault NAME=VALUE@TIME` of `motionrack run`, `home` and "
+        "`frames`, in [Python](../howto/python.md) and [C](c.md), and on the panel: see [wire a "
+        "machine](../howto/wire.md#what-if-a-wire-breaks).\n",
         count);
     for (const Group& group : groups) {
         out += fmt::format("\n## {}\n{}\n", group.name, group.about);
         if (!group.setup.is.empty()) out += fmt::format("Run on {}.\n", group.setup.is);
         if (!group.setup.program.empty()) out += fmt::format("\n```\n{}```\n\n", group.setup.program);
         if (!group.setup.points.empty()) out += fmt::format("Operating points: {}.\n", points_text(group.setup.points));
-        out +=
-            "\n| fault | what is injected | what must stop | what the user reads | what is kept "
-            "|\n|---|---|---|---|---|\n";
+        out += "\n| fault | injected | must stop | message | kept |\n|---|---|---|---|---|\n";
         for (const Fault& fault : group.faults) {
             std::string done = what_is_done(fault);
             if (!same_points(fault.setup.points, group.setup.points))

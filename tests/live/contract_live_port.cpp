@@ -71,7 +71,7 @@ class LiveContractPort final : public ContractPort {
 std::unique_ptr<ContractPort> make_contract_port() {
     const std::string text = variable("MOTIONRACK_LIVE_PORT"), bell = variable("MOTIONRACK_LIVE_DOORBELL");
     if (text.empty()) {
-        std::puts("MOTIONRACK_LIVE_PORT does not say where a card is.");
+        std::puts("MOTIONRACK_LIVE_PORT is not the address of a card.");
         return nullptr;
     }
     const bool real = text.find("motionrack-live-") == std::string::npos;

@@ -122,9 +122,11 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;
     EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
     good("contour_begin", {{"SV", 100}, {"V", 200}, {"A", 0}, {"D", 0}},
-         "The contour is open; give its lines and arcs.");
-    good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
-    good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 300}, {"PZ", 0}, {"PU", 0}, {"V", 0}}, "The line was taken.");
+         "The contour is open; add its lines and arcs.");
+    good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
+         "The line was accepted.");
+    good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 300}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
+         "The line was accepted.");
     const json ended = served->post("call", {{"card", "bench"}, {"function", "contour_end"}});
     EXPECT_TRUE(ended.contains("done")) << ended;
     good("ReadLPS", {{"axis", 1}}, "1500 pulses");

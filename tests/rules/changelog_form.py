@@ -60,7 +60,7 @@ class Form:
         try:
             datetime.date.fromisoformat(match[4])
         except ValueError:
-            return f"{match[4]} is no day"
+            return f"{match[4]} is not a day"
         number = (int(match[1]), int(match[2]), int(match[3]))
         older = not self.releases or (number < self.releases[-1] and match[4] <= self.dates[-1])
         self.releases.append(number)

@@ -54,7 +54,7 @@ def wrong_in(message: str) -> str:
     if first[0].isupper() and first[1:].islower():
         return f"the subject begins with a capital: `{first}`"
     if INFLECTED.fullmatch(first) and first not in IMPERATIVE:
-        return f"`{first}` is no imperative"
+        return f"`{first}` is not an imperative"
     if subject.endswith("."):
         return "the first line ends with a full stop"
     if len(lines) > 1 and lines[1]:

@@ -32,7 +32,7 @@ def files_of(root: Path) -> list[Path]:
 
 
 def text_of(path: Path) -> str:
-    """The file's text; nothing for what is no text."""
+    """The file's text; empty if it is not a text file."""
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:

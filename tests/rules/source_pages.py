@@ -61,7 +61,7 @@ def test_file(test: str) -> Path | None:
 
 def problems(name: str, number: int, one: Statement) -> list[str]:
     where = f"{FOLDER}/{name}.toml: statement {number}, {one.get('place', 'without place')!r}"
-    wrong = [f"{where}: there is no key {key!r}" for key in sorted(set(one) - KEYS)]
+    wrong = [f"{where}: unknown key {key!r}" for key in sorted(set(one) - KEYS)]
     wrong += [f"{where}: {key} is empty" for key in sorted(KEYS & set(one)) if not str(one[key]).strip()]
     wrong += [f"{where}: {key} is missing" for key in ("place", "text", "state") if key not in one]
     state = one.get("state", "done")
@@ -72,9 +72,9 @@ def problems(name: str, number: int, one: Statement) -> list[str]:
     if state != "done" and "why" not in one:
         wrong.append(f"{where}: why is missing")
     if "file" in one and Path(one["file"]) not in FILES:
-        wrong.append(f"{where}: there is no file {one['file']}")
+        wrong.append(f"{where}: unknown file {one['file']}")
     if "test" in one and test_file(one["test"]) is None:
-        wrong.append(f"{where}: there is no test {one['test']}")
+        wrong.append(f"{where}: unknown test {one['test']}")
     return wrong
 
 

@@ -40,7 +40,7 @@ def language(path: str) -> str:
 
 
 def text(path: str) -> str | None:
-    """What is in the file; None if it is no text in UTF-8."""
+    """The content of the file; None if it is not UTF-8 text."""
     data = (ROOT / path).read_bytes()
     if b"\0" in data:
         return None

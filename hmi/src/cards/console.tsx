@@ -78,7 +78,7 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
     if (what === null)
       notice(
         'refused',
-        `"${value.value}" is no number of ${bits} bits; 255, 0xFF, FFh or 'G' are. Nothing was written.`,
+        `"${value.value}" is not a number of ${bits} bits. Write 255, 0xFF, FFh or 'G'. Nothing was written.`,
       );
     else void write(card.bus.base + chosen, what, `write ${namesAt(card, chosen)}`);
   };

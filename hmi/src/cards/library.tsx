@@ -249,7 +249,7 @@ export function Functions({ card }: { card: CardInfo }): JSX.Element {
   const one = functions.value.find((each) => each.name === chosen.value) ?? functions.value[0];
   const told = inService(card)
     ? card.live !== null
-      ? 'A real card is in service: what is called moves its motors. STOP ends the pulses of all its axes at once.'
+      ? 'A real card is in service: its functions move its motors. STOP ends the pulses of all its axes at once.'
       : 'In service: the controller drives nothing. STOP and every switch stop all axes at once and end the service.'
     : card.axes.length > 0
       ? `The controller drives ${card.axes.map((axis) => axis.letter).join(', ')} with this card. The service takes the ` +

@@ -57,7 +57,7 @@ export function Help(): JSX.Element {
           </tr>
         </tbody>
       </table>
-      <p class="hint">While you type in a field only Esc, F1 and F2 act. STOP is no emergency stop.</p>
+      <p class="hint">While you type in a field only Esc, F1 and F2 act. STOP is not an emergency stop.</p>
     </Dialog>
   );
 }

@@ -63,7 +63,7 @@ export function stop(): void {
     () =>
       notice(
         'refused',
-        'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.',
+        'STOP did not reach the program: the page is not connected. If the machine moves, use its emergency stop.',
       ),
   );
 }
@@ -76,7 +76,7 @@ const standing = (): string => (state.role.value === 'nobody' ? 'are not paired'
 
 /** Reason why an action is not allowed now; empty: allowed. Reads signals, so that components update. */
 export function whyNot(needed: Role, control = false): string {
-  if (state.link.value !== 'open') return 'There is no connection to the program.';
+  if (state.link.value !== 'open') return 'The page is not connected to the program.';
   if (!hasRole(needed))
     return `This needs the role ${needed}; you ${standing()}. Pair this browser with a code of that role.`;
   if (control && !state.inControl.value) {

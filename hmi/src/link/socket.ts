@@ -48,7 +48,7 @@ export function ask(fields: Fields, give_up_ms = GIVE_UP_MS): Promise<Reply> {
   const open = socket;
   if (open?.readyState !== WebSocket.OPEN)
     return Promise.reject(
-      new Refusal({ kind: 'io', message: 'There is no connection to the program. Nothing was sent.' }),
+      new Refusal({ kind: 'io', message: 'The page is not connected to the program. Nothing was sent.' }),
     );
   const id = next++;
   return new Promise((resolve, reject) => {
@@ -57,7 +57,7 @@ export function ask(fields: Fields, give_up_ms = GIVE_UP_MS): Promise<Reply> {
       reject(
         new Refusal({
           kind: 'io',
-          message: `The program has not answered for ${give_up_ms / 1000} s. Look at the machine's state before you try again.`,
+          message: `The program has not answered for ${give_up_ms / 1000} s. Check the machine's state before you try again.`,
         }),
       );
     }, give_up_ms);
@@ -145,7 +145,7 @@ function gone(which: WebSocket): void {
   const why = new Refusal({
     kind: 'io',
     message:
-      "The connection to the program was lost before it answered. Look at the machine's state before you try again.",
+      "The connection to the program was lost before it answered. Check the machine's state before you try again.",
   });
   for (const one of waiting.values()) one.reject(why);
   waiting.clear();

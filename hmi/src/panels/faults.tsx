@@ -29,9 +29,9 @@ function Injection(): JSX.Element {
   const all = rack.value?.faults ?? [];
   const chosen = all.find((one) => one.target === target.value) ?? all[0];
   const why = mayMaintain();
-  if (chosen === undefined) return <Empty>The rack tells of no faults.</Empty>;
+  if (chosen === undefined) return <Empty>The rack has no faults to inject.</Empty>;
   const give = (fault: string): void => {
-    if (typed(value.value) === null) notice('refused', `"${value.value}" is no number. Nothing was broken.`);
+    if (typed(value.value) === null) notice('refused', `"${value.value}" is not a number. No fault was injected.`);
     else void inject(chosen.target, fault, String(typed(value.value)));
   };
   return (
@@ -124,7 +124,7 @@ function Wires(): JSX.Element {
                   1
                 </Button>
                 <Button
-                  why={no || (held === undefined ? 'Nobody drives it by hand from here.' : '')}
+                  why={no || (held === undefined ? 'This wire is not forced from this page.' : '')}
                   label={`Release ${wire.name}`}
                   onClick={() => void drive(wire.name, null)}>
                   Release

@@ -84,7 +84,7 @@ export function Homing(): JSX.Element | null {
   if (last === null) return null;
   return (
     <details class="homing">
-      <summary>{last.homed ? 'Homed; what was found' : 'The last homing failed'}</summary>
+      <summary>{last.homed ? 'Homed; results' : 'The last homing failed'}</summary>
       {last.error !== null && <p class="why">{last.error}</p>}
       {last.axes.map((axis) => (
         <Found key={axis.axis} axis={axis} />

@@ -67,7 +67,7 @@ async function invite(): Promise<void> {
 
 export function Inviting(): JSX.Element {
   return (
-    <Dialog title="Let somebody in" open={inviteOpen.value} onClose={() => (inviteOpen.value = false)} class="pairing">
+    <Dialog title="Invite a user" open={inviteOpen.value} onClose={() => (inviteOpen.value = false)} class="pairing">
       <p>A code lets one browser in, once, with the role that you choose.</p>
       <Choice
         label="Role"

@@ -35,7 +35,7 @@ function Stop(): JSX.Element {
       type="button"
       class="stop"
       onClick={() => perform(actions.stop)}
-      title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
+      title="STOP: controlled stop, the program is aborted (Esc). This is not an emergency stop.">
       <Icon name="stop" size={26} />
       <span>STOP</span>
     </button>

@@ -25,7 +25,7 @@ function Control(): JSX.Element {
     <div class="control" role="group" aria-label="Control">
       <span class={`holder ${mine ? 'mine' : ''}`}>
         <Icon name="hand" size={16} />
-        {mine ? 'You hold control' : holder !== '' ? `${holder} holds control` : 'Nobody holds control'}
+        {mine ? 'You hold control' : holder !== '' ? `${holder} holds control` : 'No user holds control'}
       </span>
       {mine ? (
         <Button kind="quiet" onClick={releaseControl}>

@@ -34,7 +34,7 @@ describe('run', () => {
     const { actions, notices, program } = await opened();
     actions.perform(actions.actions.run);
     expect(commands(program)).toEqual([]);
-    expect(await notices()).toEqual(['There is no program to run. Open one, or type one, first.']);
+    expect(await notices()).toEqual(['No program is open. Open one, or type one, first.']);
   });
 });
 
@@ -77,7 +77,7 @@ describe('the place of an axis', () => {
     actions.placeText.value = 'here';
     actions.perform(actions.actions[name]);
     expect(commands(program)).toEqual([]);
-    expect(await notices()).toEqual(['"here" is no position. Nothing was changed.']);
+    expect(await notices()).toEqual(['"here" is not a position. Nothing was changed.']);
   });
 
   test('is that of the first axis where the machine does not have the chosen one', async () => {

@@ -135,7 +135,7 @@ describe('a key', () => {
     expect(key(browser, 'keydown', '~', { altGraph: true, ctrlKey: true, altKey: true })).toBe(true);
     expect(commands(program)).toEqual([]);
     const { notices } = await import('../../src/link/commands');
-    expect(notices.value[0]?.text).toMatch(/no program to run/);
+    expect(notices.value[0]?.text).toMatch(/No program is open/);
   });
 });
 

@@ -83,7 +83,7 @@ describe('values of channels', () => {
     const { channel, want } = await channels();
     want(['X.error']);
     await settled();
-    program.answers.subscribe = 'There is no channel X.eror.';
+    program.answers.subscribe = 'Unknown channel X.eror.';
     want(['X.eror']);
     await settled();
     program.show({}, [3]);

@@ -42,9 +42,9 @@ describe('a query of a panel', () => {
   test('that is refused says why, keeps what was known, and is asked again', async () => {
     const { polled, program } = await polling();
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
-    program.answers.card = 'There is no card mcx.';
+    program.answers.card = 'Unknown card mcx.';
     await after(250);
-    expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 6 }, 'There is no card mcx.']);
+    expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 6 }, 'Unknown card mcx.']);
     program.answers.card = { word: 8 };
     await after(250);
     expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 8 }, '']);

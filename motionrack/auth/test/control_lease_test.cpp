@@ -21,7 +21,7 @@ class AControlLease : public testing::Test {
 
 TEST_F(AControlLease, IsNobodysAtFirstAndGoesToWhoeverAsks) {
     EXPECT_FALSE(lease.holder());
-    EXPECT_THAT(lease.check("a").error().message, HasSubstr("Nobody has control"));
+    EXPECT_THAT(lease.check("a").error().message, HasSubstr("No user has control"));
     now += 3s;
     EXPECT_TRUE(take("anna", "a", false, false)) << "nobody is robbed of it";
     ASSERT_TRUE(lease.holder());
@@ -34,7 +34,7 @@ TEST_F(AControlLease, IsNobodysAtFirstAndGoesToWhoeverAsks) {
 TEST_F(AControlLease, IsTakenOverByForceAtAStandstillOnly) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_THAT(take("bert", "b").error().message, HasSubstr("anna has it"));
-    EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("does not stand still"));
+    EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
     EXPECT_TRUE(lease.check("a"));
     EXPECT_TRUE(take("bert", "b", true, true));
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Control is with bert"));
@@ -54,7 +54,7 @@ TEST_F(AControlLease, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves
     lease.left("a");
     ASSERT_TRUE(lease.check("a"));
     EXPECT_FALSE(lease.holder()->left);
-    EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("does not stand still"));
+    EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
 }
 
 TEST_F(AControlLease, EndsWithTheStopOfAnotherButNotWithItsHolders) {

@@ -107,8 +107,8 @@ TEST(StateTables, RefuseStatesThatCannotBeReachedOrLeft) {
     EXPECT_EQ(machine({a, b}, {{"a", "b", "go"}}), "m: the state b has no exit and is not final");
     EXPECT_EQ(machine({a, b}, {{"a", "b", "go"}, {"b", "b", "stay"}}), "m: the state b has no exit and is not final");
     EXPECT_EQ(machine({{"a", "first", true}, b}, {{"b", "a", "back"}}), "m: the state b is never reached");
-    EXPECT_EQ(machine({a, b}, {{"a", "c", "go"}}), "m: a transition goes to c, which is no state");
-    EXPECT_EQ(machine({a, b}, {{"c", "a", "go"}}), "m: a transition comes from c, which is no state");
+    EXPECT_EQ(machine({a, b}, {{"a", "c", "go"}}), "m: a transition goes to c, which is not a state");
+    EXPECT_EQ(machine({a, b}, {{"c", "a", "go"}}), "m: a transition comes from c, which is not a state");
     EXPECT_EQ(machine({a, b}, {{"a", "b", ""}}), "m: the transition from a to b does not say when");
     EXPECT_EQ(machine({}, {}), "m: there are not 1 to 64 states");
 }

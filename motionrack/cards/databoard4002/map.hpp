@@ -51,7 +51,7 @@ namespace map {
 inline constexpr StateInfo host_states[] = {
     {"ready", "Ready is 1: an access is taken"},
     {"busy", "Ready is 0: the firmware works on the access; another one is lost"},
-    {"hung", "the firmware does nothing any more (a fault); an access takes Ready away for good"},
+    {"hung", "the firmware hangs (a fault); an access clears Ready permanently"},
 };
 inline constexpr TransitionInfo host_transitions[] = {
     {"ready", "busy", "access to DATA, C2 or C4"},
@@ -83,7 +83,7 @@ inline constexpr TransitionInfo move_transitions[] = {
 inline constexpr StateInfo collector_states[] = {
     {"idle", "no arguments are open"},
     {"either", "after D, P, R: the first access to DATA decides, OUT or INP"},
-    {"collecting", "argument bytes are waited for"},
+    {"collecting", "waits for argument bytes"},
     {"answering", "answer bytes are given out"},
 };
 inline constexpr TransitionInfo collector_transitions[] = {
@@ -97,7 +97,7 @@ inline constexpr TransitionInfo collector_transitions[] = {
 };
 inline constexpr MachineInfo machines[] = {
     {"host", "the handshake; a reset leads to ready", host_states, host_transitions},
-    {"move", "what the motor is told; a reset leads to standing", move_states, move_transitions},
+    {"move", "command to the motor; a reset leads to standing", move_states, move_transitions},
     {"collector", "arguments and answers; a reset leads to idle", collector_states, collector_transitions},
 };
 static_assert(declared<machines_flaw(machines)>());
@@ -111,13 +111,13 @@ inline constexpr PinInfo pins[] = {
     {"ems", in, false, "emergency stop; active without current; contact 3P: 10 at 0 V, 23 at 5 V"},
     {"esr", in, false, "end stop right; active without current; contact 3P: 12 at 0 V, 25 at 5 V"},
     {"esl", in, false, "end stop left; active without current; contact 3P: 11 at 0 V, 24 at 5 V"},
-    {"vout", out, false, "analog output behind the relay; the wire's level is in uV"},
+    {"vout", out, false, "analog output after the relay; the wire's level is in uV"},
     {"sign", out, false, "direction: 1 is +"},
     {"fout", out, false, "speed as a frequency, 400 kHz / (16384 - rate)"},
     {"relay", out, false, "1: the analog output is connected, 0: shorted"},
     {"rst", out, false, "pulse of 10 us at C3"},
     {"int", out, false, "interrupt: 1 while one is asked for"},
-    {"vdirect", out, false, "analog output in front of the relay, on which EMS does not act; in uV"},
+    {"vdirect", out, false, "analog output before the relay, on which EMS does not act; in uV"},
     {"csb", out, false, "1 while the card is chosen: its answer to the bus, and its LED"},
 };
 static_assert(declared<pins_flaw(pins)>());

@@ -25,13 +25,13 @@ inline constexpr FieldInfo control_fields[] = {
     {"CLAIM", 0x0001, "the buffer published last is the processor's until the next CLAIM or RELEASE"},
     {"RELEASE", 0x0002, "gives the claimed buffer back"},
     {"CLEAR_ERRORS", 0x0004, "makes the counters 20h to 2Fh 0"},
-    {"RESET", 0x0008, "leaves the frame under way; sequence and counters begin anew"},
+    {"RESET", 0x0008, "aborts the current frame; sequence and counters restart"},
 };
 inline constexpr FieldInfo role_fields[] = {
-    {"HOST", 0x0001, "1: the card gives clock and addresses; 0: it only listens"},
+    {"HOST", 0x0001, "1: the card drives clock and addresses; 0: it only reads"},
     {"CLOCK_OUT", 0x0002, "the shifter of clk, hold and read_n drives the bus"},
     {"ADDRESS_OUT", 0x0004, "the shifter of addr drives the bus"},
-    {"CHECKS", 0x0008, "frames whose lines were not as they should be are not published"},
+    {"CHECKS", 0x0008, "frames with wrong line levels are not published"},
 };
 inline constexpr FieldInfo status_fields[] = {
     {"FRAME", 0x0001, "a frame was published since the last CLAIM"},
@@ -43,18 +43,18 @@ inline constexpr FieldInfo status_fields[] = {
 };
 inline constexpr FieldInfo state_fields[] = {
     {"STATE", 0x000F, "number of the state, 0 for S0"},
-    {"WORD", 0xFF00, "number of the word that is read"},
+    {"WORD", 0xFF00, "number of the word being read"},
 };
 
 inline constexpr Access r = Access::read, w = Access::write;
 
 inline constexpr RegisterInfo registers[] = {
-    {"CONTROL", 0x00, 16, w, false, "", "what the processor wants; bits act from the lowest to the highest",
+    {"CONTROL", 0x00, 16, w, false, "", "commands of the processor; bits act from the lowest to the highest",
      control_fields},
     {"SIGNATURE", 0x00, 16, r, false, "", "4742h: a card of a grating bus", {}},
-    {"ROLE", 0x02, 16, r, false, "", "how the card is set", role_fields},
+    {"ROLE", 0x02, 16, r, false, "", "settings of the card", role_fields},
     {"STATUS", 0x04, 16, r, false, "", "frame and faults", status_fields},
-    {"STATE", 0x06, 16, r, false, "", "where the sequence is", state_fields},
+    {"STATE", 0x06, 16, r, false, "", "state of the sequence", state_fields},
     {"SCALES", 0x08, 16, r, false, "", "N, scales of a frame", {}},
     {"FIRST", 0x0A, 16, r, false, "", "address of the first scale of the list", {}},
     {"T1", 0x0C, 16, r, false, "", "wait for the latch, 0.1 ns", {}},
@@ -67,9 +67,9 @@ inline constexpr RegisterInfo registers[] = {
     {"FRAMES_H", 0x1A, 16, r, false, "", "the same, high", {}},
     {"BROKEN", 0x20, 16, r, false, "", "bad frames, which were not published", {}},
     {"MISSED_WORDS", 0x22, 16, r, false, "", "words whose read_n was 1", {}},
-    {"ALIEN", 0x24, 16, r, false, "", "words with another address than the card's own list has there", {}},
-    {"LINES", 0x26, 16, r, false, "", "words at which clk, hold or read_n was not as it should be", {}},
-    {"MISSED_EDGES", 0x28, 16, r, false, "", "edges of clk that must have been there and were not seen", {}},
+    {"ALIEN", 0x24, 16, r, false, "", "words whose address differs from the card's own list", {}},
+    {"LINES", 0x26, 16, r, false, "", "words at which clk, hold or read_n had a wrong level", {}},
+    {"MISSED_EDGES", 0x28, 16, r, false, "", "missed edges of clk", {}},
     {"OVERRUN", 0x2A, 16, r, false, "", "pulses or edges that came while a frame was being read", {}},
     {"SEQUENCE_L", 0x40, 16, r, false, "", "claimed: sequence, low", {}},
     {"SEQUENCE_H", 0x42, 16, r, false, "", "claimed: the same, high", {}},
@@ -110,13 +110,13 @@ inline constexpr TransitionInfo transitions[] = {
     {"S11", "S12", "next clock"},  {"S12", "S0", "next clock"},
 };
 inline constexpr MachineInfo machines[] = {
-    {"frame", "how a card reads one frame; a slave walks it with the host", states, transitions},
+    {"frame", "reading of one frame; a slave follows the states of the host", states, transitions},
 };
 static_assert(declared<machines_flaw(machines)>());
 
 inline constexpr PinInfo pins[] = {
     {"state", PinDirection::output, false, "number of the state, 0 .. 12"},
-    {"frame_done", PinDirection::output, false, "pulse of one clock: a frame is complete"},
+    {"frame_done", PinDirection::output, false, "pulse of one clock period: a frame is complete"},
     {"int_n", PinDirection::output, true, "low while STATUS.FRAME"},
     {"vout0", PinDirection::output, false, "analog output 0 of the processor, V"},
     {"vout1", PinDirection::output, false, "analog output 1"},
@@ -141,7 +141,7 @@ inline constexpr ConnectorPin connector_pins[] = {
     {"?2031", "P2C31", "P2D31", "addr", "? for P, 0 for C or D"},
     {"?2431", "P2A31", "", "addr", "? for P, 4 for A"},
     {"?2032", "P2C32", "P2D32", "addr", "? for P, 0 for C or D"},
-    {"?2々5", "P2A5", "", "addr", "? for P, 々 for A: the least sure of all"},
+    {"?2々5", "P2A5", "", "addr", "? for P, 々 for A: the least certain pin"},
     {"?204", "P2C4", "P2D4", "addr", "? for P, 0 for C or D"},
     {"?205", "P2C5", "P2D5", "addr", "? for P, 0 for C or D"},
 };

@@ -59,7 +59,7 @@ std::uint32_t ImageHeader::number(std::size_t at) const {
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content) {
     if (content.project.empty() || content.project.size() > max_name)
         return fail(ErrorKind::refused,
-                    fmt::format("The project's name has {} characters, but it has 1 to {}. No image was made.",
+                    fmt::format("The project's name has {} characters, it must have 1 to {}. No image was made.",
                                 content.project.size(), max_name));
     if (content.payload.size() < min_payload || content.payload.size() > max_payload)
         return fail(ErrorKind::refused,
@@ -92,22 +92,21 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
     const std::uint8_t nothing = 0;
     const int done = uncompress2(out.data(), &size, file.empty() ? &nothing : file.data(), &used);
     if (size > max_image || (done == Z_BUF_ERROR && size == out.size()))
-        return fail(
-            ErrorKind::invalid_input,
-            fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
-                        "was not used; is it an image of this card?",
-                        max_image));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("The configuration image unpacks to more than {} bytes, the limit of the array. It was "
+                                "not used; is it an image of this card?",
+                                max_image));
     if (done != Z_OK)
         return fail(
             ErrorKind::invalid_input,
-            fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or no "
-                        "zlib stream. It was not used; make or copy it anew.",
+            fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or not a "
+                        "zlib stream. It was not used; make or copy it again.",
                         file.size()));
     if (used != file.size())
         return fail(
             ErrorKind::invalid_input,
             fmt::format("The configuration image has {} bytes, but its zlib stream ends after {}. It was not used; "
-                        "make or copy it anew.",
+                        "make or copy it again.",
                         file.size(), used));
     out.resize(size);
     return out;
@@ -115,11 +114,11 @@ Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
 
 Result<ImageInfo> inspect(std::span<const std::uint8_t> raw) {
     const auto refused = [](const std::string& why) {
-        return fail(ErrorKind::invalid_input, why + ". The card would refuse the image; make it anew.");
+        return fail(ErrorKind::invalid_input, why + ". The card would refuse the image; make it again.");
     };
     ImageHeader header;
     if (raw.size() < image_magic.size() || !std::equal(image_magic.begin(), image_magic.end(), raw.begin()))
-        return refused("It is no image of this card: it does not begin with \"IOFLEX02\"");
+        return refused("It is not an image of this card: it does not begin with \"IOFLEX02\"");
     if (raw.size() < image_header)
         return refused(fmt::format("Its header is cut short: {} of {} bytes are there", raw.size(), image_header));
     std::copy_n(raw.begin(), image_header, header.bytes.begin());
@@ -165,10 +164,11 @@ Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text) {
         const std::string_view two = text.substr(i, 2);
         const auto [end, error] = std::from_chars(two.data(), two.data() + two.size(), byte, 16);
         if (error != std::errc{} || end != two.data() + 2)
-            return fail(ErrorKind::invalid_input,
-                        fmt::format("Digits {} and {} of the image are no hexadecimal number of two digits. The image "
-                                    "was not used; copy it anew.",
-                                    i + 1, i + 2));
+            return fail(
+                ErrorKind::invalid_input,
+                fmt::format("Digits {} and {} of the image are not a hexadecimal number of two digits. The image "
+                            "was not used; copy it again.",
+                            i + 1, i + 2));
         out.push_back(byte);
     }
     return out;

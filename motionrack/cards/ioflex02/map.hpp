@@ -16,7 +16,7 @@ inline constexpr Duration time_tick = nanoseconds(1'200);  ///< one count of the
 inline constexpr std::uint32_t mask_24 = 0xFFFFFF;
 inline constexpr std::uint32_t window = 0x100;  ///< size of a card's address window on the bus, bytes
 inline constexpr std::uint16_t signature = 0x4F49;
-inline constexpr std::uint16_t nobody = 0xFFFF;  ///< answer without a card or a project
+inline constexpr std::uint16_t no_answer = 0xFFFF;  ///< answer without a card or a project
 
 /// Offset of a register by its name; undeclared names do not compile.
 consteval std::uint32_t offset(std::string_view name) {

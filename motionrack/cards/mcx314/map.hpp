@@ -89,27 +89,27 @@ consteval Field field(std::string_view reg_name, std::string_view field_name) {
 namespace map {
 
 inline constexpr StateInfo drive_states[] = {
-    {"idle", "no drive; pulses do not come"},
+    {"idle", "idle; no pulses"},
     {"held", "a drive command waits for START"},
     {"starting", "250 ns from the command to the generator's first tick"},
-    {"driving", "pulses come, the speed goes towards V"},
-    {"final", "the speed goes to SV for the end"},
-    {"in_position", "the pulses are out, nINPOS is waited for"},
+    {"driving", "pulses; the speed approaches V"},
+    {"final", "the speed decreases to SV for the end"},
+    {"in_position", "all pulses sent; waits for nINPOS"},
 };
 inline constexpr TransitionInfo drive_transitions[] = {
     {"idle", "starting", "drive command"},
     {"idle", "held", "drive command after HOLD"},
     {"held", "starting", "START"},
     {"held", "idle", "stop command"},
-    {"held", "driving", "another axis' interpolation names it"},
-    {"idle", "driving", "a segment that is queued names it"},
+    {"held", "driving", "the interpolation of another axis uses it"},
+    {"idle", "driving", "a queued segment uses it"},
     {"starting", "driving", "two ticks have passed"},
     {"driving", "final", "remaining pulses, DP, decelerating stop"},
     {"driving", "in_position", "P pulses are out, the segment's last pulse with nothing queued, or an immediate stop"},
     {"final", "in_position", "P pulses are out, or SV is reached by a stop"},
     {"in_position", "idle", "nINPOS active or not enabled"},
     {"in_position", "starting", "drive command"},
-    {"in_position", "driving", "a segment that is queued names it"},
+    {"in_position", "driving", "a queued segment uses it"},
     {"in_position", "held", "drive command after HOLD"},
 };
 inline constexpr StateInfo chain_states[] = {
@@ -127,7 +127,7 @@ inline constexpr TransitionInfo chain_transitions[] = {
 inline constexpr StateInfo pattern_states[] = {
     {"idle", "no word runs"},
     {"running", "the bits of a word are stepped, D0 first"},
-    {"stopped", "a stop came within a word; its rest is kept"},
+    {"stopped", "a stop came within a word; the remaining bits are kept"},
 };
 inline constexpr TransitionInfo pattern_transitions[] = {
     {"idle", "running", "command 34h or 35h: the oldest stacked word"},
@@ -154,21 +154,21 @@ inline constexpr TransitionInfo stack_transitions[] = {
     {"3", "0", "end code; command 39h"},
 };
 inline constexpr StateInfo step_states[] = {
-    {"free", "basic pulses come by themselves, or no interpolation runs"},
-    {"waiting", "the next basic pulse must be asked for"},
-    {"stepping", "it has been asked for and is on its way"},
+    {"free", "basic pulses are automatic, or no interpolation runs"},
+    {"waiting", "the next basic pulse must be requested"},
+    {"stepping", "a basic pulse is requested and pending"},
 };
 inline constexpr TransitionInfo step_transitions[] = {
-    {"free", "waiting", "a segment begins whose command found CMPLS or EXPLS"},
+    {"free", "waiting", "a segment starts with CMPLS or EXPLS set"},
     {"waiting", "stepping", "command 3Ah, or EXPLSN Low at two ticks"},
     {"stepping", "waiting", "the basic pulse"},
     {"stepping", "free", "the last basic pulse, or a stop"},
     {"waiting", "free", "a stop"},
 };
 inline constexpr StateInfo wire_states[] = {
-    {"off", "EXOP does not let the input drive"},
-    {"low", "the input is Low and has done what it does, or has not been seen High yet"},
-    {"high", "a falling edge is waited for"},
+    {"off", "EXOP disables driving by the input"},
+    {"low", "the input is Low and its action is done, or it has not been High yet"},
+    {"high", "waits for a falling edge"},
     {"falling", "Low at one tick"},
 };
 inline constexpr TransitionInfo wire_transitions[] = {
@@ -183,10 +183,10 @@ inline constexpr TransitionInfo wire_transitions[] = {
 };
 inline constexpr MachineInfo machines[] = {
     {"drive", "one axis' drive; RESET leads from every state to idle", drive_states, drive_transitions},
-    {"continuous interpolation", "the segment that runs and the one behind it; RESET leads from every state to idle",
+    {"continuous interpolation", "the running segment and the next one; RESET leads from every state to idle",
      chain_states, chain_transitions},
-    {"bit pattern", "the word that runs; RESET leads from every state to idle", pattern_states, pattern_transitions},
-    {"bit-pattern stack", "the words behind it, as BPSC shows them; RESET leads from every state to 0", stack_states,
+    {"bit pattern", "the running word; RESET leads from every state to idle", pattern_states, pattern_transitions},
+    {"bit-pattern stack", "the stacked words, as in BPSC; RESET leads from every state to 0", stack_states,
      stack_transitions},
     {"single steps", "basic pulses on request; RESET leads from every state to free", step_states, step_transitions},
     {"drive by wire", "each of nEXPP and nEXPM; RESET leads from every state to off", wire_states, wire_transitions},

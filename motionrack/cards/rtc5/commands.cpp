@@ -13,9 +13,9 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
     const KindInfo kind = kind_info(param.kind);
     const auto refuse = [&](const std::string& why) {
         return fail(ErrorKind::refused,
-                    fmt::format("{}: {} {}; the command was not put into the list", command.name, param.name, why));
+                    fmt::format("{}: {} {}; the command was not added to the list", command.name, param.name, why));
     };
-    if (!std::isfinite(value)) return refuse(fmt::format("is {}, which is no number", value));
+    if (!std::isfinite(value)) return refuse(fmt::format("is {}, which is not a number", value));
     const std::string_view blank = kind.unit.empty() ? "" : " ";
     if ((value < kind.min || value > kind.max) && !kind.clipped)
         return refuse(fmt::format("is {}, outside {} to {}{}{}", value, kind.min, kind.max, blank, kind.unit));
@@ -28,7 +28,7 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
 /// Ranges that depend on the command.
 Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
     const auto refuse = [&](std::string_view name, double value, std::string_view range) {
-        return fail(ErrorKind::refused, fmt::format("{}: {} is {}, outside {}; the command was not put into the list",
+        return fail(ErrorKind::refused, fmt::format("{}: {} is {}, outside {}; the command was not added to the list",
                                                     info.name, name, value, range));
     };
     const auto up_to = [&](int param, double greatest) -> Result<void> {
@@ -73,12 +73,11 @@ Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
 Result<Command> list_command(Op op, std::span<const double> parameters) {
     const auto number = static_cast<std::size_t>(op);
     if (number == 0 || number >= op_count)
-        return fail(ErrorKind::refused,
-                    fmt::format("there is no list command {}; nothing was put into the list", number));
+        return fail(ErrorKind::refused, fmt::format("unknown list command {}; nothing was added to the list", number));
     const ListCommandInfo& command = info(op);
     const auto wanted = static_cast<std::size_t>(command.param_count());
     if (parameters.size() != wanted)
-        return fail(ErrorKind::refused, fmt::format("{} has {} parameters, not {}; it was not put into the list",
+        return fail(ErrorKind::refused, fmt::format("{} has {} parameters, not {}; it was not added to the list",
                                                     command.name, wanted, parameters.size()));
     Command out;
     out.op = op;

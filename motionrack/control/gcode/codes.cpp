@@ -107,28 +107,28 @@ std::string why_not_g(int tenths) {
     const std::string name = name_of_g(tenths);
     if (tenths == 52 || tenths == 53) {
         return name +
-               ": NURBS are not supported; let the CAM program put out G5 (cubic) or G5.1 (quadratic) curves, or arcs";
+               ": NURBS are not supported; let the CAM program write G5 (cubic) or G5.1 (quadratic) curves, or arcs";
     }
     if (tenths == 430 || tenths == 432) {
-        return name + ": lines from a sender know no tool table; write the tool's length itself, e.g. G43.1 Z12.5";
+        return name + ": lines from a sender have no tool table; write the tool's length itself, e.g. G43.1 Z12.5";
     }
-    if (tenths >= 591 && tenths <= 593) return name + ": lines from a sender know six work systems, G54 to G59";
+    if (tenths >= 591 && tenths <= 593) return name + ": lines from a sender have six work systems, G54 to G59";
     if (tenths == 950 || tenths == 330 || tenths == 331 || tenths == 760) {
         return name + " needs the angle of the spindle, which this machine does not measure; use G94 (mm/min) or G93";
     }
     if (is_turning(static_cast<std::int16_t>(tenths)) && group_of_g(tenths) == g_motion)
         return name + ": lines from a sender have no contour to turn; run the program as a file";
     if (tenths == 70)
-        return "G7: X is a radius here, never a diameter; let the CAM program put out radii, and leave G7 out";
+        return "G7: X is a radius here, never a diameter; let the CAM program write radii, and leave G7 out";
     if (tenths == 80) return "G8: X is always a radius here; leave it out";
     if (tenths == 870)
         return name +
-               ": boring from behind needs a spindle that stops at an angle, which this machine does not have; use "
+               ": back boring needs an oriented spindle stop, which this machine does not have; use "
                "G85, G86 or G89";
-    if (tenths == 880) return name + ": nobody pulls the tool out by hand here; use G86 or G89";
+    if (tenths == 880) return name + ": a manual retract of the tool is not possible here; use G86 or G89";
     if (tenths == 960) return name + ": spindle speed is always in rev/min here (G97); leave it out";
     if (tenths == 970) return name + ": spindle speed is always in rev/min; leave it out";
-    return name + " is not a known command; nothing of this line was done";
+    return name + " is not a known command; the line was not executed";
 }
 
 std::string why_not_m(int code) {

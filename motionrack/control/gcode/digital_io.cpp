@@ -50,10 +50,12 @@ bool Interpreter::read_input() {
     if (block_.has('E') && wait != at_once)
         return fail_word(
             'L', GrblStatus::unsupported,
-            fmt::format("{}: nobody can wait for an analog input; write L0, or P and a digital one", word_text('L')));
+            fmt::format("{}: waiting for an analog input is not possible; write L0, or P and a digital input",
+                        word_text('L')));
     if (wait != at_once && !(block_.has('Q') && block_['Q'] > 0)) {
         constexpr const char* why =
-            "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to look and go on";
+            "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to read it without "
+            "waiting";
         return block_.has('Q')
                    ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", word_text('Q'), why))
                    : fail_at(block_.m_column[m_io], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
@@ -73,8 +75,7 @@ bool Interpreter::port_number(char letter, char other) {
     if (block_.has(letter) && second)
         return fail_word(
             other, GrblStatus::unsupported,
-            fmt::format("{}: M{} looks at one input, a digital one (P) or an analog one (E); leave one out",
-                        word_text(other), code));
+            fmt::format("{}: M{} reads one input, digital (P) or analog (E); leave one out", word_text(other), code));
     if (!block_.has(letter) && !second) {
         return fail_at(block_.m_column[m_io], GrblStatus::word_missing,
                        fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}", letter,

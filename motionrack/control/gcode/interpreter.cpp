@@ -383,7 +383,7 @@ bool Interpreter::unused() {
         use = "; it goes with G10, M66 and the drilling cycles (G73, G81 .. G89)";
     } else if (letter == 'E') {
         if (unused_exponent()) return false;
-        use = "; it goes with M66, M67 and M68 (an analog input or output); there is no extruder";
+        use = "; it goes with M66, M67 and M68 (an analog input or output); the machine has no extruder";
     } else if (letter == 'D') {
         use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
     } else if (letter == 'H') {

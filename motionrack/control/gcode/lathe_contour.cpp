@@ -40,14 +40,15 @@ ContourSegment piece_of(const CutterPath& path, std::int32_t line) {
 /// radius.
 std::string round_corner(ContourSegment& before, ContourSegment& after, ContourSegment& fillet) {
     std::string too_large =
-        fmt::format("the corner at the end of line {} has no room for its {} of {:.6g}; make that smaller", before.line,
+        fmt::format("the {1} of {2:.6g} does not fit into the corner at the end of line {0}; reduce it", before.line,
                     before.chamfer ? "chamfer" : "fillet", before.corner);
     bool fits_before = false, fits_after = false;
     const CutterPath plain_before = path_of(before, 0, fits_before), plain_after = path_of(after, 0, fits_after);
     const double sine = cross(plain_before.direction_out, plain_after.direction_in);
     if (std::fabs(sine) < no_corner)
-        return fmt::format("the contour does not turn at the end of line {}, so there is no corner for A or C",
-                           before.line);
+        return fmt::format(
+            "the contour has no corner for A or C at the end of line {}: it goes on in the same direction",
+            before.line);
     const double side = sine > 0 ? before.corner : -before.corner;
     CutterPath left = path_of(before, side, fits_before), right = path_of(after, side, fits_after);
     if (!fits_before || !fits_after) return too_large;
@@ -80,8 +81,7 @@ std::string insert_fillets(std::vector<ContourSegment>& contour) {
     for (std::size_t i = 0; i < contour.size(); ++i) {
         ContourSegment& piece = contour[i];
         if (piece.corner > 0 && i + 1 == contour.size())
-            return fmt::format(
-                "line {} is the contour's last one: it ends in no corner, so A and C have no place there", piece.line);
+            return fmt::format("line {} is the contour's last one: it has no corner for A and C", piece.line);
         ContourSegment fillet;
         if (piece.corner > 0)
             if (std::string fault = round_corner(piece, contour[i + 1], fillet); !fault.empty()) return fault;
@@ -99,8 +99,8 @@ std::string make_monotone(std::vector<ContourSegment>& contour, char axis) {
     for (const ContourSegment& piece : contour) {
         const auto goes_back = [&] {
             return fmt::format(
-                "the contour goes back along {} in line {}, but it must go one way; split it, or cut this part by "
-                "lines of its own",
+                "the contour reverses along {} in line {}, but it must be monotonic; split it, or cut this part by "
+                "separate lines",
                 axis, piece.line);
         };
         if (piece.to.first < piece.from.first - same_place) return goes_back();
@@ -140,8 +140,8 @@ std::string offset_contour(const std::vector<ContourSegment>& contour, double di
     }
     const auto no_room = [&](const ContourSegment& piece) {
         return fmt::format(
-            "at {:.6g} beside the contour there is no room in line {}; make the distance smaller, or the contour wider "
-            "there",
+            "line {1} of the contour is too tight for an offset of {0:.6g}; reduce the offset, or make the contour "
+            "wider there",
             distance, piece.line);
     };
     std::vector<CutterPath> paths;

@@ -296,7 +296,7 @@ std::string in_its_view(const LatheCycle& plan, const std::vector<ContourSegment
             why = make_monotone(out, axis);
             if (why.empty()) return why;
         } else {
-            why = fmt::format("the contour ends where it began along {}, so there is nothing to cut along it", axis);
+            why = fmt::format("the contour ends at its start along {}, so it has no depth to cut", axis);
         }
         if (fault.empty()) fault = why;
     }
@@ -324,7 +324,7 @@ std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment>
         constexpr Part parts[] = {Part::whole, Part::without_pockets, Part::pockets};
         Rougher(plan, parts[plan.code % 10], start, beside, path).cut();
     }
-    if (path.full()) return fmt::format("it would be more than {} moves; make I larger", max_turning_moves);
+    if (path.full()) return fmt::format("it needs more than {} moves; increase I", max_turning_moves);
     return {};
 }
 

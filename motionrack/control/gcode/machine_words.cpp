@@ -73,7 +73,7 @@ bool Interpreter::overrides() {
     if (code == 52 && on) {
         return fail_at(
             block_.m_column[m_override], GrblStatus::unsupported,
-            "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)");
+            "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is accepted)");
     }
     if (code <= 50) next_.feed_override = on;
     if (code <= 49 || code == 51) next_.speed_override = on;
@@ -98,16 +98,16 @@ bool Interpreter::program_words() {
     const std::size_t column = block_.m_column[m_program];
     if (language_ != Language::program)
         return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("M{}: a line by itself has no subprograms; run the program as a file", code));
+                       fmt::format("M{}: a single line has no subprograms; run the program as a file", code));
     const std::uint32_t own = letter_bit('N') | (code == 98 ? letter_bit('P') | letter_bit('L') : 0u);
     if (block_.g_groups != 0 || block_.m_groups != 1u << m_program || (block_.words & ~own) != 0 ||
         !block_.assignments.empty()) {
         return fail_at(
             column, GrblStatus::unsupported,
             code == 98
-                ? "M98 stands alone with its P and L, e.g. M98 P100 L3; put what is beside it on a line of its own"
-                : "M99 stands alone; put what is beside it on a line of its own (it goes back to where M98 called, not "
-                  "to a line)");
+                ? "M98 needs a line with only its P and L, e.g. M98 P100 L3; put the other words on a separate line"
+                : "M99 needs a line of its own; put the other words on a separate line (it returns to the line of M98, "
+                  "not to a line)");
     }
     used_ |= own;
     if (code == 99) return true;

@@ -75,11 +75,11 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
     if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_probing(code) ? fmt::format("{} needs a place to probe towards; write e.g. {} Z-10 F60",
+                       is_probing(code) ? fmt::format("{} needs a target to probe towards; write e.g. {} Z-10 F60",
                                                       name_of_g(code), name_of_g(code))
                        : is_arc(code)   ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
                                                       name_of_g(code), name_of_g(code))
-                                        : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
+                                        : fmt::format("{} needs a position and a depth; write e.g. {} X10 Y10 Z-5 R2",
                                                       name_of_g(code), name_of_g(code)));
     }
     return true;
@@ -167,7 +167,7 @@ bool Interpreter::by_itself(std::int16_t code) {
                           name_of_g(code))
             : fmt::format(
                   "{} moves {} together, but the axes of this rack position one by one; write a line for each, or G0, "
-                  "where each goes at its own speed",
+                  "where each axis moves at its own velocity",
                   name_of_g(code), moving));
 }
 
@@ -226,7 +226,7 @@ bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {
     return fail_at(
         column, GrblStatus::travel_exceeded,
         fmt::format("{} leads to {} = {:.6g} {} in machine coordinates{}, but the axis goes from {:.6g} to {:.6g}; "
-                    "nothing of this line was done; move the work or change its offset",
+                    "the line was not executed; move the work or change its offset",
                     word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
                     limits.max_position),
         ErrorKind::refused);

@@ -57,11 +57,10 @@ bool Interpreter::arc(std::int16_t code) {
 /// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
     if (!frame_now().is_rotated || next_.plane == 0) return true;
-    return fail_at(
-        error_column(), GrblStatus::unsupported,
-        fmt::format(
-            "{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only",
-            name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
+    return fail_at(error_column(), GrblStatus::unsupported,
+                   fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and "
+                               "cycles are possible in G17 only",
+                               name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
 }
 
 /// Computes the centre from R or from I J K.
@@ -174,7 +173,7 @@ bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint
     const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
         if (passed[i] && !reach(axis[i], extremes[i], error_column())) {
-            problem_.message = "on its way this arc goes too far: " + problem_.message;
+            problem_.message = "this arc exceeds the travel: " + problem_.message;
             return false;
         }
     }

@@ -31,9 +31,10 @@ bool Interpreter::cutter() {
                         name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
     }
     if (settings_.point_to_point) {
-        return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{}: the axes of this rack position one by one, so no path can go beside a contour",
-                                   name_of_g(code)));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("{}: the axes of this rack position one by one, so cutter compensation is not possible",
+                        name_of_g(code)));
     }
     double diameter = 0;
     if (!cutter_diameter(diameter)) return false;
@@ -57,10 +58,11 @@ bool Interpreter::cutter_diameter(double& diameter) {
         diameter = scaled('D');
     } else {
         if (tools_.empty()) {
-            return fail_at(column, GrblStatus::unsupported,
-                           fmt::format("{0}: there is no tool table to take the diameter from; give the program one "
-                                       "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
-                                       name_of_g(code)));
+            return fail_at(
+                column, GrblStatus::unsupported,
+                fmt::format("{0}: the program has no tool table to take the diameter from; give the program one "
+                            "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
+                            name_of_g(code)));
         }
         if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
         const bool of_spindle = !block_.has('D') || block_['D'] == 0;
@@ -99,11 +101,10 @@ bool Interpreter::cutter_allows() {
     if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
     if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
     if (frame_now().is_rotated && next_.plane != 0) {
-        return fail_at(
-            column_of(g_cutter), GrblStatus::unsupported,
-            fmt::format(
-                "the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only",
-                frame_now().rotation_deg[next_.system]));
+        return fail_at(column_of(g_cutter), GrblStatus::unsupported,
+                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
+                                   "is possible in G17 only",
+                                   frame_now().rotation_deg[next_.system]));
     }
     if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
         return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
@@ -112,7 +113,7 @@ bool Interpreter::cutter_allows() {
     }
     if (was_on && block_.has_m(m_tool))
         return forbid(block_.m_column[m_tool],
-                      block_.m[m_tool] == 61 ? "M61 cannot tell of another tool" : "M6 cannot change the tool");
+                      block_.m[m_tool] == 61 ? "M61 cannot set another tool" : "M6 cannot change the tool");
     const std::int16_t once = block_.has_g(g_nonmodal) ? block_.g[g_nonmodal] : std::int16_t{40};
     if (once == 40) return true;
     return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
@@ -128,7 +129,7 @@ bool Interpreter::end_waiting_path() {
 bool Interpreter::gouges(std::int32_t line) {
     return fail_at(
         error_column(), GrblStatus::bad_target,
-        fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
+        fmt::format("the cutter (radius {:.6g} mm) would have to move backwards along the move of line {}, which is "
                     "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
                     "leave the move out",
                     modes_.cutter_radius_mm, line));
@@ -162,7 +163,7 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
             ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
                           "smaller cutter",
                           radius, arc_radius)
-            : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
+            : std::string("no lead-in arc reaches the offset of this arc; begin with a straight move"));
 }
 
 /// Converts the programmed move to that of the cutter, which waits until the next one is known.
@@ -200,7 +201,7 @@ bool Interpreter::reaches_contour() {
 }
 
 bool Interpreter::off_limits() {
-    problem_.message = "beside the contour, where the cutter's centre goes: " + problem_.message;
+    problem_.message = "at the offset contour of the cutter's centre: " + problem_.message;
     return false;
 }
 
@@ -247,7 +248,7 @@ bool Interpreter::join(PlanePoint corner) {
 bool Interpreter::leaves_straight(std::int16_t code) {
     if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
     return fail_at(error_column(), GrblStatus::bad_target,
-                   fmt::format("{} after G40: the cutter stands beside the contour yet; leave it with a straight move",
+                   fmt::format("{} after G40: the cutter is still at the offset contour; leave it with a straight move",
                                name_of_g(code)));
 }
 
@@ -261,11 +262,12 @@ bool Interpreter::end_cutter() {
 bool Interpreter::may_wait() {
     const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
     if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
-    return fail_at(0, GrblStatus::unsupported,
-                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, "
-                               "and no more can; nothing of this line was done; "
-                               "write that move before it, or G40",
-                               CompensationQueue::most, cutter_line_));
+    return fail_at(
+        0, GrblStatus::unsupported,
+        fmt::format(
+            "{} steps already wait for the contour move after line {}, which is the limit; the line was not executed; "
+            "write that move before it, or G40",
+            CompensationQueue::most, cutter_line_));
 }
 
 /// Applies a valid line: final calls become ready, its own calls wait behind them.

@@ -41,13 +41,13 @@ bool Interpreter::turning_allowed(std::int16_t code) {
         return fail_at(block_.g_column[g_motion], status, name + why);
     };
     if (language_ != Language::program)
-        return refuse(GrblStatus::unsupported, ": a line by itself has no contour to turn; run the program as a file");
+        return refuse(GrblStatus::unsupported, ": a single line has no contour to turn; run the program as a file");
     if (block_.has_g(g_nonmodal) || axis_words_taken_)
         return refuse(GrblStatus::axis_conflict,
-                      " stands without other codes that use its words; put it on a line of its own");
+                      " must not share its words with other codes; put it on a separate line");
     if (block_.has_m(m_stop) || block_.has_m(m_io))
         return refuse(GrblStatus::unsupported,
-                      " goes before a stop, an end or an output; put that on a line of its own");
+                      " must not share a line with a stop, an end or an output; put that on a separate line");
     if (next_.plane != 1)
         return refuse(GrblStatus::no_plane_axis, " turns in the plane of X and Z; write G18 before it");
     if (settings_.point_to_point)
@@ -62,7 +62,7 @@ bool Interpreter::turning_allowed(std::int16_t code) {
     for (const char letter : {'Y', 'A', 'B', 'C'}) {
         if (block_.has(letter))
             return fail_word(letter, GrblStatus::unused_word,
-                             fmt::format("{}: {} moves X and Z only; put the other axes on a line of their own",
+                             fmt::format("{}: {} moves X and Z only; put the other axes on a separate line",
                                          word_text(letter), name));
     }
     return true;
@@ -72,11 +72,10 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
     if (!block_.has('Q')) {
         return fail_at(
             block_.g_column[g_motion], GrblStatus::word_missing,
-            fmt::format(
-                "Q word missing: {} needs the number of the sub that draws the contour; write e.g. {} Q100 X30 Z2",
-                name_of_g(code), name_of_g(code)));
+            fmt::format("Q word missing: {} needs the number of the sub with the contour; write e.g. {} Q100 X30 Z2",
+                        name_of_g(code), name_of_g(code)));
     }
-    if (!need_integer('Q', 0, 1e9, "the number of the sub that draws the contour")) return false;
+    if (!need_integer('Q', 0, 1e9, "the number of the sub with the contour")) return false;
     contour_label_ = fmt::format("{:.0f}", block_['Q']);
     used_ |= letter_bit('Q') | letter_bit('D');
     for (const char letter : {'D', 'E', 'R'}) {
@@ -99,7 +98,7 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
     if (plan.depth >= min_depth) return true;
     return fail_word(
         'I', GrblStatus::bad_target,
-        fmt::format("{}: I is how much deeper each cut goes; it must be {} mm or more", word_text('I'), min_depth));
+        fmt::format("{}: I is the depth of each cut; it must be {} mm or more", word_text('I'), min_depth));
 }
 
 Interpreter Interpreter::contour_interpreter() const {

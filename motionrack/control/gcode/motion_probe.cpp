@@ -31,8 +31,7 @@ bool Interpreter::probing(std::int16_t code) {
     for (int axis = 3; axis < axis_count; ++axis)
         if (end_[axis] != position_[axis])
             return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");
-    if (end_ == position_)
-        return refuse(GrblStatus::bad_target, " has no way to go; its end is where the machine stands");
+    if (end_ == position_) return refuse(GrblStatus::bad_target, " has no length; its end is the current position");
     constexpr std::array<Probe, 4> kinds = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if};
     moving_.probe = kinds[static_cast<std::size_t>(code - 382)];
     moving_.move.path = PathControl::exact_stop;

@@ -14,15 +14,15 @@ bool Interpreter::spline(std::int16_t code) {
     CubicBezier curve;
     if (!(code == 50 ? cubic_of_words(start, end, curve) : quadratic_of_words(start, end, curve))) return false;
     if (curve.is_point()) {
-        return fail_at(error_column(), GrblStatus::bad_target,
-                       fmt::format("{}: the curve has no length; its end and control points are where it starts",
-                                   name_of_g(code)));
+        return fail_at(
+            error_column(), GrblStatus::bad_target,
+            fmt::format("{}: the curve has no length; its end and control points are its start", name_of_g(code)));
     }
     for (const int axis : {0, 1}) {
         double least = 0, greatest = 0;
         curve.range(axis == 0 ? &PlanePoint::first : &PlanePoint::second, least, greatest);
         if (!reach(axis, least, error_column()) || !reach(axis, greatest, error_column())) {
-            problem_.message = "on its way this curve goes too far: " + problem_.message;
+            problem_.message = "this curve exceeds the travel: " + problem_.message;
             return false;
         }
     }
@@ -43,9 +43,8 @@ bool Interpreter::spline_allowed(std::int16_t code) {
         return refuse(GrblStatus::unsupported,
                       " is a curve, but the axes of this rack position one by one; write straight moves");
     if (next_.cutter != CutterSide::off)
-        return refuse(
-            GrblStatus::axis_conflict,
-            " cannot go beside a contour while cutter compensation is on; write G40 and a straight move before it");
+        return refuse(GrblStatus::axis_conflict,
+                      " is not possible while cutter compensation is on; write G40 and a straight move before it");
     if (!leaves_straight(code)) return false;
     if (next_.plane != 0) return refuse(GrblStatus::no_plane_axis, " is a curve in X and Y; write G17 before it");
     if (next_.inverse_time)
@@ -57,9 +56,9 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     }
     for (const char letter : {'Z', 'A', 'B', 'C'}) {
         if (!block_.has(letter)) continue;
-        return fail_word(letter, GrblStatus::unused_word,
-                         fmt::format("{}: {} moves X and Y only; put the other axes on a line of their own",
-                                     word_text(letter), name));
+        return fail_word(
+            letter, GrblStatus::unused_word,
+            fmt::format("{}: {} moves X and Y only; put the other axes on a separate line", word_text(letter), name));
     }
     return true;
 }
@@ -67,16 +66,16 @@ bool Interpreter::spline_allowed(std::int16_t code) {
 /// I J lead from the start to the first control point, P Q from the end to the second one.
 bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     if (!block_.has('P') || !block_.has('Q') || (used_ & (letter_bit('P') | letter_bit('Q'))) != 0) {
-        return fail_at(
-            error_column(), GrblStatus::word_missing,
-            "G5 needs P and Q, the way from its end to its second control point; write e.g. G5 X20 Y0 I5 J10 P-5 Q10");
+        return fail_at(error_column(), GrblStatus::word_missing,
+                       "G5 needs P and Q, the distance from its end to its second control point; write e.g. G5 X20 Y0 "
+                       "I5 J10 P-5 Q10");
     }
     if (block_.has('I') != block_.has('J')) {
         const char missing = block_.has('I') ? 'J' : 'I';
         return fail_at(
             error_column(), GrblStatus::no_offsets,
             fmt::format(
-                "{} word missing: G5 takes both I and J, or neither to go on in the direction of the G5 before it",
+                "{} word missing: G5 takes both I and J, or neither to continue in the direction of the G5 before it",
                 missing));
     }
     PlanePoint handle = {-modes_.spline_end.first,
@@ -87,8 +86,8 @@ bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
         handle = {scaled('I'), scaled('J')};
     } else if (!goes_on) {
         return fail_at(error_column(), GrblStatus::no_offsets,
-                       "G5 needs I and J, the way from its start to its first control point; only a G5 right after "
-                       "another goes on without them");
+                       "G5 needs I and J, the distance from its start to its first control point; only a G5 right "
+                       "after another may omit them");
     }
     used_ |= letter_bit('I') | letter_bit('J') | letter_bit('P') | letter_bit('Q');
     const PlanePoint written_back = {scaled('P'), scaled('Q')};
@@ -108,7 +107,7 @@ bool Interpreter::quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezi
     if (handle.first == 0 && handle.second == 0) {
         return fail_at(
             error_column(), GrblStatus::no_offsets,
-            "G5.1 needs I or J, the way from its start to its control point; write e.g. G5.1 X20 Y0 I10 J10");
+            "G5.1 needs I or J, the distance from its start to its control point; write e.g. G5.1 X20 Y0 I10 J10");
     }
     const PlanePoint by = turned_handle(handle);
     curve = quadratic(start, {start.first + by.first, start.second + by.second}, end);

@@ -49,7 +49,7 @@ bool Interpreter::nonmodal() {
     if ((block_.words & axis_words) != 0 && !block_.has_g(g_motion)) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
         return fail_word(letter, GrblStatus::axis_words_unused,
-                         fmt::format("{}: {} takes no axis words; put the move on a line of its own", word_text(letter),
+                         fmt::format("{}: {} takes no axis words; put the move on a separate line", word_text(letter),
                                      name_of_g(code)));
     }
     return true;

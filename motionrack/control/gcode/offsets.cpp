@@ -13,8 +13,8 @@ bool Interpreter::set_offsets() {
     const bool by_sender = language_ == Language::words;
     if (!block_.has('L')) {
         return fail_at(column, GrblStatus::word_missing,
-                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to say where the "
-                       "machine is in G54");
+                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to set the current "
+                       "position in G54");
     }
     const bool of_tool = !by_sender && (block_['L'] == 1 || block_['L'] == 10 || block_['L'] == 11);
     if (!block_.has('P')) {
@@ -158,10 +158,9 @@ bool Interpreter::tool_length_of_words(bool adds) {
     const std::uint32_t others = language_ == Language::words ? block_.words & axis_words & ~letter_bit('Z') : 0;
     if (others != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(others));
-        return fail_word(
-            letter, GrblStatus::tool_length_axis,
-            fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own",
-                        word_text(letter)));
+        return fail_word(letter, GrblStatus::tool_length_axis,
+                         fmt::format("{}: the tool length is along Z only; write e.g. G43.1 Z12.5 on a line of its own",
+                                     word_text(letter)));
     }
     if ((block_.words & axis_words) == 0) {
         return fail_at(
@@ -204,10 +203,11 @@ bool Interpreter::tool_length_of_table(bool adds) {
         if (block_['H'] != 0) number = static_cast<std::int32_t>(block_['H']);
     }
     if (number != 0 && tools_.empty()) {
-        return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{}: there is no tool table; give the program one (--tools FILE, tools= in Python), "
-                                   "or write the tool's length itself, e.g. G43.1 Z12.5",
-                                   name_of_g(block_.g[g_tool_length])));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("{}: the program has no tool table; give the program one (--tools FILE, tools= in Python), "
+                        "or write the tool's length itself, e.g. G43.1 Z12.5",
+                        name_of_g(block_.g[g_tool_length])));
     }
     const Tool* tool = number == 0 ? nullptr : tool_of_table(number, 'H', g_tool_length);
     if (number != 0 && !tool) return false;

@@ -23,9 +23,8 @@ Outcome<const CanonCall*> ProgramReader::next_from_lines() {
         if (!within_budget()) {
             Problem problem;
             set_problem(problem, text, 0, GrblStatus::unsupported,
-                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the "
-                                    "program is not over; does a loop drill without "
-                                    "end? No more of it was read",
+                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, without "
+                                    "an end of the program; check that its loops end. The rest was not read",
                                     further_steps_));
             walk_.line_rejected(text, problem);
             walk_.end();

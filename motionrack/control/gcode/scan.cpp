@@ -37,7 +37,7 @@ bool Scanner::code_g(const Number& number, std::size_t column) {
         return fail_at(
             column, status,
             named ? why_not_g(tenths)
-                  : fmt::format("{} is not a known command; nothing of this line was done", word_at(text_, column)));
+                  : fmt::format("{} is not a known command; the line was not executed", word_at(text_, column)));
     }
     constexpr std::int16_t end_of_cycle = 800;
     if (group == g_motion && block_.has_g(group) && tenths == end_of_cycle && block_.g[group] != end_of_cycle)
@@ -64,8 +64,8 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     if (group == m_unknown || beyond_senders) {
         return fail_at(
             column, GrblStatus::unsupported,
-            group != m_unknown ? fmt::format("M{}: lines from a sender know M0 to M{}; run the program as a file", code,
-                                             last_of_senders)
+            group != m_unknown ? fmt::format("M{}: lines from a sender may use M0 to M{}; run the program as a file",
+                                             code, last_of_senders)
             : code >= 0
                 ? why_not_m(code)
                 : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
@@ -77,7 +77,7 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
         const int first = block_.has_m(group) ? block_.m[group] : group == m_coolant_off ? 8 : 9;
         return fail_at(
             column, GrblStatus::modal_group,
-            clash ? fmt::format("M{} with M7 or M8 on one line: coolant cannot go on and off at once", code)
+            clash ? fmt::format("M{} with M7 or M8 on one line: coolant cannot be turned on and off at once", code)
                   : fmt::format("M{} and M{} exclude each other: a line takes one of {}; put them on two lines", first,
                                 code, members_of_m(group)));
     }
@@ -99,7 +99,7 @@ bool Scanner::other() {
         case '%':
             if (text_.find_first_not_of(" \t", here() + 1) != std::string_view::npos || !nothing_yet()) {
                 return fail_at(here(), GrblStatus::unsupported,
-                               "% must stand alone on its line; it marks the beginning and the end of a program");
+                               "% must be alone on its line; it marks the beginning and the end of a program");
             }
             block_.percent = true;
             ++at_;

@@ -25,9 +25,10 @@ bool Scanner::bad_number(const Number& number, char letter, std::size_t column) 
     if (at_ < end_ && (*at_ == '#' || *at_ == '[')) {
         return fail_at(
             column, GrblStatus::bad_number,
-            fmt::format("{}{}: lines from a sender take no parameters and expressions; run the program as a file, or "
-                        "write the number out, e.g. {}12.5",
-                        letter, *at_, letter));
+            fmt::format(
+                "{}{}: lines from a sender must not have parameters and expressions; run the program as a file, or "
+                "write the number out, e.g. {}12.5",
+                letter, *at_, letter));
     }
     return fail_at(
         column, GrblStatus::bad_number,
@@ -44,16 +45,15 @@ bool Scanner::bad_letter(char letter, std::size_t column) {
                                    text_.substr(begin, column - begin), word_at(text_, column)));
     }
     if (letter == 'O') {
-        return fail_at(
-            column, GrblStatus::unsupported,
-            "lines from a sender take no O words (subprograms, loops, conditions); run the program as a file, or write "
-            "the lines out");
+        return fail_at(column, GrblStatus::unsupported,
+                       "lines from a sender must not have O words (subprograms, loops, conditions); run the program as "
+                       "a file, or write the lines out");
     }
-    const char* hint = letter == 'E'                                     ? "; there is no extruder"
+    const char* hint = letter == 'E'                                     ? "; the machine has no extruder"
                        : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
                                                                          : "";
     return fail_at(column, GrblStatus::unsupported,
-                   fmt::format("{}: there is no word {}{}", word_at(text_, column), letter, hint));
+                   fmt::format("{}: unknown word {}{}", word_at(text_, column), letter, hint));
 }
 
 bool Scanner::bad_character() {
@@ -62,16 +62,16 @@ bool Scanner::bad_character() {
     if (c == '#' || c == '[' || c == ']' || c == '=' || c == '<' || c == '>') {
         return fail_at(column, GrblStatus::unsupported,
                        options_.language == Language::words
-                           ? fmt::format("'{}': lines from a sender take no parameters and expressions; run the "
+                           ? fmt::format("'{}': lines from a sender must not have parameters and expressions; run the "
                                          "program as a file, or write the numbers out",
                                          static_cast<char>(c))
-                           : fmt::format("'{}' is not expected here; an expression stands behind a letter, e.g. X[#1 + "
+                           : fmt::format("'{}' is not expected here; an expression follows a letter, e.g. X[#1 + "
                                          "2], and #1 = 2 gives a value to #1",
                                          static_cast<char>(c)));
     }
     if (c == '$') {
         return fail_at(column, GrblStatus::system_command,
-                       "'$' begins a system command of Grbl, which is no part of a program; leave the line out");
+                       "'$' begins a system command of Grbl, which is not part of a program; leave the line out");
     }
     if (c == '*')
         return fail_at(column, GrblStatus::expected_letter, "'*': checksums are not supported; leave them out");

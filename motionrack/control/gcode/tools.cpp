@@ -71,9 +71,9 @@ bool LineReader::word(const char*& at, const char* end) {
     const bool missing_axis = letter == 'U' || letter == 'V' || letter == 'W';
     if (!slot.value && !slot.whole && !missing_axis)
         return wrong(
-            begin,
-            fmt::format("'{}' is no word of a tool table; they are T P X Y Z A B C D I J Q, and ';' begins a remark",
-                        *begin));
+            begin, fmt::format(
+                       "'{}' is not a word of a tool table; these are T P X Y Z A B C D I J Q, and ';' begins a remark",
+                       *begin));
     if (is_letter && (seen >> (letter - 'A') & 1) != 0) return wrong(begin, fmt::format("{} is there twice", letter));
     seen |= std::uint32_t{1} << (letter - 'A');
     const Number number = scan_number(at, end);
@@ -132,11 +132,11 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
         if (good && reader.seen == 0) continue;
         if (good && table.find(reader.tool.number))
             reader.wrong(line.data(),
-                         fmt::format("there is a tool T{} already; each has a number of its own", reader.tool.number));
+                         fmt::format("tool T{} is defined twice; each tool needs its own number", reader.tool.number));
         else if (good && !table.put(reader.tool))
             reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", max_tools));
         if (!reader.problem.empty())
-            return fail(ErrorKind::invalid_input, fmt::format("{}; the tool table was not taken", reader.problem),
+            return fail(ErrorKind::invalid_input, fmt::format("{}; the tool table was not used", reader.problem),
                         {lines.number(), static_cast<int>(reader.column)}, file);
     }
     return table;

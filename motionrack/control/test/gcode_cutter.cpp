@@ -178,8 +178,7 @@ TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
     const auto one_more = read(program + "M9\nY20\nM8\nG40\n");
     ASSERT_EQ(one_more.problems.size(), 1u);
     EXPECT_EQ(one_more.problems[0].place.line, 10'003);
-    EXPECT_THAT(one_more.problems[0].message,
-                HasSubstr("10000 steps wait already for the move beside the contour that follows the one of line 3"));
+    EXPECT_THAT(one_more.problems[0].message, HasSubstr("10000 steps already wait for the contour move after line 3"));
     EXPECT_EQ(one_more.steps.size(), 9'999u + 3) << "X20, Y20 and M8 with them";
     EXPECT_EQ(read(program + "G40\nM9\n").steps.size(), 9'999u + 2) << "what ends the contour lets them go";
 }
@@ -228,7 +227,7 @@ TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
     const auto program = read(std::string(cutter_preamble) + "G42.1 D20\nG1 X400 Y-495\nG1 X450\nG40 G1 X0 Y0\n");
     ASSERT_EQ(program.problems.size(), 1u);  // the lead-in; then the next move is the lead-in
     EXPECT_EQ(program.problems[0].status, GrblStatus::travel_exceeded);
-    EXPECT_THAT(program.problems[0].message, HasSubstr("where the cutter's centre goes"));
+    EXPECT_THAT(program.problems[0].message, HasSubstr("at the offset contour of the cutter's centre"));
 }
 
 TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {

@@ -126,32 +126,32 @@ TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
     EXPECT_THAT(read.problems[2].message, HasSubstr("there is no such file"));
     EXPECT_EQ(read.problems[2].place.line, 5);
     EXPECT_THAT(read.problems[3].message, HasSubstr("empty.ngc has no o<empty> sub"));
-    EXPECT_THAT(read.problems[4].message, HasSubstr("none of a file in its folder"));
+    EXPECT_THAT(read.problems[4].message, HasSubstr("cannot be a file in its folder"));
 }
 
 TEST(GcodeFlow, ThatDoesNotFitTogetherIsToldWithItsPlace) {
     const RefusedAt rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
                               {"o1 endif", 1, "no o1 if is open here"},
                               {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},
-                              {"o1 sub\no2 sub\no2 endsub\no1 endsub", 2, "a sub stands by itself"},
-                              {"o1 sub\no1 endsub\no1 sub\no1 endsub", 3, "there is one in line 1 already"},
-                              {"o1 break", 1, "it stands in no loop o1"},
-                              {"o1 if [1]\no1 continue\no1 endif", 2, "it stands in no loop o1"},
-                              {"o1 return", 1, "it stands in no sub o1"},
-                              {"o1 sub\no2 return\no1 endsub", 2, "it stands in no sub o2"},
+                              {"o1 sub\no2 sub\no2 endsub\no1 endsub", 2, "a sub must not be nested"},
+                              {"o1 sub\no1 endsub\no1 sub\no1 endsub", 3, "line 1 has the same one"},
+                              {"o1 break", 1, "it is not inside loop o1"},
+                              {"o1 if [1]\no1 continue\no1 endif", 2, "it is not inside loop o1"},
+                              {"o1 return", 1, "it is not inside sub o1"},
+                              {"o1 sub\no2 return\no1 endsub", 2, "it is not inside sub o2"},
                               {"o1 if [1]\no1 else\no1 else\no1 endif", 3, "the last branch"},
                               {"o1 if [1]\no1 else\no1 elseif [1]\no1 endif", 3, "the last branch"},
                               {"o1 do\nX1", 1, "its o1 while is missing"},
                               {"o1 repeat [1]\nX1", 1, "its o1 endrepeat is missing"},
-                              {"X1\no1 loop", 2, "'loop' does not go with an O word"},
-                              {"O<part> (PART)", 1, "alone does nothing"},
+                              {"X1\no1 loop", 2, "'loop' is not valid after an O word"},
+                              {"O<part> (PART)", 1, "has no effect alone"},
                               {"o<a call", 1, "'>' is missing"},
                               {"o call", 1, "needs a number or a name"},
-                              {"o1 if [1]\no1 endif X5", 2, "nothing but a comment"},
+                              {"o1 if [1]\no1 endif X5", 2, "only a comment"},
                               {"o#1 if [1]", 1, "only a call"}};
     testing::expect_refused_at(rows, testing::in_g0());
     EXPECT_EQ(problems("o1 endif\no2 endif\no3 foo\n").size(), 3u) << "all of them are told";
-    EXPECT_THAT(problems("X1 o1 if [1]")[0].message, HasSubstr("stands first on its line"));
+    EXPECT_THAT(problems("X1 o1 if [1]")[0].message, HasSubstr("must be first on its line"));
 }
 
 TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
@@ -179,11 +179,11 @@ TEST(GcodeFlow, ThatNeverEndsIsStopped) {
                                 "o1 repeat [1000000000]\no1 endrepeat", "o1 while [1]\nX1\nX2\no1 endwhile"}) {
         const auto found = problems(program, settings);
         ASSERT_EQ(found.size(), 1u) << program;
-        EXPECT_THAT(found[0].message, ::testing::ContainsRegex("gone through 100[0-9] lines"));
+        EXPECT_THAT(found[0].message, ::testing::ContainsRegex("executed 100[0-9] lines"));
     }
     const auto deep = problems("o1 sub\no1 call\no1 endsub\no1 call", settings);
     ASSERT_EQ(deep.size(), 1u);
-    EXPECT_THAT(deep[0].message, HasSubstr("100 calls stand in each other"));
+    EXPECT_THAT(deep[0].message, HasSubstr("100 nested calls"));
     EXPECT_TRUE(problems("o1 repeat [200]\nX1\nX2\no1 endrepeat", settings).empty());
 }
 
@@ -205,7 +205,7 @@ TEST(GcodeFlow, WithManyBranchesInALoopIsStopped) {
     branches += "o2 endif\no1 endwhile\n";
     const auto found = problems(branches, settings);
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_THAT(found[0].message, ::testing::ContainsRegex("gone through 1[0-9][0-9][0-9][0-9] lines"));
+    EXPECT_THAT(found[0].message, ::testing::ContainsRegex("executed 1[0-9][0-9][0-9][0-9] lines"));
 }
 
 TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {

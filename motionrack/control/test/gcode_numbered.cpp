@@ -81,26 +81,26 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
 
 TEST(GcodeNumbered, AreRefusedWithTheirPlace) {
     const Refused rows[] = {{"M98", 1, "P word missing: M98 needs the number of a program"},
-                            {"G0 X1 M98 P1", 7, "M98 stands alone"},
-                            {"M98 P1 M3", 1, "M98 stands alone"},
-                            {"M98 P1 X2", 1, "M98 stands alone"},
-                            {"M98 P1 #1=2", 1, "M98 stands alone"},
+                            {"G0 X1 M98 P1", 7, "M98 needs a line"},
+                            {"M98 P1 M3", 1, "M98 needs a line"},
+                            {"M98 P1 X2", 1, "M98 needs a line"},
+                            {"M98 P1 #1=2", 1, "M98 needs a line"},
                             {"M98 P1.5", 5, "an integer"},
                             {"M98 P-1", 5, "negative"},
                             {"M98 P1 L1.5", 8, "an integer"},
                             {"M98 P1 L-1", 8, "negative"},
                             {"M98 P7", 1, "M98 P7: this program has no O7"},
                             {"M99 P10", 1, "not to a line"},
-                            {"G0 X1 M99", 7, "M99 stands alone"}};
+                            {"G0 X1 M99", 7, "M99 needs a line"}};
     testing::expect_refused("M3\n", rows);
     const RefusedAt wholes[] = {{"M98 P1\nM2\no1 sub\no1 endsub", 1, "M98 P1: o1 sub is a sub; call it by o1 call"},
                                 {"o1 call\nM2\nO1\nM99", 1, "o1 call: O1 is a numbered program; call it by M98 P1"},
-                                {"M98 P1\nM2\nO1\nM99\nO1\nM99", 5, "there is one in line 3 already"},
+                                {"M98 P1\nM2\nO1\nM99\nO1\nM99", 5, "line 3 has the same one"},
                                 {"M98 P1\nM2\nO1\no2 if [1]\nO3\no2 endif\nM99", 5,
-                                 "O3: a numbered program stands by itself, but o2 if of line 4 is open here"},
+                                 "O3: a numbered program must not be nested, but o2 if of line 4 is open here"},
                                 {"M98 P1\nM2\nX1\nO1\nX5\n", 4, "end it with M99"},
                                 {"o1 sub\nM99\no1 endsub\no1 call", 2, "M99 ends a numbered program"},
-                                {"M98 P1\nM2\nO1\nM98 P1\nM99", 4, "100 calls stand in each other"}};
+                                {"M98 P1\nM2\nO1\nM98 P1\nM99", 4, "100 nested calls"}};
     testing::expect_refused_at(wholes, testing::in_g0());
     EXPECT_FALSE(Interpreter(testing::machine()).line("M98 P1", 1)) << "a sender's line";
     EXPECT_FALSE(Interpreter(testing::machine()).line("M98 P1", 1, Language::expressions));
@@ -111,7 +111,7 @@ TEST(GcodeNumbered, AProgramThatCallsWithoutEndIsStopped) {
     settings.max_lines = 1000;
     const auto read = testing::read("M98 P1 L1000000000\nM2\nO1\nM3\nM99", settings);
     ASSERT_EQ(read.problems.size(), 1u);
-    EXPECT_THAT(read.problems[0].message, HasSubstr("is not over"));
+    EXPECT_THAT(read.problems[0].message, HasSubstr("without an end"));
 }
 
 }  // namespace motionrack::control::gcode

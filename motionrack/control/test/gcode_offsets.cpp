@@ -97,10 +97,10 @@ TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {
         const char* says;
     };
     const Row rows[] = {
-        {"T1 Z1\nP2", 2, 1, "no tool number"}, {"T1 E5", 1, 4, "'E' is no word"}, {"T1\nT1", 2, 1, "already"},
-        {"T1 Zx", 1, 4, "needs a number"},     {"T1.5", 1, 1, "whole number"},    {"T100000", 1, 1, "whole number"},
-        {"T1 Z1 Z2", 1, 7, "twice"},           {"T1 U1", 1, 4, "must be 0"},      {"T0", 1, 1, "no tool number"},
-        {"T1 Q10", 1, 4, "from 0 to 9"},       {"?", 1, 1, "'?' is no word"}};
+        {"T1 Z1\nP2", 2, 1, "no tool number"}, {"T1 E5", 1, 4, "'E' is not a word"}, {"T1\nT1", 2, 1, "defined twice"},
+        {"T1 Zx", 1, 4, "needs a number"},     {"T1.5", 1, 1, "whole number"},       {"T100000", 1, 1, "whole number"},
+        {"T1 Z1 Z2", 1, 7, "twice"},           {"T1 U1", 1, 4, "must be 0"},         {"T0", 1, 1, "no tool number"},
+        {"T1 Q10", 1, 4, "from 0 to 9"},       {"?", 1, 1, "'?' is not a word"}};
     for (const Row& row : rows) {
         const auto table = read_tool_table(row.text, "tools.tbl");
         ASSERT_FALSE(table) << row.text;

@@ -84,11 +84,11 @@ TEST(GcodePorts, AreRefusedWithTheirPlace) {
         {"M66 P1 L3", 1, "Q word missing: M66 waits for at most Q seconds"},
         {"M66 P1 L3 Q0", 11, "which must be above 0"},
         {"M66 P1 L3 Q-1", 11, "negative"},
-        {"M66 E1 L3 Q1", 8, "nobody can wait for an analog input"},
+        {"M66 E1 L3 Q1", 8, "waiting for an analog input is not possible"},
         {"G4 P1 M62", 4, "both use the P word"},
         {"M62 P1 G64", 5, "both use the P word"},
         {"M67 E1 G83 X1 Z-1 R1 Q2 F9", 22, "both use the Q word"},
-        {"G0 X1 E5", 7, "there is no extruder"},
+        {"G0 X1 E5", 7, "the machine has no extruder"},
         {"G0 X1e3", 4, "no exponent"},
         {"M64 P1 P2", 8, "second P word"}};
     expect_refused("", rows);

@@ -100,7 +100,7 @@ TEST(GcodeTogether, ModesThatComeBackWaitForTheCutter) {
     EXPECT_THAT(problem_together("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"),
                 HasSubstr("the work offset cannot change"));
     EXPECT_THAT(problem_together("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"),
-                HasSubstr("M73 brings back"));
+                HasSubstr("M73 restores"));
     EXPECT_EQ(
         problem_together("G21 G90 F100\no1 sub\nM73\nG61 F50 G41.1 D4\nG1 X20\nX40\no1 endsub\no1 call\nG40\nM2\n"),
         "");

@@ -31,7 +31,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     std::vector<ContourSegment> straight(2);
     straight[0] = {{0, 10}, {-10, 10}, 0, {}, 2, false, 1};
     straight[1] = {{-10, 10}, {-20, 10}, 0, {}, 0, false, 2};
-    EXPECT_THAT(insert_fillets(straight), ::testing::HasSubstr("does not turn at the end of line 1"));
+    EXPECT_THAT(insert_fillets(straight), ::testing::HasSubstr("no corner for A or C at the end of line 1"));
 }
 
 TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
@@ -63,7 +63,7 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
     const Refused rows[] = {{"G71", 1, "Q word missing: G71 needs the number of the sub"},
                             {"G71 Q1.5", 5, "an integer"},
                             {"G71 Q9", 1, "o9 call: this program has no o9 sub"},
-                            {"G71 Q1 I0", 8, "I is how much deeper"},
+                            {"G71 Q1 I0", 8, "I is the depth"},
                             {"G71 Q1 D-1", 8, "a distance, 0 or more"},
                             {"G71 Q1 R-1", 8, "a distance, 0 or more"},
                             {"G71 Q1 P2", 8, "nothing on this line uses"},
@@ -74,12 +74,12 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
                             {"G17 G71 Q1", 5, "write G18"},
                             {"G93 G71 Q1 F1", 5, "inverse time"},
                             {"G41.1 D1 G71 Q1", 10, "cutter compensation"},
-                            {"G71 Q1 M2", 1, "on a line of its own"},
-                            {"G71 Q1 G92 X1", 1, "on a line of its own"},
-                            {"G71 Q2", 1, "the contour goes back along Z in line 10"},
-                            {"G72 Q4", 1, "ends where it began along X"},
-                            {"G71 Q3", 1, "draws no contour"},
-                            {"G71 Q4 D5", 1, "there is no room in line"},
+                            {"G71 Q1 M2", 1, "on a separate line"},
+                            {"G71 Q1 G92 X1", 1, "on a separate line"},
+                            {"G71 Q2", 1, "the contour reverses along Z in line 10"},
+                            {"G72 Q4", 1, "ends at its start along X"},
+                            {"G71 Q3", 1, "has no contour"},
+                            {"G71 Q4 D5", 1, "is too tight for an offset"},
                             {"G71 Q1 X600", 8, "X600 leads to"},
                             {"G71 Q1\nX5", 1, "no motion is active"}};
     for (const Refused& row : rows) {
@@ -95,7 +95,7 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
         const char* line;
         int at;
         const char* says;
-    } inside[] = {{"G71 Q5", 22, "leads straight to where it begins"},
+    } inside[] = {{"G71 Q5", 22, "must be a straight move to its start"},
                   {"G71 Q6", 27, "X and Z only"},
                   {"G71 Q7", 31, "within the contour of another cycle"}};
     for (const auto& row : inside) {

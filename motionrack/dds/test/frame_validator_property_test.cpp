@@ -123,9 +123,10 @@ TEST(BusName, IsShortAndPlain) {
     ASSERT_FALSE(long_name);
     EXPECT_EQ(long_name.error().message,
               "The bus name has 65 characters, but must have 1 to 64. Nothing was opened; choose another name.");
-    EXPECT_EQ(check_bus_name("ab*d").error().message,
-              "Character 3 of the bus name is none of letters, digits, '_' and '-'. Nothing was opened; choose another "
-              "name.");
+    EXPECT_EQ(
+        check_bus_name("ab*d").error().message,
+        "Character 3 of the bus name is not one of letters, digits, '_' and '-'. Nothing was opened; choose another "
+        "name.");
 }
 
 TEST(Domain, Is0To232) {

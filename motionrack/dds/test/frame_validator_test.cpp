@@ -52,9 +52,8 @@ TEST_F(Judging, CountsTheFramesThatAreMissing) {
     hear(10);
     EXPECT_EQ(hear(14), Validation::used);
     EXPECT_EQ(judge.counts().lost, 3u);
-    EXPECT_EQ(
-        told(EventKind::lost),
-        "3 frames after number 10 did not come, 3 so far. The next one is used; nothing is made up for the others.");
+    EXPECT_EQ(told(EventKind::lost),
+              "3 frames after number 10 did not come, 3 so far. The next one is used; the lost ones are not replaced.");
 }
 
 TEST_F(Judging, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
@@ -90,7 +89,7 @@ TEST_F(Judging, RefusesASequenceThatJumpsAgainstItsTime) {
     seal(jumped);
     EXPECT_EQ(hear(jumped), Validation::jump);
     EXPECT_EQ(judge.frame().sequence, 10u);
-    EXPECT_THAT(told(EventKind::jump), HasSubstr("Frame 5000 does not go on from frame 10"));
+    EXPECT_THAT(told(EventKind::jump), HasSubstr("Frame 5000 does not follow frame 10"));
     EXPECT_EQ(hear(12), Validation::used);
     EXPECT_EQ(judge.counts().lost, 1u);
 }
@@ -108,7 +107,7 @@ TEST_F(Judging, FollowsACardThatWasReset) {
     EXPECT_EQ(hear(after_reset(1)), Validation::used);
     EXPECT_EQ(judge.counts().anew, 1u);
     EXPECT_EQ(judge.counts().lost, 0u);
-    EXPECT_THAT(told(EventKind::anew), HasSubstr("began anew: frame 1 follows frame 101"));
+    EXPECT_THAT(told(EventKind::anew), HasSubstr("restarted: frame 1 follows frame 101"));
     EXPECT_EQ(hear(after_reset(2)), Validation::used);
 }
 
@@ -125,7 +124,7 @@ TEST_F(Judging, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
     EXPECT_FALSE(judge.stale());
     EXPECT_EQ(judge.counts().stale, 1u);
     EXPECT_EQ(judge.counts().lost, 15'000u);
-    EXPECT_EQ(told(EventKind::fresh), "Frames come again, from number 15011 on.");
+    EXPECT_EQ(told(EventKind::fresh), "Frames are received again, from number 15011 on.");
 }
 
 TEST_F(Judging, CountsASilenceThatEndedBeforeAnyoneLooked) {
@@ -182,7 +181,7 @@ TEST_F(Judging, KnowsAPublisherThatWasStartedAnew) {
     EXPECT_EQ(hear(sample_of(again, 0)), Validation::used);
     EXPECT_EQ(judge.counts().restarts, 1u);
     EXPECT_EQ(judge.counts().takeovers, 0u);
-    EXPECT_THAT(told(EventKind::restart), HasSubstr("started anew"));
+    EXPECT_THAT(told(EventKind::restart), HasSubstr("restarted"));
 }
 
 TEST_F(Judging, NeverUsesDamagedFrames) {

@@ -99,7 +99,7 @@ TEST(VcdCapture, BeginsAChannelWhereAllItsLinesHaveALevel) {
     const auto never = analysed(vcd_head + "#0 0! x\" 0#\n#5 1!\n", "a.vcd");
     ASSERT_TRUE(never);
     EXPECT_EQ(never->channels[0].up, 0u);
-    EXPECT_TRUE(has(analysis_warnings(*never).at(0), "has no level anywhere"));
+    EXPECT_TRUE(has(analysis_warnings(*never).at(0), "has no level in the whole capture"));
 }
 
 TEST(VcdCapture, RefusesTimeThatGoesBackwardsWithItsLine) {
@@ -131,7 +131,7 @@ TEST(VcdCapture, RefusesWhatIsNoVcdWithItsPlace) {
     EXPECT_TRUE(has(refusal(vcd_head + "#0 1(\n#1\n", "a.vcd"), "'('"));
     EXPECT_TRUE(has(refusal(vcd_head + "#0 b12 !\n#1\n", "a.vcd"), "'b12'"));
     EXPECT_TRUE(has(refusal(vcd_head + "#0 1\n#1\n", "a.vcd"), "without the code"));
-    EXPECT_TRUE(has(refusal(vcd_head + "#99999999999999999999\n#1\n", "a.vcd"), "is no time"));
+    EXPECT_TRUE(has(refusal(vcd_head + "#99999999999999999999\n#1\n", "a.vcd"), "is not a time"));
 }
 
 TEST(VcdCapture, RefusesNamesOfWhichManyWouldFillTheMemory) {
@@ -200,14 +200,14 @@ TEST(CsvCapture, RefusesWithTheLine) {
     EXPECT_TRUE(
         has(refusal("t,a,b\n0,0,0\n1,0\n2,0,0\n", "a.csv"), "a.csv:3:1: The row has 2 columns, the first row 3."));
     EXPECT_TRUE(has(refusal("t,a,b\n0,0,0\n1,3.3,0\n2,0,0\n", "a.csv"), "a.csv:3:1: Column 2 holds '3.3'"));
-    EXPECT_TRUE(has(refusal("t,a,b\n2026-11-21T10:00,0,0\n1,1,0\n", "a.csv"), "is no time"));
-    EXPECT_TRUE(has(refusal("t,a,b\nnan,0,0\n1,1,0\n", "a.csv"), "is no time"));
+    EXPECT_TRUE(has(refusal("t,a,b\n2026-11-21T10:00,0,0\n1,1,0\n", "a.csv"), "is not a time"));
+    EXPECT_TRUE(has(refusal("t,a,b\nnan,0,0\n1,1,0\n", "a.csv"), "is not a time"));
     EXPECT_TRUE(has(refusal("a,b\n0,0\n", "a.csv"), "--sample-rate"));
     EXPECT_TRUE(has(refusal("; nothing\n", "a.csv"), "no rows"));
     EXPECT_TRUE(has(refusal("", "a.csv"), "empty"));
     EXPECT_TRUE(has(refusal("PK\3\4", "a.sr"), "sigrok-cli"));
     EXPECT_TRUE(has(refusal("time_s,signal,value\n0,X.step,1\n", "a.csv"), "VCD"));
-    EXPECT_TRUE(has(refusal(std::string(3'000'000, '0'), "a.csv"), "this is no text"));
+    EXPECT_TRUE(has(refusal(std::string(3'000'000, '0'), "a.csv"), "this is not a text file"));
 }
 
 TEST(CsvCapture, DecodesAFileThatIsCutOffToItsLastWholeRow) {
@@ -317,7 +317,7 @@ TEST(Channels, AreRefusedWithTheLinesThereAre) {
         EXPECT_FALSE(choose_channels(lines, {text})) << text;
     EXPECT_TRUE(has(choose_channels(lines, {"X=q,r"}).error().message, "x.a, y.a, y.b"));
     EXPECT_TRUE(has(choose_channels(lines, {"X=a,y.b"}).error().message, "'a' may be x.a, y.a"));
-    EXPECT_TRUE(has(choose_channels(lines, {"X=1,2", "X=0,1"}).error().message, "two channels 'X'"));
+    EXPECT_TRUE(has(choose_channels(lines, {"X=1,2", "X=0,1"}).error().message, "Two channels have the name 'X'"));
     EXPECT_TRUE(has(choose_channels({"p", "q"}, {}).error().message, "--channel"));
 }
 

@@ -106,7 +106,7 @@ TEST_F(AFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
     std::fstream(file->path_until_whole(), std::ios::in | std::ios::out | std::ios::binary) << "62";
     const Result<void> done = file->commit();
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("not what was written"));
+    EXPECT_THAT(done.error().message, HasSubstr("differs from the written data"));
     EXPECT_EQ(text_of(at("a")), "old");
 }
 

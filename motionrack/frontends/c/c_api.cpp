@@ -17,8 +17,8 @@ using motionrack::rack::Session;
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
 constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
-constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
-constexpr const char* no_location = "The place for the rack is a null pointer. Nothing was done.";
+constexpr const char* no_value = "The pointer to the value is null. Nothing was done.";
+constexpr const char* no_location = "The pointer to the rack handle is null. Nothing was done.";
 
 template <class Word>
 constexpr int bits_of = 8 * static_cast<int>(sizeof(Word));

@@ -88,7 +88,7 @@ int fetched(std::initializer_list<Pointer> pointers, Value* value, Call call) no
 }
 
 inline constexpr const char* no_card = "The card's name is a null pointer. Nothing was done.";
-inline constexpr const char* no_tell = "There is no function to tell it to: it is a null pointer. Nothing was told.";
+inline constexpr const char* no_tell = "The call-back is a null pointer. Nothing was reported.";
 inline constexpr const char* no_rack = "The rack is a null pointer; open one with mr_rack_open. Nothing was done.";
 
 }  // namespace motionrack::c

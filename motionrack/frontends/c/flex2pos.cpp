@@ -29,8 +29,7 @@ struct flex2pos {
 };
 
 namespace {
-constexpr const char* no_object =
-    "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
+constexpr const char* no_object = "The object is a null pointer; open one with flex2pos_open. Nothing was done.";
 
 /// Returns the value of `call`, or 0 for a null object, inside a callback of its rack, or without memory for a
 /// sentence.
@@ -48,7 +47,7 @@ auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
         }
         return call(flex->library);
     } catch (...) {
-        failed(MR_INTERNAL, "There is not enough memory; the call was not finished.");
+        failed(MR_INTERNAL, "Not enough memory; the call was not finished.");
         return Value();
     }
 }
@@ -58,17 +57,16 @@ auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
 extern "C" {
 int flex2pos_open(mr_rack* rack, flex2pos** flex) {
     if (flex != nullptr) *flex = nullptr;
-    return guarded(
-        {{rack, no_rack}, {flex, "There is no place for the object: it is a null pointer. Nothing was done."}},
-        [&]() -> motionrack::Result<void> {
-            for (const auto& card : rack->session->rack().cards()) {
-                if (card->map().name != io::card_map().name) continue;
-                *flex = new flex2pos(*rack->session, *card->port());
-                return {};
-            }
-            return motionrack::fail(motionrack::ErrorKind::invalid_input,
-                                    "The rack has no card of type ioflex02. Nothing was done.");
-        });
+    return guarded({{rack, no_rack}, {flex, "The pointer to the object is null. Nothing was done."}},
+                   [&]() -> motionrack::Result<void> {
+                       for (const auto& card : rack->session->rack().cards()) {
+                           if (card->map().name != io::card_map().name) continue;
+                           *flex = new flex2pos(*rack->session, *card->port());
+                           return {};
+                       }
+                       return motionrack::fail(motionrack::ErrorKind::invalid_input,
+                                               "The rack has no card of type ioflex02. Nothing was done.");
+                   });
 }
 
 void flex2pos_close(flex2pos* flex) {
@@ -132,9 +130,7 @@ int32_t flex2pos_ReadPosition(flex2pos* flex, int axis) {
             case 3:
                 return library.ReadPosition3();
             default:
-                return failed(MR_BAD_CALL,
-                              fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis)),
-                       int32_t{0};
+                return failed(MR_BAD_CALL, fmt::format("Axis {} must be 0 to 3. Nothing was done.", axis)), int32_t{0};
         }
     });
 }
@@ -168,7 +164,7 @@ void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3) {
         for (const int command : {Cmd0, Cmd1, Cmd2, Cmd3})
             if (command < cNop || command > cResNmSig) {
                 failed(MR_BAD_CALL,
-                       fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", command));
+                       fmt::format("Calibration command {} must be 0 to 3. Nothing was written.", command));
                 return;
             }
         library.WriteCmd(static_cast<io::tIOFlexCmd>(Cmd0), static_cast<io::tIOFlexCmd>(Cmd1),
@@ -179,9 +175,8 @@ void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3) {
 void flex2pos_WriteCmdAxis(flex2pos* flex, int axis, int Cmd) {
     with(flex, [&](io::Flex2Pos& library) {
         if (axis < 0 || axis >= io::axis_count || Cmd < cNop || Cmd > cResNmSig) {
-            failed(
-                MR_BAD_CALL,
-                fmt::format("There is no axis {} or no command {}; both are 0 to 3. Nothing was written.", axis, Cmd));
+            failed(MR_BAD_CALL,
+                   fmt::format("Axis {} and command {} must both be 0 to 3. Nothing was written.", axis, Cmd));
             return;
         }
         library.WriteCmdAxis(axis, static_cast<io::tIOFlexCmd>(Cmd));
@@ -199,38 +194,37 @@ void flex2pos_ReadSts(flex2pos* flex, int Sts[4]) {
 
 int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* payload, size_t payload_size, uint8_t* image,
                         size_t* size) {
-    return guarded({{size, "There is no place for the image's size: it is a null pointer. Nothing was made."}},
-                   [&]() -> motionrack::Result<void> {
-                       io::ImageContent content;
-                       content.ident = ident;
-                       if (project != nullptr) content.project = project;
-                       if (payload != nullptr) content.payload.assign(payload, payload + payload_size);
-                       MOTIONRACK_TRY(const auto raw, io::raw_image(content));
-                       const std::vector<std::uint8_t> made = io::compressed(raw);
-                       const size_t room = image != nullptr ? *size : 0;
-                       *size = made.size();
-                       if (room < made.size())
-                           return motionrack::fail(
-                               motionrack::ErrorKind::invalid_input,
-                               fmt::format("The image has {} bytes, but there is room for {}. It was not "
-                                           "written; call again with the size that was given.",
-                                           made.size(), room));
-                       std::copy(made.begin(), made.end(), image);
-                       return {};
-                   });
+    return guarded(
+        {{size, "The pointer to the image's size is null. Nothing was made."}}, [&]() -> motionrack::Result<void> {
+            io::ImageContent content;
+            content.ident = ident;
+            if (project != nullptr) content.project = project;
+            if (payload != nullptr) content.payload.assign(payload, payload + payload_size);
+            MOTIONRACK_TRY(const auto raw, io::raw_image(content));
+            const std::vector<std::uint8_t> made = io::compressed(raw);
+            const size_t room = image != nullptr ? *size : 0;
+            *size = made.size();
+            if (room < made.size())
+                return motionrack::fail(motionrack::ErrorKind::invalid_input,
+                                        fmt::format("The image has {} bytes, but there is room for {}. It was not "
+                                                    "written; call again with the size that was given.",
+                                                    made.size(), room));
+            std::copy(made.begin(), made.end(), image);
+            return {};
+        });
 }
 
 int flex2pos_image_check(const uint8_t* image, size_t size) {
     int outcome = Flex_ErrCfg;
-    const int code = guarded({{image, "There is no image: it is a null pointer. Nothing was done."}},
-                             [&]() -> motionrack::Result<void> {
-                                 MOTIONRACK_TRY(const auto raw, io::unpacked({image, size}));
-                                 MOTIONRACK_TRY(const auto info, io::inspect(raw));
-                                 outcome = Flex_ErrProject;
-                                 MOTIONRACK_CHECK(io::check_project(info));
-                                 outcome = Flex_Ok;
-                                 return {};
-                             });
+    const int code =
+        guarded({{image, "The image is a null pointer. Nothing was done."}}, [&]() -> motionrack::Result<void> {
+            MOTIONRACK_TRY(const auto raw, io::unpacked({image, size}));
+            MOTIONRACK_TRY(const auto info, io::inspect(raw));
+            outcome = Flex_ErrProject;
+            MOTIONRACK_CHECK(io::check_project(info));
+            outcome = Flex_Ok;
+            return {};
+        });
     return code == MR_OK ? static_cast<int>(Flex_Ok) : outcome;
 }
 

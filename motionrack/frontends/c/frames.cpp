@@ -16,7 +16,7 @@ namespace gb = grating_bus;
 static_assert(MR_MAX_SCALES == gb::max_scales && sizeof(mr_frame::counts) == sizeof(gb::Frame::counts) &&
               sizeof(mr_frame::addresses) == sizeof(gb::Frame::addresses));
 
-constexpr const char* no_frame = "There is no place for the frame: it is a null pointer. Nothing was done.";
+constexpr const char* no_frame = "The pointer to the frame is null. Nothing was done.";
 
 /// Registers and interrupt of a card as seen by a program with the rack; stores the first error.
 class SessionPort final : public RegisterPort, public Interrupt {

@@ -20,11 +20,11 @@ auto guarded(Call call, Failed failed) noexcept {
         if (result) return static_cast<Value>(*result);
         return failed(result.error().kind, result.error().text());
     } catch (const std::bad_alloc&) {
-        return failed(ErrorKind::machine, "There is not enough memory; the call was not finished.");
+        return failed(ErrorKind::machine, "Not enough memory; the call was not finished.");
     } catch (const std::exception& e) {
         return failed(ErrorKind::machine, e.what());
     } catch (...) {
-        return failed(ErrorKind::machine, "Something went wrong in the library that it has no words for.");
+        return failed(ErrorKind::machine, "Unknown internal error of the library.");
     }
 }
 

@@ -15,14 +15,15 @@ void warn_of_change(const std::string& path, const std::string& text) {
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(path, unknown);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
-    const char* const advice = "The run is of the text that was read before it began; run it again for the new one";
+    const char* const advice = "The run used the text that was read before its start; run it again for the new one";
     const Result<std::string> now = read_text(path);
     if (!now)
-        print_warning(fmt::format("{} cannot be read any more after it ran; what ran has the checksum {:016x}. {}",
-                                  path, fnv_of(text), advice));
+        print_warning(
+            fmt::format("{} cannot be read any more after the run; the executed text has the checksum {:016x}. {}",
+                        path, fnv_of(text), advice));
     else if (*now != text)
         print_warning(
-            fmt::format("{} was changed while it ran: what ran has the checksum {:016x}, the file now has "
+            fmt::format("{} was changed while it ran: the executed text has the checksum {:016x}, the file now has "
                         "{:016x}. {}",
                         path, fnv_of(text), fnv_of(*now), advice));
 }

@@ -43,9 +43,9 @@ int rotary(const CalibrateOptions& o) {
                shown(out->centre_y, "mm"), shown(out->radius_mm, "mm"),
                shown(out->counts_per_turn, "counts a turn, for set_fly_rot"));
     if (out->unlike > 0.01)
-        print_warning(fmt::format(
-            "the two steps disagree about the counts a turn by {:.1f} %; look at the marks and counts again",
-            out->unlike * 100));
+        print_warning(
+            fmt::format("the two steps disagree about the counts a turn by {:.1f} %; check the marks and counts again",
+                        out->unlike * 100));
     return exit_done;
 }
 
@@ -84,10 +84,10 @@ void add_calibrate(CLI::App& app, Action& chosen) {
         "Example: motionrack calibrate scale --readings 1000 51000 --distance 50 --bits-per-mm 5184 "
         "--distance-uncertainty 0.05");
     s->callback([o, &chosen] { chosen = [o] { return scale(*o); }; });
-    CLI::App* r = group->add_subcommand(
-        "rotary", "centre and counts a turn from three marks of one and the same place of the field");
+    CLI::App* r =
+        group->add_subcommand("rotary", "centre and counts a turn from three marks of the same position of the field");
     r->add_option("--marks", o->marks,
-                  "x y count, three times: where each mark is on the part (mm) and the encoder's count then")
+                  "x y count, three times: position of each mark on the part (mm) and its encoder count")
         ->expected(9)
         ->required();
     r->add_option("--place-uncertainty", o->place_uncertainty_mm, "mm, of each x and y")->capture_default_str();
@@ -98,7 +98,7 @@ void add_calibrate(CLI::App& app, Action& chosen) {
     r->callback([o, &chosen] { chosen = [o] { return rotary(*o); }; });
     CLI::App* l = group->add_subcommand("lag", "tracking error from a cross marked at two speeds of the part");
     l->add_option("--speeds", o->speeds, "mm/s, of both")->expected(2)->required();
-    l->add_option("--shifts", o->shifts, "mm, of both, from where the cross should be; positive against the movement")
+    l->add_option("--shifts", o->shifts, "mm, displacement of both crosses; positive against the movement")
         ->expected(2)
         ->required();
     l->add_option("--shift-uncertainty", o->lag.shift_uncertainty_mm, "mm")->capture_default_str();

@@ -121,8 +121,8 @@ int check(const CheckOptions& options) {
 
 void add_check(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand(
-        "check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
+    CLI::App* command =
+        app.add_subcommand("check", "List all errors of rack files (*.toml) and part programs; nothing moves");
     command->add_option("FILE", options->files, "rack files and part programs")->required();
     command->add_option("--rack", options->rack,
                         "rack file that the programs are checked against (default: the built-in router)");

@@ -56,7 +56,7 @@ int decode_file(DecodeOptions& options) {
         const auto known = std::find_if(std::begin(formats), std::end(formats),
                                         [&](const auto& each) { return each.first == options.format; });
         if (known == std::end(formats)) {
-            print_error(fmt::format("There is no format '{}'; the formats are vcd, csv and raw. Nothing was decoded.",
+            print_error(fmt::format("Unknown format '{}'; the formats are vcd, csv and raw. Nothing was decoded.",
                                     options.format));
             return exit_usage;
         }
@@ -95,10 +95,10 @@ void add_decode(CLI::App& app, Action& chosen) {
     command->add_option("FILE", options->file, "VCD, CSV or raw binary capture, '-': standard input")->required();
     command
         ->add_option("--channel", options->channels,
-                     "an encoder and its lines by name or number: X=A,B or X=A,B,Z; again for more (default: lines "
+                     "an encoder and its lines by name or number: X=A,B or X=A,B,Z; repeat for more (default: lines "
                      "named X.enc_a, X.enc_b, X.enc_z)")
         ->allow_extra_args(false);
-    command->add_option("--format", options->format, "vcd, csv or raw (default: by the file's name and what is in it)");
+    command->add_option("--format", options->format, "vcd, csv or raw (default: by the file's name and content)");
     command->add_option("--sample-rate", options->sample_rate,
                         "samples a second, as 24M or 500k; for raw captures and CSV without times");
     command
@@ -106,8 +106,7 @@ void add_decode(CLI::App& app, Action& chosen) {
                      "bytes a sample of a raw capture, the lowest first")
         ->check(CLI::Range(1, 8))
         ->option_text("1 .. 8 (1)");
-    command->add_option("--window-ms", options->window_ms, "the peak speed is that of a window of so many ms")
-        ->capture_default_str();
+    command->add_option("--window-ms", options->window_ms, "window of the peak speed, ms")->capture_default_str();
     command->add_flag("--index-low", options->analysis.channel.index_low,
                       "the index line is active low: its falling edges count");
     command
@@ -121,7 +120,7 @@ void add_decode(CLI::App& app, Action& chosen) {
         "Example: motionrack decode run.vcd\n"
         "Example: motionrack decode logic.csv --channel spindle=D0,D1,D2 --window-ms 10\n"
         "Example: motionrack decode scope.bin --sample-rate 24M --channel X=0,1 --channel Y=2,3\n"
-        "A leads B counts up, four counts a line. Ctrl-C tells what was decoded so far.");
+        "A leads B counts up, four counts a line. Ctrl-C prints the result so far.");
     command->callback([options, &chosen] { chosen = [options] { return decode_file(*options); }; });
 }
 

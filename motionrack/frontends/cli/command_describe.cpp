@@ -71,8 +71,8 @@ int describe(const DescribeOptions& options) {
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
     CLI::App* command = app.add_subcommand("describe",
-                                           "Tell a card's registers, commands, states and pins, the keys of a rack "
-                                           "file, marking job or sweep file, or what a served machine can be asked");
+                                           "Print a card's registers, commands, states and pins, the keys of a rack "
+                                           "file, marking job or sweep file, or the interface of a served machine");
     command
         ->add_option(
             "CARD", options->what,

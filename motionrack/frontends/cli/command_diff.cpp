@@ -43,16 +43,16 @@ int compare_files(const DiffOptions& options) {
 
 void add_diff(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DiffOptions>();
-    CLI::App* command =
-        app.add_subcommand("diff", "Find where two recordings differ first: HDF5, VCD or CSV, two of the same kind");
+    CLI::App* command = app.add_subcommand(
+        "diff", "Find the first difference of two recordings: HDF5, VCD or CSV, two of the same kind");
     command->add_option("A", options->a, "one recording")->required();
     command->add_option("B", options->b, "the other one")->required();
     command->add_flag("--json", options->json, "print everything as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer(
         "Example: motionrack diff before.h5 after.h5\n"
-        "Exit code 0: the same; 6: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first "
-        "difference are told.");
+        "Exit code 0: the same; 6: they differ. For each signal's first difference it prints the name, seconds, ns and "
+        "ticks of 100 ps.");
     command->callback([options, &chosen] { chosen = [options] { return compare_files(*options); }; });
 }
 

@@ -101,9 +101,8 @@ int feed_rack(const FeedOptions& options) {
     if (stop_asked.load()) return exit_stopped;
     if (given != 0) return exit_done;
     print_error(
-        fmt::format("No frame came on bus '{}' that the rack's cards could take. Look whether a publisher runs under "
-                    "this bus name, and whether it "
-                    "has {} scales.",
+        fmt::format("No frame came on bus '{}' that the rack's cards could take. Check whether a publisher runs under "
+                    "this bus name, and whether it has {} scales.",
                     options.bus.name, settings.judge.words));
     return exit_machine;
 }
@@ -116,7 +115,7 @@ void add_frames_feed(CLI::App& frames, Action& chosen) {
         "feed", "Run a rack whose remote cards hold the frames that another computer publishes, in real time");
     command->add_option("RACK", options->rack, "rack file with a card whose role is \"remote\"")->required();
     add_bus_options(*command, options->bus);
-    command->add_option("--duration", options->seconds, "end after so many seconds");
+    command->add_option("--duration", options->seconds, "end after this time, s");
     command->add_option("--interval", options->every, "seconds between two tables")->capture_default_str();
     command->add_flag("--json", options->json, "print the tables as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print no tables");

@@ -196,17 +196,17 @@ void add_frames_publish(CLI::App& frames, Action& chosen) {
         frames.add_subcommand("publish", "Run a rack in real time and publish the frames of its grating bus");
     command->add_option("RACK", options->rack, "rack file with a card of type grating_bus")->required();
     command->add_option("PROGRAM", options->program,
-                        "part program that the rack's axes drive meanwhile; its end is the end");
+                        "part program that the rack's axes execute at the same time; its end ends the command");
     add_bus_options(*command, options->bus);
     command->add_option("--card", options->card, "the card whose frames are published (default: the bus' host)");
     command->add_option("--time-scale", options->speed, "virtual seconds a second: 0.1 is ten times slower")
         ->capture_default_str();
-    command->add_option("--count", options->count, "end after so many frames");
-    command->add_option("--duration", options->seconds, "end after so many virtual seconds");
-    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: host.off=1@2s")
+    command->add_option("--count", options->count, "end after this number of frames");
+    command->add_option("--duration", options->seconds, "end after this virtual time, s");
+    command->add_option("--fault", options->faults, "inject a fault during the run, NAME=VALUE@TIME: host.off=1@2s")
         ->allow_extra_args(false);
-    command->add_flag("--json", options->json, "print what is noticed, and the end, as lines of JSON");
-    command->add_flag("-q,--quiet", options->quiet, "print only what is wrong");
+    command->add_flag("--json", options->json, "print events and the summary as lines of JSON");
+    command->add_flag("-q,--quiet", options->quiet, "print only errors");
     command->footer(
         "Example: motionrack frames publish stage.toml --bus stage\n"
         "Example: motionrack frames publish stage.toml scan.ngc --bus stage --time-scale 0.1\n"

@@ -139,7 +139,7 @@ int finish(Show& show, const rack::FrameMonitor& watch, const ShowOptions& optio
             print_warning(show.rack.describe(conditions[i]));
         for (const std::string& fault : show.faults.not_done()) print_warning(fault);
         if (conditions.size() > max_told)
-            print_warning(fmt::format("{} more things were reported", conditions.size() - max_told));
+            print_warning(fmt::format("{} more conditions were reported", conditions.size() - max_told));
     }
     if (show.recorder) wrote(show.recorder->finish(), options.vcd);
     if (!options.picture.empty()) {
@@ -209,14 +209,14 @@ int show_frames(const ShowOptions& options) {
 void add_frames_show(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<ShowOptions>();
     frames.add_option("RACK", options->rack, "rack file with cards of a grating bus");
-    frames.add_option("PROGRAM", options->program, "part program that the rack's axes drive meanwhile");
+    frames.add_option("PROGRAM", options->program, "part program that the rack's axes execute at the same time");
     frames.add_option("--duration", options->seconds, "virtual seconds to run, without a program")
         ->capture_default_str();
     frames.add_option("--interval", options->every, "virtual seconds between two tables")->capture_default_str();
-    frames.add_flag("--real-time", options->real_time, "not faster than the clock");
+    frames.add_flag("--real-time", options->real_time, "run in real time");
     frames
         .add_option("--fault", options->faults,
-                    "break something on the way, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")
+                    "inject a fault during the run, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")
         ->allow_extra_args(false);
     frames.add_option("--vcd", options->vcd,
                       "write states and lines of all frames as a VCD file; keep --duration short");

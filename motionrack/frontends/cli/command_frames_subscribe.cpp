@@ -123,9 +123,8 @@ int ending(const SubscribeOptions& options, const dds::FrameValidator& judge, bo
     if (stop_asked.load()) return exit_stopped;
     if (judge.counts().used == 0) {
         print_error(
-            fmt::format("No frame came on bus '{}' in {:g} s ({} samples were received). Look whether a publisher runs "
-                        "under this bus name and in "
-                        "DDS domain {}, and which network CYCLONEDDS_URI chooses.",
+            fmt::format("No frame came on bus '{}' in {:g} s ({} samples were received). Check whether a publisher "
+                        "runs under this bus name and in DDS domain {}, and which network CYCLONEDDS_URI chooses.",
                         options.bus.name, options.seconds, judge.counts().received, options.bus.domain));
         return exit_machine;
     }
@@ -199,21 +198,20 @@ int subscribe(const SubscribeOptions& options) {
 
 void add_frames_subscribe(CLI::App& frames, Action& chosen) {
     auto options = std::make_shared<SubscribeOptions>();
-    CLI::App* command =
-        frames.add_subcommand("subscribe", "Listen to the frames that another computer publishes; it only listens");
+    CLI::App* command = frames.add_subcommand("subscribe", "Receive the frames that another computer publishes");
     add_bus_options(*command, options->bus);
     command
         ->add_option("--scales", options->scales,
                      "N that is expected; frames with another one are not used (default: N of the first frame)")
         ->check(CLI::Range(1, grating_bus::max_scales))
         ->option_text("1 .. 128");
-    command->add_option("--count", options->count, "end after so many frames");
-    command->add_option("--duration", options->seconds, "end after so many seconds");
+    command->add_option("--count", options->count, "end after this number of frames");
+    command->add_option("--duration", options->seconds, "end after this time, s");
     command->add_option("--interval", options->every,
                         "seconds between two states (default: 0.2 on a terminal, 1 else)");
     command->add_option("--csv", options->csv, "write every frame as a row");
     command->add_flag("--json", options->json, "print states and events as lines of JSON");
-    command->add_flag("-q,--quiet", options->quiet, "print no states, only what is wrong");
+    command->add_flag("-q,--quiet", options->quiet, "print only errors, no states");
     command->footer(
         "Example: motionrack frames subscribe --bus stage\n"
         "Example: motionrack frames subscribe --bus stage --count 5000 --csv frames.csv\n"

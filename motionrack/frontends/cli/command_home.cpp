@@ -94,27 +94,26 @@ int home(const HomeOptions& options) {
 
 void add_home(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<HomeOptions>();
-    CLI::App* command = app.add_subcommand("home", "Home the axes of a rack: find their switches, tell what was found");
+    CLI::App* command = app.add_subcommand("home", "Home the axes of a rack and report the switches found");
     command->add_option("AXES", options->axes, "letters, as XY or X,Y (default: every axis that has a home switch)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command
         ->add_option("--type", options->type,
-                     "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the encoder's index, 4 as 2 and on to "
-                     "it (default: the rack file's)")
+                     "1 stop at the switch, 2 then again slowly, 3 as 1, then to the encoder's index, 4 as 2, then to "
+                     "the index (default: the rack file's)")
         ->check(CLI::Range(1, 4));
     command->add_option("--picture", options->picture,
                         "write position, speed and states over time as SVG; of several axes NAME_X.svg ..");
     command
         ->add_option("--fault", options->faults,
-                     "break something on the way, NAME=VALUE@TIME: X.home.stuck_open@0s, estop=0@0.3s")
+                     "inject a fault during the run, NAME=VALUE@TIME: X.home.stuck_open@0s, estop=0@0.3s")
         ->allow_extra_args(false);
-    command->add_flag("--json", options->json, "print what was found as JSON");
+    command->add_flag("--json", options->json, "print the result as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer(
-        "Example: motionrack home XY --rack my.toml --picture home.svg\n"
-        "Example: motionrack home X --rack my.toml --fault X.home.stuck_open@0s\nHow each axis searches is said in "
-        "[axis.X.homing] of the rack file. "
-        "Ctrl-C stops the axes, decelerating.");
+        "Example: motionrack home XY --rack my.toml --picture home.svg\nExample: motionrack home X --rack my.toml "
+        "--fault X.home.stuck_open@0s\nThe search of each axis is defined in [axis.X.homing] of the rack file. Ctrl-C "
+        "stops the axes, decelerating.");
     command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }
 

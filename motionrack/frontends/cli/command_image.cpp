@@ -187,33 +187,33 @@ int check(const ImageOptions& options) {
 
 CLI::App* add_reader(CLI::App& group, const char* name, const char* what, ImageOptions& options) {
     CLI::App* command = group.add_subcommand(name, what);
-    command->add_option("FILE", options.file, "image as make writes it, '-': standard input")->required();
+    command->add_option("FILE", options.file, "image file written by image make, '-': standard input")->required();
     return command;
 }
 
 void add_make(CLI::App& group, const std::shared_ptr<ImageOptions>& o, Action& chosen) {
-    CLI::App* command = group.add_subcommand("make", "Make an image of your own");
+    CLI::App* command = group.add_subcommand("make", "Make an image");
     command->add_option("BITS", o->file,
                         "file whose bytes follow the axes' modes in the payload, such as a raw binary (*.RBF) of the "
-                        "array's design system; the virtual array keeps them and does not look at them");
+                        "array's design system; the virtual array stores and ignores them");
     command
         ->add_option("-o,--output", o->output,
                      "file to write: *.h a constant for C, *.inc or *.pas one for Pascal, else the bytes; '-': "
                      "standard output")
         ->required();
     command->add_option("--project", o->project, "its name, 1 to 16 characters")->capture_default_str();
-    command->add_option("--ident", o->ident, "its version, as GetIdent gives it; the unit takes 37 (0x25)")
+    command->add_option("--ident", o->ident, "its version, as GetIdent returns it; the unit accepts 37 (0x25)")
         ->check(CLI::Range(0, 255))
         ->capture_default_str();
     command
         ->add_option("--axis", o->axes,
-                     "how an axis counts, for instance 1=reversed,x2; words: reversed, x4, x2, x1, index_low, "
-                     "filter=0 to filter=15; again for more (default: x4)")
+                     "mode of an axis, for instance 1=reversed,x2; words: reversed, x4, x2, x1, index_low, "
+                     "filter=0 to filter=15; repeat for more (default: x4)")
         ->allow_extra_args(false);
     command->footer(
         "Example: motionrack image make -o irc.bin --axis 0=reversed --axis 3=x2,filter=4\n"
         "Example: motionrack image make IRC.RBF -o irc.h\n"
-        "It takes the place of lz77c and binobj: Configure loads it, in C, Pascal and Python.");
+        "It replaces lz77c and binobj: Configure loads it, in C, Pascal and Python.");
     command->callback([o, &chosen] { chosen = [o] { return make(*o); }; });
 }
 
@@ -225,12 +225,13 @@ void add_image(CLI::App& app, Action& chosen) {
     group->require_subcommand(1);
     group->footer("Example: motionrack image make -o irc.bin --axis 0=reversed");
     add_make(*group, o, chosen);
-    CLI::App* s = add_reader(*group, "show", "What an image says of itself", *o);
-    s->add_flag("--hex", o->hex, "print its bytes as the key image of a rack file takes them, nothing else");
+    CLI::App* s = add_reader(*group, "show", "Show the header of an image", *o);
+    s->add_flag("--hex", o->hex, "print only its bytes, for the key image of a rack file");
     s->add_flag("--json", o->json, "print everything as JSON");
     s->footer("Example: motionrack image show irc.bin");
     s->callback([o, &chosen] { chosen = [o] { return show(*o); }; });
-    CLI::App* c = add_reader(*group, "check", "Whether Init would end with Flex_Ok; else why not, exit code 2", *o);
+    CLI::App* c =
+        add_reader(*group, "check", "Check whether Init would return Flex_Ok; else print the reason, exit code 2", *o);
     c->footer("Example: motionrack image check irc.bin");
     c->callback([o, &chosen] { chosen = [o] { return check(*o); }; });
 }

@@ -144,13 +144,12 @@ int run_mark(const MarkOptions& options) {
 void add_mark(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<MarkOptions>();
     CLI::App* command = app.add_subcommand(
-        "mark", "Mark a drawing on a moving part with the virtual RTC5: what is on the part, and how far off");
+        "mark", "Mark a drawing on a moving part with the virtual RTC5 and report the marks and their deviation");
     command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")
         ->required();
     command
         ->add_option("--picture", options->pictures,
-                     "NAME.svg or NAME.png: the part as drawn, with correction and without; may be given more than "
-                     "once; '': none")
+                     "NAME.svg or NAME.png: the part as drawn, with and without correction; repeatable; '': none")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->check(CLI::Validator(picture_trouble, "FILE"))
@@ -161,8 +160,8 @@ void add_mark(CLI::App& app, Action& chosen) {
     command->footer(
         "Example: motionrack mark square.toml --picture square.png --report square.html\n"
         "Nothing is written if the job is refused or stopped.\n"
-        "Exit code 4: the drawing or the correction left the field, or the start of a part was lost, so that not all "
-        "was marked where it should be.");
+        "Exit code 4: the drawing or the correction left the field, or the start of a part was lost: marks are missing "
+        "or displaced.");
     command->callback([options, &chosen] {
         std::erase(options->pictures, std::string());
         chosen = [options] { return run_mark(*options); };

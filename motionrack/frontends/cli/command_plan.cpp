@@ -114,7 +114,7 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
     row("trapezoids", plans.trapezoids);
     row("jerk-limited", plans.ride);
     fmt::print("  {:<37} {:>9.3f} s\n", "bound (acceleration only, same curve)", plans.ride.bound);
-    fmt::print("Greatest of the jerk-limited plan, and the part of the axis' limit:\n");
+    fmt::print("Peak of the jerk-limited plan, and its share of the axis' limit:\n");
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
         if (most.speed == 0) continue;
@@ -158,9 +158,10 @@ int plan(const PlanOptions& options) {
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
     if (config->point_to_point())
-        return report({ErrorKind::refused, fmt::format("The axes of {} position one by one: there is no path to plan. "
-                                                       "Give a rack whose axes follow paths together.",
-                                                       config->name)});
+        return report(
+            {ErrorKind::refused, fmt::format("The axes of {} position one by one: the program has no path to plan. "
+                                             "Give a rack whose axes follow paths together.",
+                                             config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     auto reading = program_settings(*config, program->name, options.reading, code);
@@ -182,7 +183,7 @@ int plan(const PlanOptions& options) {
     const Plans plans{program->name, moves.size(), by_trapezoids(moves, limits, settings.start, true),
                       by_trapezoids(moves, limits, settings.start, false),
                       jerk_limited(moves, limits, settings.start, options.json)};
-    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was whole; nothing was reported."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was complete; nothing was reported."});
     options.json ? print_json(plans, *config) : print_plans(plans, *config);
     if (options.picture.empty()) return exit_done;
     const std::string title =
@@ -201,18 +202,19 @@ void add_plan(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<PlanOptions>();
     CLI::App* command = app.add_subcommand(
         "plan",
-        "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
+        "Print the duration of a part program: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
     command->add_option("PROGRAM", options->program,
                         "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     add_reading_options(*command, options->reading);
     command->add_option(
         "--picture", options->picture,
-        "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
+        "write the jerk-limited plan as SVG: the path coloured by speed; speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
     command->footer(
-        "Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; with profile "
-        "= \"jerk_limited\" in the rack file the jerk-limited plan, which keeps every axis within its jerk too.");
+        "Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards execute the trapezoids; with "
+        "profile = \"jerk_limited\" in the rack file the jerk-limited plan, which also keeps the jerk limit of every "
+        "axis.");
     command->callback([options, &chosen] { chosen = [options] { return plan(*options); }; });
 }
 

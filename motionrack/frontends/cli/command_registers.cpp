@@ -70,18 +70,17 @@ int virtual_registers(const RegistersOptions& options) {
 void add_registers(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RegistersOptions>();
     CLI::App* command =
-        app.add_subcommand("registers", "Read a card's registers and tell what they mean; nothing moves");
+        app.add_subcommand("registers", "Read a card's registers and print their meaning; nothing moves");
     command->add_option("CARD", options->card,
                         "name of a card in the rack (default: the first); with --live its type (default: mcx314)");
     auto* rack = command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--live", options->live, "a real card: " + std::string(live::port_spec_form()))->excludes(rack);
-    command->add_flag("--clear", options->clear, "read RR3 too, which clears it");
-    command->add_flag("--all", options->all, "fields that are 0 too");
+    command->add_flag("--clear", options->clear, "also read RR3, which clears it");
+    command->add_flag("--all", options->all, "also fields that are 0");
     command->add_flag("--json", options->json, "as JSON");
     command->footer(
         "Example: motionrack registers --live uio:/dev/uio0\nOf a real card WR0 is written, with NOP and read "
-        "commands: no other "
-        "program may use it meanwhile.");
+        "commands: no other program may use it at the same time.");
     command->callback([options, &chosen] {
         chosen = [options] { return options->live.empty() ? virtual_registers(*options) : live_registers(*options); };
     });

@@ -74,7 +74,7 @@ int compare_with_replay(const trace::RecordingReader& recording, const std::stri
                    diff->until ? fmt::format(" before {:.6f} s", to_seconds(*diff->until)) : "", diff->signals,
                    diff->compared);
     else
-        fmt::print("The replay is another run.\n{}", trace::diff_text(*diff, recording.path(), name));
+        fmt::print("The replay differs.\n{}", trace::diff_text(*diff, recording.path(), name));
     std::fflush(stdout);
     if (!options.json && !diff->same() && recording.head().version != again->head().version)
         print_warning(fmt::format("the recording was written by version {}, this is {}", recording.head().version,
@@ -91,10 +91,10 @@ int replay(const ReplayOptions& options) {
     if (options.record.empty() && scratch.folder.empty())
         return report(
             {ErrorKind::io,
-             "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
+             "The folder for temporary files (TMPDIR) was not found; choose a name with --record. Nothing was run."});
     const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
     if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
-    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the replay was done; nothing was reported."});
+    if (stop_asked) return report({ErrorKind::stopped, "Stopped before the end of the replay; nothing was reported."});
     return compare_with_replay(*recording, path, options);
 }
 
@@ -102,11 +102,10 @@ int replay(const ReplayOptions& options) {
 
 void add_replay(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReplayOptions>();
-    CLI::App* command = app.add_subcommand("replay",
-                                           "Run a recording's program on its rack again, with all that came from "
-                                           "outside, and tell whether it is the same bit for bit");
+    CLI::App* command = app.add_subcommand(
+        "replay", "Run a recording's program on its rack again, with all recorded inputs, and compare it bit for bit");
     command->add_option("RECORDING", options->recording, "recording of run --record")->required();
-    command->add_option("--record", options->record, "keep the recording of the replay");
+    command->add_option("--record", options->record, "write the recording of the replay");
     command->add_flag("--json", options->json, "print the comparison as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer("Example: motionrack replay part.h5\nExit code 0: the same; 6: it differs, and where first.");

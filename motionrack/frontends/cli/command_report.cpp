@@ -26,7 +26,7 @@ Result<trace::ReportData> read_data(const std::string& path) {
     if (kind == trace::FileKind::csv) return trace::report_from_csv(path);
     if (kind == trace::FileKind::vcd)
         return fail(ErrorKind::invalid_input,
-                    "A VCD file has wires and counters, but no positions, so there is nothing to show on a page. Take "
+                    "A VCD file has wires and counters, but no positions, so a page cannot be made from it. Take "
                     "a recording (--record) or the samples (--csv) of the run.",
                     {}, path);
     MOTIONRACK_TRY(const trace::RecordingReader recording, trace::RecordingReader::open(path));
@@ -51,16 +51,16 @@ int make_report(const ReportOptions& options) {
 void add_report(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReportOptions>();
     CLI::App* command = app.add_subcommand(
-        "report", "Make the page of a run (report.html) out of its recording, or out of the samples of a CSV file");
+        "report", "Make the page of a run (report.html) from its recording, or from the samples of a CSV file");
     command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")
         ->required();
-    command->add_option("--report", options->files.report, "where the page goes")->capture_default_str();
+    command->add_option("--report", options->files.report, "path of the page")->capture_default_str();
     command->add_flag("--no-report", options->files.no_report, "write no page");
     command->add_option("--csv", options->files.csv, "write the samples as CSV");
-    command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->add_option("--events", options->files.events, "write the events (blocks, warnings, the stop) as CSV");
     command->footer(
         "Example: motionrack report part.h5 --report part.html\n"
-        "The page of a recording is the one that run wrote; of a recording that was cut off it shows what is there.");
+        "The page of a recording is the one that run wrote; of an incomplete recording it shows the available part.");
     command->callback([options, &chosen] { chosen = [options] { return make_report(*options); }; });
 }
 

@@ -148,15 +148,15 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--signals", options->signals,
                         "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
-    command->add_option("--timescale-ns", options->unit_ns,
-                        "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns (default: the coarsest that shows every "
-                        "edge of the signals); sigrok-cli makes a sample of each, so let it read fine ones with "
-                        "-I vcd:downsample=N");
+    command->add_option(
+        "--timescale-ns", options->unit_ns,
+        "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns (default: the coarsest that shows every "
+        "edge of the signals); sigrok-cli makes a sample of each unit: read fine units with -I vcd:downsample=N");
     command->add_option("--csv", options->files.csv, "write the samples (position, speed, deviation every ms) as CSV");
-    command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->add_option("--events", options->files.events, "write the events (blocks, warnings, the stop) as CSV");
     command
         ->add_option("--fault", options->faults,
-                     "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
+                     "inject a fault during the run, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
         ->allow_extra_args(false);
     command
         ->add_option(
@@ -165,7 +165,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
         ->allow_extra_args(false);
     add_reading_options(*command, options->reading);
     command->add_flag("--stream", options->stream,
-                      "move line by line as it is read, without checking the whole program first");
+                      "execute line by line while reading, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
 }
@@ -177,18 +177,15 @@ void add_run(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("run", "Run a part program on a rack: progress, summary, report.html");
     command->add_option("PROGRAM", options->program,
                         "part program, '-': standard input (default: the built-in example)");
-    command->add_option("--report", options->files.report, "where the report goes")->capture_default_str();
+    command->add_option("--report", options->files.report, "path of the report")->capture_default_str();
     command->add_flag("--no-report", options->files.no_report, "write no report");
-    command->add_option("--record", options->record,
-                        "write a recording (HDF5) of everything, from which report, diff and replay work");
+    command->add_option("--record", options->record, "write a recording (HDF5) for report, diff and replay");
     command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
     add_common(command, options);
     command->footer(
-        "Example: motionrack run part.ngc --rack my.toml --report part.html\n"
-        "Example: motionrack run part.ngc --record part.h5 --at hold@0.5s --at resume@1s\n"
-        "Example: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s --fault X.limit_plus=0@2s --events "
-        "events.csv\nCtrl-C brings the axes to rest along the path and keeps "
-        "what was recorded.");
+        "Example: motionrack run part.ngc --rack my.toml --report part.html\nExample: motionrack run part.ngc --record "
+        "part.h5 --at hold@0.5s --at resume@1s\nExample: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s "
+        "--fault X.limit_plus=0@2s --events events.csv\nCtrl-C stops the axes along the path and keeps the recording.");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -153,7 +153,7 @@ class Serving {
         warn_of_lost_records();
         if (!stop_asked || stopping_) return;
         stopping_ = true;
-        say("Stopping: the axes come to rest.");
+        say("Stopping the axes.");
         tell_service_manager("STOPPING=1");
         // A stopped clock would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
@@ -174,14 +174,14 @@ class Serving {
         const auto live = served_->machine().service().live_places();
         say(fmt::format(
             "{} runs ({}, {}; simulated{}).", config.name, rack::count_noun(config.axes.size(), "axis", "axes"),
-            rack::count_noun(config.cards.size(), "card"), live.empty() ? "" : ", but for the real cards below"));
+            rack::count_noun(config.cards.size(), "card"), live.empty() ? "" : ", except for the real cards below"));
         for (const operate::LivePlace& one : live)
-            say(fmt::format("  real     {} at {}: its axes move in service; have an emergency stop of its wires",
-                            one.card, one.place));
+            say(fmt::format("  real     {} at {}: its axes move in service; provide a wired emergency stop", one.card,
+                            one.place));
         say(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
         if (!code.empty())
-            say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
-        if (options_.no_pairing) say("  pairing  none: whoever works on this computer may do everything");
+            say(fmt::format("  code     {}   (valid once, for the role maintain; the next one is printed here)", code));
+        if (options_.no_pairing) say("  pairing  none: every user of this computer has all rights");
         say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
         say(fmt::format("  journal  {}",
                         options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
@@ -189,8 +189,7 @@ class Serving {
             say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
         if (!options_.grbl_terminal.empty())
             say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
-        say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and "
-            "ends.");
+        say("Open the page in a browser, take control there, enable the machine. Ctrl-C stops the axes and ends.");
         greeted_ = true;
     }
 
@@ -224,8 +223,7 @@ class Serving {
 
 void add_serve(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ServeOptions>();
-    CLI::App* command =
-        app.add_subcommand("serve", "Run a rack that people operate in a browser, step for step with real time");
+    CLI::App* command = app.add_subcommand("serve", "Run a rack in real time, operated in a browser");
     command->add_option("RACK", options->rack,
                         "rack file (default: the built-in demonstration, which has all kinds of card)");
     command->add_option("--port", options->port, "TCP port; 0: any free one")->capture_default_str();
@@ -233,35 +231,32 @@ void add_serve(CLI::App& app, Action& chosen) {
         ->add_option("--address", options->address,
                      "address to serve; other than this computer's loopback only with TLS")
         ->capture_default_str();
-    command->add_option("--time-scale", options->speed, "seconds of the rack for a second")
+    command->add_option("--time-scale", options->speed, "rack seconds per real second")
         ->check(CLI::Range(operate::ClockPacer::min_factor, operate::ClockPacer::max_factor))
         ->capture_default_str();
     command->add_flag("--unthrottled", options->free, "run without real-time pacing");
-    command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");
+    command->add_flag("--paused", options->paused, "the rack's clock starts paused");
     command->add_option("--journal", options->journal,
-                        "file that keeps what happened (SQLite); the next start reads where the axes stood");
+                        "journal file (SQLite); the next start reads the axis positions from it");
     command
         ->add_option("--journal-quota", options->journal_megabytes,
-                     "MB that the journal may have; warned of at 80 %, beyond it its oldest entries are removed")
+                     "maximum size of the journal, MB; warns at 80 %, removes the oldest entries beyond")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
         ->capture_default_str();
     command->add_option("--users", options->users,
-                        "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
-    command->add_flag("--no-auth", options->no_pairing,
-                      "whoever works on this computer may do everything, without a code");
+                        "file of the paired users (default: users.json in ~/.local/state/motionrack)");
+    command->add_flag("--no-auth", options->no_pairing, "every user of this computer has all rights, without a code");
     command->add_option("--page", options->page, "folder of the page (default: the one that came with the program)");
     command
         ->add_option("--live", options->live,
-                     "CARD=PLACE: a real card that stands for one of the file on which no axis is, in service only; "
-                     "again for more. PLACE: " +
+                     "CARD=PLACE: a real card in place of one without axes, only in service; repeat for more. PLACE: " +
                          std::string(live::port_spec_form()))
         ->allow_extra_args(false);
-    command->add_option("--tls-cert", options->certificate, "PEM file of the certificate, with those that signed it");
+    command->add_option("--tls-cert", options->certificate, "PEM file of the certificate, with its chain");
     command->add_option("--tls-key", options->key, "PEM file of its key");
-    command->add_option("--allow-host", options->hosts,
-                        "a name by which browsers may call this computer; again for more");
+    command->add_option("--allow-host", options->hosts, "a host name of this computer for browsers; repeat for more");
     command->add_option("--allow-origin", options->origins,
-                        "a page from elsewhere that may ask, as http://localhost:5173; again for more");
+                        "an allowed page of another origin, such as http://localhost:5173; repeat for more");
     command->add_option("--grbl-port", options->grbl_port,
                         "TCP port of this computer for G-code senders (Grbl 1.1), e.g. 40123; 0: any free one");
     command->add_option("--grbl-pty", options->grbl_terminal,
@@ -270,13 +265,11 @@ void add_serve(CLI::App& app, Action& chosen) {
         ->check(CLI::Range(3, 4))
         ->capture_default_str();
     command->add_flag("--grbl-resets-stop-all", options->grbl_resets_stop_all,
-                      "a reset (^X) of any sender stops the machine, also where another drives it");
+                      "a reset (^X) of any sender stops the machine, also while another client has control");
     command->footer(
-        "Example: motionrack serve router.toml --journal router.journal\n"
-        "A real MCX314 in place of the card bench: motionrack serve rack.toml --live "
-        "bench=port:/dev/port,offset=0x300,width=8\nThe address that is printed carries a code "
-        "that lets its first user in; see docs/howto/serve.md.\n"
-        "Ctrl-C brings the axes to rest and ends with code 0.");
+        "Example: motionrack serve router.toml --journal router.journal\nA real MCX314 in place of the card bench: "
+        "motionrack serve rack.toml --live bench=port:/dev/port,offset=0x300,width=8\nThe printed address has a code "
+        "for the first user; see docs/howto/serve.md.\nCtrl-C stops the axes and ends with code 0.");
     command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });
 }
 

@@ -116,7 +116,7 @@ Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, con
             progress.clear();
             if (!options.quiet)
                 print_warning(
-                    fmt::format("No row came for {} s. If points do not take so long, start a worker: motionrack "
+                    fmt::format("No row came for {} s. If a point takes less time, start a worker: motionrack "
                                 "sweep-worker --nats {}",
                                 seconds, nats::without_password(options.nats)));
         };
@@ -139,41 +139,42 @@ int sweep_all(const SweepOptions& options) {
     if (!results) return report(results.error());
     const std::int64_t before = (*results)->done();
     if (before > 0 && !options.quiet)
-        fmt::print("{} of {} were done before\n", before, rack::count_noun(all.points(), "point"));
+        fmt::print("{} of {} were finished before\n", before, rack::count_noun(all.points(), "point"));
     stop_on_signals();
     const Result<void> done = run_missing(all, **results, options);
     if (done) return write_tables(all, **results, options);
     if (done.error().kind != ErrorKind::stopped) return report(done.error());
-    return report({ErrorKind::stopped,
-                   fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.",
-                               (*results)->done(), rack::count_noun(all.points(), "point"), (*results)->part())});
+    return report(
+        {ErrorKind::stopped,
+         fmt::format("Stopped. {} of {} are finished and kept in {}; the same command continues with the other points.",
+                     (*results)->done(), rack::count_noun(all.points(), "point"), (*results)->part())});
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<SweepOptions>();
-    CLI::App* command = app.add_subcommand("sweep",
-                                           "Run a part program over and over with other parameters, on all cores; a "
-                                           "table and a picture of what came of it");
-    command->add_option("FILE", options->file, "sweep file: program, rack, what is varied")->required();
+    CLI::App* command = app.add_subcommand(
+        "sweep",
+        "Run a part program with many parameter values on all cores; write a table and a picture of the results");
+    command->add_option("FILE", options->file, "sweep file: program, rack, varied parameters")->required();
     command->add_option("-o,--results", options->results, "the table; CSV, or HDF5 if it ends in .h5")
         ->capture_default_str();
     command->add_option("--picture", options->picture, "draw the results as SVG");
     command->add_option("--jobs", options->jobs, "points that run at the same time (default: one for each core)")
         ->check(CLI::Range(1, sweep::max_jobs));
     command->add_option("--nats", options->nats,
-                        "let workers on any machines run the points, through this server with JetStream: "
+                        "run the points by workers on any machines, through this server with JetStream: "
                         "nats://HOST:4222; see sweep-worker");
-    command->add_flag("--restart", options->fresh, "run all points anew, whatever was done before");
+    command->add_flag("--restart", options->fresh, "run all points again, also finished ones");
     command->add_flag("-q,--quiet", options->quiet, "no progress, no summary");
     command->footer(
         "Example: motionrack sweep feeds.toml -o feeds.csv --picture feeds.svg\n"
         "Example: motionrack sweep feeds.toml -o feeds.h5 --jobs 4\n"
         "Example: motionrack sweep feeds.toml --nats nats://bench:4222\n"
         "Each row is in RESULTS.part as soon as its point is done. After Ctrl-C, a kill or a power cut the same "
-        "command goes on with what is missing; rows whose rack, program or\n"
-        "values were changed are made anew.");
+        "command continues with the missing points; rows whose rack, program or\n"
+        "values were changed are run again.");
     command->callback([options, &chosen] { chosen = [options] { return sweep_all(*options); }; });
 }
 

@@ -25,7 +25,7 @@ int work(nats::WorkerSettings settings) {
     fmt::print("{} done\n", rack::count_noun(count, "point"));
     if (ended) return exit_done;
     if (ended.error().kind != ErrorKind::stopped) return report(ended.error());
-    return report({ErrorKind::stopped, "Stopped; what was begun goes to another worker."});
+    return report({ErrorKind::stopped, "Stopped; another worker takes over the current point."});
 }
 
 }  // namespace
@@ -35,21 +35,19 @@ void add_sweep_worker(CLI::App& app, Action& chosen) {
     settings->jobs = 0;
     CLI::App* command = app.add_subcommand(
         "sweep-worker",
-        "Run points of sweeps that motionrack sweep --nats queued; as many workers as wanted, on any machines");
+        "Run points of sweeps that motionrack sweep --nats queued; any number of workers, on any machines");
     command
         ->add_option("--nats", settings->url,
                      "the server with JetStream: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222")
         ->required();
     command->add_option("--jobs", settings->jobs, "points that run at the same time (default: one for each core)")
         ->check(CLI::Range(1, sweep::max_jobs));
-    command
-        ->add_option("--idle", settings->idle_s,
-                     "end when there was nothing to do for so many seconds (default: never)")
+    command->add_option("--idle", settings->idle_s, "end after this idle time, s (default: never)")
         ->check(CLI::Range(0.0, 1e6));
     command->footer(
         "Example: motionrack sweep-worker --nats nats://bench:4222\n"
-        "A point of a worker that dies is given to another one after 5 s; one that is stopped by Ctrl-C gives back at "
-        "once what it has. Workers take only points that their own version\n"
+        "A point of a killed worker goes to another one after 5 s; a worker that is stopped by Ctrl-C returns its "
+        "points at once. Workers take only points that their own version\n"
         "of motionrack queued.");
     command->callback([settings, &chosen] { chosen = [settings] { return work(*settings); }; });
 }

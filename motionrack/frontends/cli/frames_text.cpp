@@ -32,9 +32,9 @@ constexpr CountName count_names[] = {
     {"wrong_words", "another N", &dds::Counts::wrong_words},
     {"other_source", "of another publisher", &dds::Counts::other_source},
     {"conflicts", "conflicts", &dds::Counts::conflicts},
-    {"restarts", "publisher started anew", &dds::Counts::restarts},
+    {"restarts", "publisher restarted", &dds::Counts::restarts},
     {"takeovers", "another computer followed", &dds::Counts::takeovers},
-    {"anew", "sequence began anew", &dds::Counts::anew},
+    {"anew", "sequence restarted", &dds::Counts::anew},
     {"stale", "times stale", &dds::Counts::stale},
 };
 

@@ -19,11 +19,11 @@ namespace {
 
 constexpr const char* footer = R"(Examples:
   motionrack run part.ngc --rack router.toml     run a program, write report.html
-  motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
-  motionrack home XY --rack router.toml          find the home switches, tell what was found
-  motionrack run part.ngc --record part.h5       keep everything of a run
-  motionrack diff a.h5 b.h5                      where two recordings differ first
-  motionrack sweep feeds.toml -o feeds.csv       a program over and over with other parameters
+  motionrack check part.ngc --rack router.toml   list all errors, move nothing
+  motionrack home XY --rack router.toml          home the axes, report the switches found
+  motionrack run part.ngc --record part.h5       record all data of a run
+  motionrack diff a.h5 b.h5                      the first difference of two recordings
+  motionrack sweep feeds.toml -o feeds.csv       a program with many parameter values
   motionrack new router > router.toml            a commented rack file to start from
   motionrack serve router.toml                   operate a rack in a browser
   motionrack decode run.vcd                      count the encoders in a logic capture
@@ -33,7 +33,7 @@ constexpr const char* footer = R"(Examples:
 Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
 4 the machine stopped the job, 5 a file could not be read or written, 6 the two differ (diff, replay),
 130 stopped by Ctrl-C.
-motionrack COMMAND --help tells more of each command.)";
+motionrack COMMAND --help describes a command.)";
 
 /// Flushes standard output; reports a write error.
 int flushed(int code) {
@@ -41,17 +41,16 @@ int flushed(int code) {
     errno = 0;
     const bool lost = std::ferror(stdout) != 0, out = std::fflush(stdout) == 0;
     if (out && !lost) return code;
-    print_error(fmt::format(
-        "What was to be printed could not be written to standard output: {}. Files that were written are whole.",
-        std::strerror(errno != 0 ? errno : EIO)));
+    print_error(fmt::format("Standard output could not be written: {}. Files that were written are complete.",
+                            std::strerror(errno != 0 ? errno : EIO)));
     return code == exit_done ? static_cast<int>(exit_io) : code;
 }
 
 /// Does not allocate memory.
 int say_out_of_memory() {
     static constexpr char sentence[] =
-        "error: There is not enough memory. Nothing more was done: files written before this are whole, all others as "
-        "they were. Close other programs, or give this one less to do.\n";
+        "error: Not enough memory. The command was aborted: files written before are complete, all others unchanged. "
+        "Close other programs, or reduce the job.\n";
     static_cast<void>(!::write(STDERR_FILENO, sentence, sizeof sentence - 1));
     return motionrack::cli::exit_io;
 }
@@ -138,7 +137,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return say_out_of_memory();
     } catch (const std::exception& e) {
-        print_error(fmt::format("{}. Nothing more was done; files written before this are whole.", e.what()));
+        print_error(fmt::format("{}. The command was aborted; files written before are complete.", e.what()));
         return exit_io;
     }
 }

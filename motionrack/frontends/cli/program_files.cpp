@@ -57,7 +57,7 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
 void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools) {
     command.add_option(tools, options.tools,
                        "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
-    command.add_flag("--block-delete", options.block_delete, "leave out lines that begin with '/'");
+    command.add_flag("--block-delete", options.block_delete, "skip lines that begin with '/'");
 }
 
 std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path,

@@ -53,9 +53,9 @@ int Bench::keep(std::unique_ptr<Chip> chip) {
 
 Result<int> Bench::open_live(const char* text, const char* card) {
     if (card != nullptr)
-        return fail(
-            ErrorKind::invalid_input,
-            fmt::format("A real card has no name, but {} was given. Nothing was opened. Give NULL.", in_quotes(card)));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("A real card has no name, but the name {} was given. Nothing was opened. Give NULL.",
+                                in_quotes(card)));
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
     MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
     return keep(std::make_unique<Chip>(std::move(port)));
@@ -86,7 +86,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
         MOTIONRACK_TRY(Chip * chip, selected());
         if (!chip->world)
             return fail(ErrorKind::invalid_input,
-                        "The selected chip is a real card and in no rack. Nothing was opened. Name a rack.");
+                        "The selected chip is a real card outside a rack. Nothing was opened. Name a rack.");
         world = chip->world;
     }
     std::string known;
@@ -110,9 +110,9 @@ std::string Bench::handles() const {
 
 Result<void> Bench::check_open(int handle) const {
     if (chips_.count(handle) != 0) return {};
-    return fail(
-        ErrorKind::invalid_input,
-        fmt::format("There is no chip {}; the handles of the open ones are: {}. Nothing was done.", handle, handles()));
+    return fail(ErrorKind::invalid_input,
+                fmt::format("Unknown chip handle {}; the handles of the open chips are: {}. Nothing was done.", handle,
+                            handles()));
 }
 
 Result<void> Bench::select(int handle) {

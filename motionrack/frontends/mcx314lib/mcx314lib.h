@@ -30,9 +30,9 @@
  * Units. Those of the registers. With the multiple M = 8,000,000 / R: speeds V and SV are in M pulses a second,
  * accelerations A and D in 125 M pulses/s2, the jerk is 62,500,000 / K M pulses/s3.
  *
- * Errors. The source's functions return nothing. What is out of range, or not possible now, is refused: nothing is
- * written, mcx314_last_error() has the sentence (kept for each thread), and the handler of mcx314_on_error() is called,
- * in the place of the source's message boxes. Functions of our own also return -1.
+ * Errors. The source's functions return nothing. A call that is out of range, or not possible now, is refused: nothing
+ * is written, mcx314_last_error() has the sentence (kept for each thread), and the handler of mcx314_on_error() is
+ * called, in the place of the source's message boxes. Functions of our own also return -1.
  *
  * Time. On a real card it is the computer's. On a virtual card time passes while functions run (each access of a
  * register takes the bus its time), in mcx314_wait() and in mcx314_advance_ms(); nowhere else. A loop that polls
@@ -85,8 +85,8 @@ MCX314_API void SetD(int axis, int data);
 /* K, the acceleration's rate: 1 .. 65,535. */
 MCX314_API void SetAA(int axis, int data);
 
-/* Pulses kept for the end at SV: 0 .. 65,535. Where it was not called since the reset, each drive has what it needs to
- * end at SV. */
+/* Pulses reserved for the end at SV: 0 .. 65,535. Where it was not called since the reset, each drive has what it needs
+ * to end at SV. */
 MCX314_API void SetAO(int axis, int data);
 
 /* Output pulses of a fixed drive: -268,435,455 .. 268,435,455, the sign is the direction. */
@@ -95,7 +95,7 @@ MCX314_API void Pulse(int axis, int data);
 /* The chip finds the deceleration of all axes itself. */
 MCX314_API void AutoDec(void);
 
-/* Fixed drives decelerate after so many pulses: 0 .. 268,435,455. The source has both names. */
+/* Sets the pulses after which fixed drives decelerate: 0 .. 268,435,455. The source has both names. */
 MCX314_API void ManualDec(int axis, int DecPulse);
 MCX314_API void ManDec(int axis, int DecPulse);
 
@@ -249,8 +249,8 @@ MCX314_API void mcx314_on_error(void (*handler)(const char* sentence, void* user
 
 /* ---- Time ---- */
 
-/* Waits until none of the axes drives, at most so many milliseconds. Returns 0 if they stand as commanded; -1 after the
- * time, and where a limit, an alarm or the emergency stop has ended a drive. */
+/* Waits until none of the axes drives, at most `milliseconds`. Returns 0 if they stopped as commanded; -1 after
+ * the time, or if a limit, an alarm or the emergency stop ended a drive. */
 MCX314_API int mcx314_wait(int axis, int milliseconds);
 
 /* Lets the world run for 0 .. 2,147,483,647 ms. */
@@ -277,7 +277,7 @@ MCX314_API const char* mcx314_report(int axis);
 MCX314_API int mcx314_stop(int axis);
 MCX314_API int mcx314_stop_now(int axis);
 
-/* Decelerations take D instead of A: 0 off, 1 on. */
+/* Decelerations use D instead of A: 0 off, 1 on. */
 MCX314_API int mcx314_asymmetric(int axis, int on);
 
 /* Level, 0 or 1, of the general outputs OUT0 .. OUT7 of the axes: servo on, brakes. */
@@ -299,14 +299,14 @@ MCX314_API int mcx314_plan(int axis, int SV, int V, int A, int K, int pulses, MC
 
 /* ---- Manual operation ---- */
 
-/* Jogs one axis at V, the sign is the direction; 0 lets go. Goes on for 250 ms: call it again before, with the same
- * speed or another. Another direction is taken by way of a stop. SV and A are those of the first call. */
+/* Jogs one axis at V, the sign is the direction; 0 stops. Jogs for 250 ms: call it again before, with the same
+ * speed or another. A reversal decelerates to a stop first. SV and A are those of the first call. */
 MCX314_API int mcx314_jog(int axis, int SV, int V, int A);
 
-/* One step of so many pulses (signed) at V. */
+/* Moves by `pulses` (signed) at V. */
 MCX314_API int mcx314_jog_step(int axis, int SV, int V, int A, int pulses);
 
-/* Homes one axis as HomeType1 .. 4 (type 1 .. 4), but does not wait: it goes on for 250 ms; call it again before. */
+/* Homes one axis as HomeType1 .. 4 (type 1 .. 4), but does not wait: it runs for 250 ms; call it again before. */
 MCX314_API int mcx314_jog_home(int axis, int type, int WR1Reg, int SV, int V, int A);
 
 /* ---- Interrupts ---- */

@@ -23,13 +23,13 @@ thread_local std::string report_text;
 Result<Duration> time_of(int milliseconds) {
     if (milliseconds >= 0) return motionrack::milliseconds(milliseconds);
     return fail(ErrorKind::refused,
-                fmt::format("the time is {} ms, but it is 0 to 2147483647 ms. Nothing was run.", milliseconds));
+                fmt::format("the time is {} ms; it must be 0 to 2147483647 ms. Nothing was run.", milliseconds));
 }
 
 /// 0 or 1.
 Result<bool> bit_of(int value, const char* what) {
     if (value == 0 || value == 1) return value == 1;
-    return fail(ErrorKind::refused, fmt::format("the {} is {}, but it is 0 or 1. Nothing was written.", what, value));
+    return fail(ErrorKind::refused, fmt::format("the {} is {}; it must be 0 or 1. Nothing was written.", what, value));
 }
 
 /// Returns the mask of those axes for which `fits` is true.
@@ -322,8 +322,8 @@ int mcx314_pattern_end(void) {
 int mcx314_peek(const char* name, int64_t* value) {
     return done(__func__, [&](Chip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(name, "The name"));
-        MOTIONRACK_CHECK(check_pointer(value, "The place for the value"));
-        MOTIONRACK_TRY(const VirtualCard* card, chip.virtual_card("registers that are seen without access"));
+        MOTIONRACK_CHECK(check_pointer(value, "The address of the value"));
+        MOTIONRACK_TRY(const VirtualCard* card, chip.virtual_card("registers that are visible without access"));
         MOTIONRACK_TRY(*value, card->inspect(name));
         return {};
     });

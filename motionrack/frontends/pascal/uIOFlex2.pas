@@ -11,7 +11,7 @@
 
   The first Init of a program opens the rack file that the environment variable MOTIONRACK_RACK names; without it, a rack
   with one card at $2300. Rack gives it to the functions of motionrack/c.h, such as mr_advance_ns: time passes in it only
-  when somebody lets it pass. Compile with -Fu and the unit's folder, -Fl and the library's; programs may be in the modes
+  when a call advances it. Compile with -Fu and the unit's folder, -Fl and the library's; programs may be in the modes
   fpc, tp, delphi and objfpc. }
 unit uIOFlex2;
 

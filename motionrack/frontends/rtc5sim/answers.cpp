@@ -81,8 +81,8 @@ Result<double> header_word(const Card& card, std::int64_t number, UINT para) {
 template <class Number, class Call>
 void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call) noexcept {
     question(who, number, false, [&](Card& card) -> Result<bool> {
-        MOTIONRACK_CHECK(check_pointer(a, "The first place for the answer"));
-        MOTIONRACK_CHECK(check_pointer(b, "The second place for the answer"));
+        MOTIONRACK_CHECK(check_pointer(a, "The first address of the answer"));
+        MOTIONRACK_CHECK(check_pointer(b, "The second address of the answer"));
         call(card);
         return true;
     });
@@ -181,7 +181,7 @@ void n_get_encoder(UINT CardNo, long* Encoder0, long* Encoder1) {
 void n_read_encoder(UINT CardNo, long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2) {
     question(__func__, CardNo, false, [&](Card& card) -> Result<bool> {
         for (const long* place : {Encoder0_1, Encoder1_1, Encoder0_2, Encoder1_2})
-            MOTIONRACK_CHECK(check_pointer(place, "A place for the answer"));
+            MOTIONRACK_CHECK(check_pointer(place, "An address of the answer"));
         const auto first = card.engine.read_encoder(0), second = card.engine.read_encoder(1);
         *Encoder0_1 = first[0], *Encoder1_1 = first[1];
         *Encoder0_2 = second[0], *Encoder1_2 = second[1];

@@ -109,9 +109,9 @@ Result<Card*> Bench::card(UINT number) {
     if (rack_)
         return fail(
             ErrorKind::invalid_input,
-            fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
+            fmt::format("unknown card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
     return fail(ErrorKind::invalid_input,
-                fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
+                fmt::format("unknown card {}; the environment variable RTC5SIM_CARDS makes it {}. "
                             "Nothing was done.",
                             number,
                             cards_.size() == 1 ? std::string("one, the card 1")

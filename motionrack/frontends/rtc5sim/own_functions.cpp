@@ -20,8 +20,8 @@ thread_local std::string info_text, note_text;
 Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
     if (us >= 0 && us <= most && us % us_per_tick == 0) return us / us_per_tick;
     return fail(ErrorKind::refused,
-                fmt::format("the time is {} us, but it is 0 to {} us, a multiple of {} us. Nothing was done.", us, most,
-                            us_per_tick));
+                fmt::format("the time is {} us; it must be 0 to {} us, a multiple of {} us. Nothing was done.", us,
+                            most, us_per_tick));
 }
 
 Result<void> check_encoder(UINT encoder) {
@@ -43,7 +43,7 @@ Result<void> check_unwired(const Card& card) {
     if (card.wired == nullptr) return {};
     return fail(
         ErrorKind::refused,
-        "the card is that of a rack, whose wires turn its encoders. Nothing was changed; set the speed of a belt "
+        "the card belongs to a rack, whose wires drive its encoders. Nothing was changed; set the speed of a belt "
         "by rtc5sim_part_set.");
 }
 
@@ -148,7 +148,7 @@ int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
 
 int rtc5sim_sent(UINT CardNo, int32_t* word) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
-        MOTIONRACK_CHECK(check_pointer(word, "The place for the word"));
+        MOTIONRACK_CHECK(check_pointer(word, "The address of the word"));
         *word = card.engine.mcbsp_sent();
         return {};
     });
@@ -166,8 +166,8 @@ const char* rtc5sim_table_note(UINT CardNo, UINT TableNo) {
     note_text.clear();
     done(__func__, CardNo, [&](Card& card) -> Result<void> {
         if (TableNo < 1 || TableNo > rtc5::table_count)
-            return fail(ErrorKind::refused, fmt::format("there is no table {}; 1 to {}. Nothing was looked at.",
-                                                        TableNo, rtc5::table_count));
+            return fail(ErrorKind::refused,
+                        fmt::format("table {} must be 1 to {}. Nothing was checked.", TableNo, rtc5::table_count));
         const rtc5::Table* const table = card.engine.table(TableNo);
         if (table != nullptr) note_text = table->note;
         return {};

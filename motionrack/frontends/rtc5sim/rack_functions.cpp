@@ -22,7 +22,7 @@ int rtc5sim_close(void) {
 int rtc5sim_part_get(const char* part_dot_quantity, double* value) {
     return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
         MOTIONRACK_CHECK(check_pointer(part_dot_quantity, "The name"));
-        MOTIONRACK_CHECK(check_pointer(value, "The place for the value"));
+        MOTIONRACK_CHECK(check_pointer(value, "The address of the value"));
         MOTIONRACK_TRY(motionrack::rack::Session * rack, bench.rack());
         MOTIONRACK_TRY(*value, rack->part(part_dot_quantity));
         return 0;

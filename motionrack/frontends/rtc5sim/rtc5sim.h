@@ -26,8 +26,8 @@
  * says; and in rtc5sim_advance_us() and rtc5sim_run(). Nothing else takes time. A program that sleeps 1 ms between
  * questions should make them 1,000 us.
  *
- * Errors. What is out of range, or not possible now, is refused: nothing is changed, rtc5sim_last_error() has the
- * sentence (kept for each thread), get_last_error() and get_error() have the bits, and the handler of
+ * Errors. A call that is out of range, or not possible now, is refused: nothing is changed, rtc5sim_last_error() has
+ * the sentence (kept for each thread), get_last_error() and get_error() have the bits, and the handler of
  * rtc5sim_on_error() is called.
  *
  * Threads. Functions may be called from any thread; a call waits until another one has ended. Cards and the selection
@@ -51,11 +51,11 @@ extern "C" {
 
 typedef unsigned int UINT;
 
-/* An address as a number, as some commands take it: (ULONG_PTR)values. What is behind it has 32 bits a number, on every
+/* An address as a number, as some commands take it: (ULONG_PTR)values. Each number there has 32 bits, on every
  * system. */
 typedef uintptr_t ULONG_PTR;
 
-/* Bits of get_last_error and get_error, as the manual has them: init_rtc5_dll found no card; there is no such card; a
+/* Bits of get_last_error and get_error, as the manual has them: init_rtc5_dll found no card; unknown card number; a
  * parameter is wrong; a list is running, or the card moves; the list is full, or none is open, or there is nothing to
  * read. */
 enum rtc5_error { RTC5_NO_CARD = 1, RTC5_ACCESS_DENIED = 2, RTC5_PARAM_ERROR = 16, RTC5_BUSY = 32, RTC5_REJECTED = 64 };
@@ -63,7 +63,7 @@ enum rtc5_error { RTC5_NO_CARD = 1, RTC5_ACCESS_DENIED = 2, RTC5_PARAM_ERROR = 1
 /* ---- Cards ---- */
 
 /* A program may begin with init_rtc5_dll, which gives 0. Card numbers are 1 .. rtc5_count_cards(); select_rtc gives
- * the number, 0 if there is no such card. These four are of the process: they have no n_.. */
+ * the number, 0 if the card is unknown. These four are of the process: they have no n_.. */
 RTC5_API UINT init_rtc5_dll(void);
 RTC5_API UINT rtc5_count_cards(void);
 RTC5_API UINT select_rtc(UINT CardNo);
@@ -86,7 +86,7 @@ RTC5_API void reset_error(UINT Code);
  * 11 no such card; the table is then as before. These numbers are from memory: no page of the manual that has them was
  * at hand. The checksum of programs before version 4.0 is not known: their files are loaded, and rtc5sim_table_note
  * says that theirs was not checked. ParaNo 0 .. 15 are the words of its
- * head, 1 is K in bits/mm. load_fly_2d_table: 0, 1 or 3; a null pointer is no table. */
+ * head, 1 is K in bits/mm. load_fly_2d_table: 0, 1 or 3; a null pointer: no table. */
 RTC5_API UINT load_program_file(const char* Path);
 RTC5_API UINT load_correction_file(const char* Name, UINT No, UINT Dim);
 RTC5_API void select_cor_table(UINT HeadA, UINT HeadB);
@@ -96,13 +96,13 @@ RTC5_API long load_fly_2d_table(const char* Name, UINT No);
 
 /* ---- Running lists ---- */
 
-/* What is put goes on from set_start_list: list 1 (odd numbers) or 2 (even ones), also while it runs; load_list opens a
- * list only if it does not run (1, 2; 0: the free one, 3: the free one that ran to its end) and gives its number, or 0:
- * then no list is open. Pos of these and of execute_list_pos counts from the list's begin, behind its end it is 0; Pos
- * elsewhere counts from 0 over all lists. Mem2 of config_list may be -1: what is left. get_status: bit 0 a list is
- * running, 7 the card moves by itself, 15 paused; Pos is where the list is. read_status: bits 0, 1 list 1, 2 is being
- * loaded; 2, 3 its end was put; 4, 5 it is running; 6, 7 it ran to its end. load_sub: what is put up to list_return
- * becomes subroutine Index, 0 .. 1023, in list 3; with nothing before list_return there is none. */
+/* Commands are added to the list of set_start_list: list 1 (odd numbers) or 2 (even ones), also while it runs;
+ * load_list opens a list only if it does not run (1, 2; 0: the free one, 3: the free one that ran to its end) and gives
+ * its number, or 0: then no list is open. Pos of these and of execute_list_pos counts from the list's begin, behind its
+ * end it is 0; Pos elsewhere counts from 0 over all lists. Mem2 of config_list may be -1: the rest. get_status: bit 0 a
+ * list is running, 7 the card moves by itself, 15 paused; Pos is where the list is. read_status: bits 0, 1 list 1, 2 is
+ * being loaded; 2, 3 its end was put; 4, 5 it is running; 6, 7 it ran to its end. load_sub: the commands up to
+ * list_return become subroutine Index, 0 .. 1023, in list 3; with nothing before list_return there is none. */
 RTC5_API void config_list(UINT Mem1, UINT Mem2);
 RTC5_API void set_start_list(UINT ListNo);
 RTC5_API void set_start_list_1(void);
@@ -214,10 +214,10 @@ RTC5_API void set_mcbsp_out_ptr(UINT Number, ULONG_PTR SignalPtr);
  * a recording, its samples stay. get_value: a signal in the last 10 us. Signals:
  *
  *     0               1 while the laser is on
- *     1, 2; 4, 5      X, Y as head A, head B answer: what is put out, without the mirrors' lag
+ *     1, 2; 4, 5      X, Y as head A, head B answer: the output, without the mirrors' lag
  *     7, 8, 9         X, Y, Z after the correction
  *     10, 11; 13, 14  X, Y of head A, head B behind the table
- *     12, 15          Z as it is put out
+ *     12, 15          Z at the output
  *     16, 17; 18, 19  as 1, 2; 4, 5 while the laser is on, else -524288
  *     20, 21; 22, 23  X, Y of head A, head B as they are put out
  *     25, 26; 28, 29  X, Y of head A, head B behind matrix and offset, before the table

@@ -69,12 +69,12 @@ void Client::opened() {
 void Client::message(std::string_view text, bool is_text) {
     if (leaving_) return;
     if (!is_text)
-        return refuse(nullptr, 400, "invalid_input", "Messages are texts, this one was binary. Nothing was done.");
+        return refuse(nullptr, 400, "invalid_input", "Messages must be text; this one was binary. Nothing was done.");
     const bool counted = messages_.take("", service_.now().steady);
     // A short message that may be STOP is read beyond the limit, too.
     if (!counted && (text.size() > 200 || text.find("\"stop\"") == std::string_view::npos))
         return refuse(nullptr, 429, "limit",
-                      fmt::format("More than {:g} messages a second came in. This one was not read; send fewer.",
+                      fmt::format("More than {:g} messages a second were received. This one was not read; send fewer.",
                                   service_.settings().limits.messages_per_second));
     Result<json> object = read_object(text, "The message");
     if (!object) return answer(nullptr, panel::error_answer(object.error()));
@@ -97,11 +97,12 @@ void Client::message(std::string_view text, bool is_text) {
             return answer(request.id, panel::done());
         }
         if (!counted)
-            return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
+            return refuse(request.id, 429, "limit", "Too many messages were received. Nothing was done; send fewer.");
         request.fields = without(std::move(*object), {"id", "command"});
         return ask(request, name, false);
     }
-    if (!counted) return refuse(request.id, 429, "limit", "Too many messages came in. Nothing was done; send fewer.");
+    if (!counted)
+        return refuse(request.id, 429, "limit", "Too many messages were received. Nothing was done; send fewer.");
     if (says("query")) {
         const std::string name = (*object)["query"];
         request.fields = without(std::move(*object), {"id", "query"});
@@ -132,7 +133,7 @@ void Client::subscribe(const Request& request) {
     };
     if (role() == Role::none)
         return refuse(request.id, 401, "denied",
-                      "Who looks from another computer has a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
+                      "A remote client needs a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
     if (!wanted.is_object()) return wrong("To subscribe takes {\"channels\":[..],\"rate_hz\":20}.");
     double rate = first_rate;
     std::vector<std::string> names;
@@ -154,7 +155,7 @@ void Client::subscribe(const Request& request) {
         }
     }
     if (!(rate >= min_rate && rate <= max_rate))
-        return wrong(fmt::format("rate_hz is {:g}, but it is {:g} to {:g}.", rate, min_rate, max_rate));
+        return wrong(fmt::format("rate_hz is {:g}; it must be {:g} to {:g}.", rate, min_rate, max_rate));
     const std::int64_t number = ++newest_subscription_;
     const auto take = [this, number, rate, id = request.id](std::shared_ptr<panel::ChannelSet> set) {
         if (number == newest_subscription_) {
@@ -265,7 +266,7 @@ void Client::check_session(Time now) {
     seen_ = seen_ || mine != Role::none;
     if (mine != Role::none) return;
     if (seen_)
-        close_with_reason(policy, "The token holds no longer; pair again.");
+        close_with_reason(policy, "The token has expired or was revoked; pair again.");
     else if (now - opened_at_ > service_.settings().limits.header)
         close_with_reason(policy, "No token came.");
 }

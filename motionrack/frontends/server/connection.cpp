@@ -80,7 +80,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         if (is_http(error))
             return answer(
                 http_error(400, "invalid_input",
-                           fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())),
+                           fmt::format("This is not an HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
         peer_.stop_only = !hall_->open_connections.take_seat(this, peer_.network);
@@ -102,10 +102,9 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     }
 
     void too_large() {
-        answer(http_error(
-                   413, "limit",
-                   fmt::format("The body is longer than {} bytes, which is the most for this caller. Nothing was done.",
-                               admission_.body_limit)),
+        answer(http_error(413, "limit",
+                          fmt::format("The body is longer than {} bytes, the limit for this client. Nothing was done.",
+                                      admission_.body_limit)),
                false);
     }
 
@@ -124,7 +123,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
             if (is_http(error))
                 return self->answer(
                     http_error(400, "invalid_input",
-                               fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())),
+                               fmt::format("The body is not valid HTTP/1.1: {}. Nothing was done.", error.message())),
                     false);
             if (!error) self->handle();
         });

@@ -180,8 +180,8 @@ class GrblPorts::Inside {
         visitor.line->awaits_greeting = false;
         visitor.line->write({std::make_shared<const std::string>(
             settings_.resets_stop_all
-                ? "[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n"
-                : "[MSG:Another sender writes here. This one looks on; of it only ? and ! are heard]\r\n")});
+                ? "[MSG:Another sender has control. This one is an observer: only ? ! and resets are accepted]\r\n"
+                : "[MSG:Another sender has control. This one is an observer: only ? and ! are accepted]\r\n")});
     }
     void gone(Visitor* visitor) {
         if (visitor == writer_) {

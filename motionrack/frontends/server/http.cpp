@@ -92,14 +92,15 @@ Result<nlohmann::json> read_object(std::string_view text, std::string_view what)
         nlohmann::json value = nlohmann::json::parse(text);
         if (!value.is_object())
             return fail(ErrorKind::invalid_input,
-                        fmt::format("{} is no JSON object, {{\"name\":value, ..}}. Nothing was done.", what), {1, 1});
+                        fmt::format("{} is not a JSON object, {{\"name\":value, ..}}. Nothing was done.", what),
+                        {1, 1});
         return value;
     } catch (const nlohmann::json::parse_error& error) {
         const Place place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
-        return fail(
-            ErrorKind::invalid_input,
-            fmt::format("{} is no JSON: see line {}, column {}. Nothing was done.", what, place.line, place.column),
-            place);
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("{} is not valid JSON: see line {}, column {}. Nothing was done.", what, place.line,
+                                place.column),
+                    place);
     } catch (const nlohmann::json::exception&) {
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} has a number that is too large. Nothing was done.", what));

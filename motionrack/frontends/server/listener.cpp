@@ -44,7 +44,7 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (!error) acceptor.non_blocking(true, error);
     if (error == asio::error::address_in_use)
-        return fail(ErrorKind::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose "
+        return fail(ErrorKind::io, fmt::format("Port {} of {} is used by another program. Nothing was started; choose "
                                                "another with --port, or 0 for any free one.",
                                                port, address.to_string()));
     if (error == asio::error::access_denied)

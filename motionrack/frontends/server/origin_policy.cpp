@@ -59,16 +59,16 @@ bool OriginPolicy::knows(const std::string& name, const Peer& peer) const {
 std::string OriginPolicy::problem(const RequestHead& head) const {
     if (!knows(host_name(head.host), head.peer))
         return fmt::format(
-            "This computer is not known by the name \"{}\". Nothing was done; start the server with --allow-host NAME "
-            "if it is right.",
+            "This computer does not have the name \"{}\". Nothing was done; start the server with --allow-host NAME "
+            "if it is correct.",
             shown(head.host));
     if (head.origin.empty()) return "";
     const std::string origin = lower(head.origin);
     if (origin == fmt::format("{}://{}", head.peer.secure ? "https" : "http", lower(head.host))) return "";
     if (std::find(origins_.begin(), origins_.end(), origin) != origins_.end()) return "";
     return fmt::format(
-        "Pages from \"{}\" may not ask here. Nothing was done; start the server with --allow-origin ORIGIN if it is "
-        "right.",
+        "Pages from \"{}\" are not allowed. Nothing was done; start the server with --allow-origin ORIGIN if it is "
+        "correct.",
         shown(head.origin));
 }
 

@@ -73,7 +73,7 @@ Result<Page> Page::read(const fs::path& folder) {
         if (size > max_size || page.files_.size() >= max_files)
             return fail(
                 ErrorKind::invalid_input,
-                fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.",
+                fmt::format("This folder has more than {} MiB or {} files, so it is not a page. Nothing was started.",
                             max_size >> 20, max_files),
                 {}, folder.string());
         const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
@@ -107,7 +107,7 @@ const PageFile* Page::find(std::string_view path) const {
 
 HttpAnswer file_answer(const Page& page, const std::string& method, std::string_view path) {
     if (method != "GET" && method != "HEAD") {
-        HttpAnswer answer = http_error(405, "invalid_input", "The page is read with GET.");
+        HttpAnswer answer = http_error(405, "invalid_input", "The page needs the method GET.");
         answer.more.emplace_back("Allow", "GET, HEAD");
         return answer;
     }

@@ -59,10 +59,9 @@ Result<OpenFile> reserve(const std::string& link) {
                static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size())) == 0)
         return out;
     if (errno != EADDRINUSE) return failed("bind");
-    return fail(ErrorKind::io,
-                fmt::format("The pseudo-terminal was not made: another program that runs has the link {}. "
-                            "Give another path, or end that program.",
-                            link));
+    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: another running program has the link {}. "
+                                           "Give another path, or end that program.",
+                                           link));
 }
 
 /// Checks the path of the link: free, or a link left by an earlier run.
@@ -70,9 +69,10 @@ Result<void> check_place(const std::string& link) {
     struct stat about {};
     if (::lstat(link.c_str(), &about) != 0) return {};
     const auto refused = [&](const std::string& why) {
-        return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: {} {}. It was left as it is; give "
-                                               "another path, or take it away.",
-                                               link, why));
+        return fail(
+            ErrorKind::io,
+            fmt::format("The pseudo-terminal was not made: {} {}. It was not changed; give another path, or remove it.",
+                        link, why));
     };
     if (!S_ISLNK(about.st_mode)) return refused("is there and is not a symbolic link");
     std::error_code trouble;

@@ -57,7 +57,7 @@ bool Seats::end_a_caller() {
         return of_its_network(a) < of_its_network(b);
     });
     OpenConnection* const open = ended->open;
-    open->end("Too many connections are open; this one was let go for another.");
+    open->end("Connection limit reached; this connection was closed in favour of a newer one.");
     leave(open);
     return true;
 }

@@ -80,10 +80,11 @@ Result<void> SenderPort::take_control() {
 Result<void> SenderPort::may_stop() const {
     const auto holder = lease_.holder();
     if (resets_stop_all_ || !holder || holder->left || holder->session == id_) return {};
-    return fail(ErrorKind::refused,
-                fmt::format("Only this connection was reset, for {} drives the machine. ! holds it, STOP on the page "
-                            "ends it",
-                            holder->user.empty() ? "another session" : holder->user));
+    return fail(
+        ErrorKind::refused,
+        fmt::format(
+            "Only this connection was reset, because {} has control. ! holds the machine, STOP on the page ends it",
+            holder->user.empty() ? "another session" : holder->user));
 }
 
 /// A sender that loses control during its work must not continue the rest after the machine has stopped.

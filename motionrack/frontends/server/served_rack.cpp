@@ -52,7 +52,8 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
                 machine_->post([this, address] {
                     journal_->write(
                         machine_->now(), "audit",
-                        fmt::format("{} at the port for senders: closed, for no sender begins so", address));
+                        fmt::format("{} at the port for senders: closed, because senders do not begin like this",
+                                    address));
                 });
             };
         }

@@ -63,14 +63,12 @@ class Server::Inside {
         const asio::ip::address address = asio::ip::make_address(settings.address, error);
         if (error)
             return fail(ErrorKind::invalid_input,
-                        fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
+                        fmt::format("\"{}\" is not an IPv4 or IPv6 address. Nothing was started.", settings.address));
         if (!address.is_loopback() && !settings.tls)
-            return fail(
-                ErrorKind::refused,
-                fmt::format(
-                    "{} can be reached from other computers, which is served with TLS only. Nothing was started; "
-                    "add --tls-cert and --tls-key, or serve 127.0.0.1.",
-                    settings.address));
+            return fail(ErrorKind::refused,
+                        fmt::format("{} can be reached from other computers, which requires TLS. Nothing was started; "
+                                    "add --tls-cert and --tls-key, or serve 127.0.0.1.",
+                                    settings.address));
         std::unique_ptr<asio::ssl::context> tls;
         if (settings.tls) {
             MOTIONRACK_TRY(tls, read_tls(*settings.tls));

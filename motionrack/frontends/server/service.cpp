@@ -45,7 +45,7 @@ std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
                         shown(head.websocket_key)));
     if (head.has_more)
         return http_error(400, "invalid_input",
-                          "There are bytes behind the handshake, which was not answered so far. No WebSocket was "
+                          "Bytes follow the handshake, which is not yet answered. No WebSocket was "
                           "opened; wait for the answer.");
     return std::nullopt;
 }
@@ -78,15 +78,14 @@ Service::Service(ServerSettings settings, panel::Panel& panel, auth::Authenticat
 /// Checks for every request except STOP.
 std::optional<HttpAnswer> Service::refuse(const RequestHead& head) {
     if (head.peer.stop_only)
-        return http_error(
-            503, "limit",
-            fmt::format("All connections are taken: {} in all, or {} of {}. Only STOP is heard; close some, or try "
-                        "again.",
-                        settings_.limits.connections, settings_.limits.of_a_network, head.peer.network));
+        return http_error(503, "limit",
+                          fmt::format("All connections are in use: {} in total, or {} of {}. Only STOP is accepted; "
+                                      "close some, or try again.",
+                                      settings_.limits.connections, settings_.limits.of_a_network, head.peer.network));
     if (!requests_.take(head.peer.network, now().steady))
         return http_error(
             429, "limit",
-            fmt::format("More than {:g} requests a second came from this address. Nothing was done; ask less often.",
+            fmt::format("More than {:g} requests a second came from this address. Nothing was done; send fewer.",
                         settings_.limits.requests_per_second));
     return std::nullopt;
 }
@@ -103,7 +102,7 @@ Admission Service::admit(const RequestHead& head) {
     if (!target) return answer(http_answer(panel::error_answer(target.error())));
     if (target->path == "/api/stop") {
         if (head.method != "POST")
-            return answer(with(http_error(405, "invalid_input", "STOP is asked for with POST."), "Allow", "POST"));
+            return answer(with(http_error(405, "invalid_input", "STOP needs the method POST."), "Allow", "POST"));
         panel::Caller caller;
         if (const std::string token = token_of(head); !token.empty())
             if (const auto known = door_.authenticate(token, now().wall)) caller.user = known->user;
@@ -125,17 +124,17 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     const bool get = head.method == "GET", post = head.method == "POST";
     if (name == "pair") {
         if (!post)
-            return answer(with(http_error(405, "invalid_input", "Pairing is asked for with POST."), "Allow", "POST"));
+            return answer(with(http_error(405, "invalid_input", "Pairing needs the method POST."), "Allow", "POST"));
         out.body_limit = settings_.limits.strange_body;
         return out;
     }
     if (name == "forget") {
         if (post) return answer(forget(head));
-        return answer(with(http_error(405, "invalid_input", "Forgetting is asked for with POST."), "Allow", "POST"));
+        return answer(with(http_error(405, "invalid_input", "Forgetting needs the method POST."), "Allow", "POST"));
     }
     if (name == "stream")
         return answer(
-            with(http_error(426, "invalid_input", "This address is for WebSockets."), "Upgrade", "websocket"));
+            with(http_error(426, "invalid_input", "This address accepts only WebSockets."), "Upgrade", "websocket"));
     out.caller.role = role_without_token(head.peer);
     out.caller.session = std::string("h");
     if (!head.authorization.empty()) {
@@ -145,7 +144,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     }
     if (out.caller.role == Role::none)
         return answer(
-            http_error(401, "denied", "Who asks from another computer has a token. Pair first: POST /api/pair."));
+            http_error(401, "denied", "A remote request needs a token. Nothing was done. Pair first: POST /api/pair."));
     if (name == "openapi.json" && get) {
         HttpAnswer document;
         document.body = std::make_shared<const std::string>(openapi_);
@@ -204,7 +203,7 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
     const std::string code = text("code"), name = text("name");
     if (code.empty() || name.empty() || fields->size() != 2)
         return http_error(400, "invalid_input",
-                          "Pairing takes {\"code\":\"ABCD-EFGH\",\"name\":\"anna\"}. Nobody was paired.");
+                          "Pairing takes {\"code\":\"ABCD-EFGH\",\"name\":\"anna\"}. The pairing was refused.");
     const auto paired = door_.pair(code, name, head.peer.address, now());
     panel::Answer answer;
     if (paired) {
@@ -248,7 +247,7 @@ void Service::ask(panel::Caller caller, const std::string& address, const panel:
         return reply(panel::refused_answer(
             429, "limit",
             fmt::format(
-                "More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
+                "More than {:g} queries a second came from this address. The query was not answered; send fewer.",
                 settings_.limits.requests_per_second)));
     caller.address = address;
     const bool is_known = !caller.user.empty() || caller.role >= row.role;

@@ -43,7 +43,7 @@ const Exchange exchanges[] = {
     {"2 no number", "GX\n", "error:2\r\n"},
     {"3 no such command", "$G1\n", "error:3\r\n"},
     {"2 a setting without a number", "$FOO\n", "error:2\r\n"},
-    {"3 no such setting", "$99=1\n", "[MSG:There is no setting $99]\r\nerror:3\r\n"},
+    {"3 no such setting", "$99=1\n", "[MSG:Unknown setting $99]\r\nerror:3\r\n"},
     {"4 a negative setting", "$10=-1\n", "error:4\r\n"},
     {"4 a negative word", "G4 P-1\n", "error:4\r\n"},
     {"5 homing is off", "$H\n", "error:5\r\n"},

@@ -169,7 +169,7 @@ TEST(AGrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
     EXPECT_EQ(b.ask("\x18", 0.1), banner + "[MSG:Anna drives.]\r\n");
     EXPECT_EQ(b.machine->state(), operate::MachineState::moving);
     b.session->observe("\x18");
-    EXPECT_THAT(b.ask("", 0.1), StartsWith("[MSG:The reset of one who looks on"));
+    EXPECT_THAT(b.ask("", 0.1), StartsWith("[MSG:The reset of an observer"));
     EXPECT_EQ(b.machine->state(), operate::MachineState::moving);
     b.until_idle();
     EXPECT_NEAR(b.axis(0), 100, 1e-3);

@@ -83,7 +83,7 @@ TEST_F(ADamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
 TEST_F(ADamagedJournal, DoesNotTakeWhatAnOlderRunKeptForTheLastOne) {
     make();
     ASSERT_TRUE(open()->close());
-    EXPECT_THAT(next().doubts, ElementsAre("what it keeps of 'machine' is of run 1, not of the last one, 2"));
+    EXPECT_THAT(next().doubts, ElementsAre("the stored value of 'machine' is of run 1, not of the last one, 2"));
 }
 
 TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
@@ -96,8 +96,8 @@ TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
         {"DELETE FROM entry WHERE number = 1", "entries 1 to 1 were removed"},
         {"DELETE FROM entry WHERE number > 1", "entries 2 to 3 were removed"},
         {"DELETE FROM entry", "entries 1 to 3 were removed"},
-        {"UPDATE chain SET link = 'abc' WHERE name = 'head'", "entry 3 is not the one that was written last"},
-        {"DELETE FROM chain", "entry 3 is not the one that was written last"},
+        {"UPDATE chain SET link = 'abc' WHERE name = 'head'", "entry 3 is not the last written one"},
+        {"DELETE FROM chain", "entry 3 is not the last written one"},
     };
     for (const auto& [sql, told] : changes) {
         make();
@@ -192,8 +192,8 @@ TEST_F(ADamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
     change("DELETE FROM run");
     const auto refused = Journal::open(path_);
     ASSERT_FALSE(refused) << "it would be taken for a journal that begins";
-    EXPECT_THAT(refused.error().message,
-                testing::AllOf(HasSubstr("none of these runs"), HasSubstr("Nothing was started. Keep the file")));
+    EXPECT_THAT(refused.error().message, testing::AllOf(HasSubstr("entries without their runs"),
+                                                        HasSubstr("Nothing was started. Keep the file")));
 }
 
 /// As left by a killed program: the last writes are in the log beside the file.

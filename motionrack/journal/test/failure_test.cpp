@@ -27,7 +27,7 @@ class AJournalOnABadDisk : public AJournal {
     void expect_no_clean_end(std::unique_ptr<Journal> journal) const {
         const Result<void> closed = journal->close();
         ASSERT_FALSE(closed);
-        EXPECT_THAT(closed.error().message, HasSubstr("the next start will trust no position"));
+        EXPECT_THAT(closed.error().message, HasSubstr("no position is valid at the next start"));
         journal.reset();
         const auto next = open();
         ASSERT_TRUE(next);

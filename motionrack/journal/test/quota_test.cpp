@@ -37,7 +37,7 @@ TEST_F(AJournal, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
         }
     }
     ASSERT_GT(count(), 2u);
-    EXPECT_THAT(told[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file away")));
+    EXPECT_THAT(told[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file first")));
     EXPECT_THAT(told[1], HasSubstr("has reached its quota of 0.4 MB: entries before number"));
     const auto entries = journal->read({0, "", 10000});
     EXPECT_LT(entries->size(), 2000u);

@@ -81,7 +81,8 @@ RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersPlaceAndNoOthers, ()) {
 
 TEST(LivePort, SaysThatThereIsNoSuchFile) {
     for (const char* kind : {"uio:", "memory:", "port:"})
-        EXPECT_THAT(refusal(std::string(kind) + "/dev/uio-that-is-not"), HasSubstr("There is no /dev/uio-that-is-not"));
+        EXPECT_THAT(refusal(std::string(kind) + "/dev/uio-that-is-not"),
+                    HasSubstr("/dev/uio-that-is-not does not exist"));
 }
 
 TEST(LivePort, SaysThatAFileIsTooShortAndByHowMuch) {
@@ -132,7 +133,7 @@ TEST(LivePort, KeepsItsCardFromASecondPortUntilItEnds) {
             const auto second = open(other + path + ",offset=2");
             ASSERT_FALSE(second);
             EXPECT_EQ(second.error().kind, ErrorKind::refused);
-            EXPECT_THAT(second.error().message, HasSubstr("The card at " + path + " is open already"));
+            EXPECT_THAT(second.error().message, HasSubstr("The card at " + path + " is already open"));
         }
         EXPECT_EQ(refusal("memory:" + path + ",offset=8"), "") << "another card in the same file";
         first->reset();
@@ -147,7 +148,7 @@ TEST(LivePort, KeepsItsCardFromOtherPrograms) {
     ASSERT_TRUE(port) << port.error().message;
     const pid_t child = ::fork();
     if (child == 0) {
-        const bool refused = refusal("port:" + path).find("is open already") != std::string::npos;
+        const bool refused = refusal("port:" + path).find("is already open") != std::string::npos;
         ::_exit(refused ? 0 : 1);
     }
     int status = 0;
@@ -185,7 +186,7 @@ TEST(LivePort, FindsAUioMapByItsFolderInSys) {
     folder.file("uio7/maps/map0/size", "what\n");
     const auto no_number = read_uio_map(folder.path() + "/uio7", 0);
     ASSERT_FALSE(no_number);
-    EXPECT_THAT(no_number.error().message, HasSubstr("size holds no number"));
+    EXPECT_THAT(no_number.error().message, HasSubstr("size has no number"));
 }
 
 TEST(LivePort, ItsClockNeverWaitsTooShort) {

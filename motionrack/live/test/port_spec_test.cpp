@@ -47,20 +47,20 @@ TEST(LivePortSpec, SaysWhatIsWrongAndTheForm) {
     const std::pair<const char*, const char*> cases[] = {
         {"", "it has no ':'"},
         {"/dev/uio0", "it has no ':'"},
-        {"usb:/dev/x", "there is no 'usb:'"},
+        {"usb:/dev/x", "unknown kind 'usb:'"},
         {"uio:", "the path is empty"},
         {"memory:/x,offset", "'offset' has no '='"},
         {"memory:/x,", "'' has no '='"},
-        {"memory:/x,offset=-2", "offset is '-2', which is no number"},
-        {"memory:/x,offset=0x", "offset is '0x', which is no number"},
-        {"memory:/x,offset=99999999999999999999", "which is no number"},
+        {"memory:/x,offset=-2", "offset is '-2', which is not a number"},
+        {"memory:/x,offset=0x", "offset is '0x', which is not a number"},
+        {"memory:/x,offset=99999999999999999999", "which is not a number"},
         {"memory:/x,offset=3", "registers of 16 bits are at even addresses"},
         {"memory:/x,stride=3", "even number of bytes apart"},
-        {"memory:/x,stride=8192", "stride is 8192, but may be 2 to 4096"},
-        {"memory:/x,width=12", "width is 12, but may be 8 or 16"},
+        {"memory:/x,stride=8192", "stride is 8192; it must be 2 to 4096"},
+        {"memory:/x,width=12", "width is 12; it must be 8 or 16"},
         {"memory:/x,map=1", "only uio: has maps"},
         {"memory:/x,interrupt=", "'interrupt=none' is none"},
-        {"memory:/x,irq=7", "there is no 'irq'"},
+        {"memory:/x,irq=7", "unknown key 'irq'"},
     };
     for (const auto& [text, sentence] : cases) {
         const auto spec = read_port_spec(text);

@@ -7,7 +7,7 @@ namespace motionrack::live {
 
 Result<File> File::open(const std::string& path, int) {
     return fail(ErrorKind::refused,
-                fmt::format("{} cannot be a card: Windows has none as files. Nothing was opened. Use "
+                fmt::format("{} cannot be a card: Windows does not show cards as files. Nothing was opened. Use "
                             "port:inpoutx64.dll,offset=N for a card at I/O ports.",
                             path));
 }

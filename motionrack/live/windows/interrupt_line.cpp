@@ -6,10 +6,9 @@
 namespace motionrack::live {
 
 Result<InterruptLine> InterruptLine::open(const std::string& path) {
-    return fail(ErrorKind::refused,
-                fmt::format("interrupt={} cannot be had on Windows, which brings no interrupt of a card "
-                            "to a program. Nothing was opened. Leave interrupt= out.",
-                            path));
+    return fail(ErrorKind::refused, fmt::format("interrupt={} is not available on Windows, which delivers no card "
+                                                "interrupts to programs. Nothing was opened. Leave interrupt= out.",
+                                                path));
 }
 
 bool InterruptLine::wait(Duration timeout, Clock& clock) {

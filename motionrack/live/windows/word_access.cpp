@@ -86,20 +86,20 @@ Result<void> check_ports(const PortSpec& spec, std::uint64_t length) {
 
 Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64_t length) {
     if (spec.reach != AddressSpace::port)
-        return fail(ErrorKind::refused,
-                    "uio: and memory: are files of Linux; Windows maps no card for a program. Nothing was opened. Use "
-                    "port:inpoutx64.dll,offset=N for a card at I/O ports, or a computer with Linux.");
+        return fail(
+            ErrorKind::refused,
+            "uio: and memory: are files of Linux; Windows does not map cards into programs. Nothing was opened. Use "
+            "port:inpoutx64.dll,offset=N for a card at I/O ports, or a computer with Linux.");
     MOTIONRACK_CHECK(check_ports(spec, length));
     LateLibrary file(spec.path.c_str());
     PortLibrary library;
     library.find_in(file);
     if (!file.trouble().empty())
-        return fail(
-            ErrorKind::io,
-            fmt::format("{} cannot be used: {}. Windows lets no program reach I/O ports without a driver, which "
-                        "the library InpOut32 brings (inpoutx64.dll, for 32 bits inpout32.dll). Nothing was "
-                        "opened. Put that file beside the program, or its whole path behind port:.",
-                        spec.path, file.trouble()));
+        return fail(ErrorKind::io,
+                    fmt::format("{} cannot be used: {}. Windows requires a driver for I/O ports, which the library "
+                                "InpOut32 provides (inpoutx64.dll, for 32 bits inpout32.dll). Nothing was "
+                                "opened. Put that file into the folder of the program, or its full path after port:.",
+                                spec.path, file.trouble()));
     if (library.is_open() == 0)
         return fail(
             ErrorKind::io,

@@ -153,7 +153,7 @@ TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsTold) {
     const auto why_not = [&](const Load& load) { return prepare(job, load).error().text(); };
     EXPECT_THAT(notes(file(5184, 403, {})), testing::Not(testing::Contains(HasSubstr("checksum"))));
     EXPECT_THAT(notes(file(5184, 310, {rtc5::ct5_bytes - 1, rtc5::ct5_bytes - 4})),
-                testing::Contains("x.ct5 is of an older program, whose checksum is not known; it was not checked."));
+                testing::Contains("x.ct5 is from an older program, whose checksum is unknown; it was not checked."));
     for (const std::size_t turned : {std::size_t{4}, std::size_t{41}, std::size_t{99'996}, rtc5::ct5_bytes - 1})
         for (const std::int32_t program : {403, 310})
             EXPECT_THAT(why_not(file(5184, program, {turned})), HasSubstr("is damaged. The file was not loaded"));

@@ -171,21 +171,20 @@ TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
         "4\nspacing_mm = 20\n");
     EXPECT_THAT(
         refusal(job),
-        HasSubstr(
-            "Part 4 does not come to the sensor within 1000 s: the belt goes 50 until then, the part is 60 away"));
+        HasSubstr("Part 4 does not reach the sensor within 1000 s: the belt moves 50 until then, the part is 60 away"));
 }
 
 TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
     const std::string all = errors_of(
         "[drawing]\ntext = 'N{m}'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
         "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");
-    EXPECT_THAT(all, HasSubstr("j.toml:2:8: Character 2 of the text: in braces"));
-    EXPECT_THAT(all, HasSubstr("j.toml:7:21: The card makes up for tracking errors of encoders only"));
+    EXPECT_THAT(all, HasSubstr("j.toml:2:8: Character 2 of the text: braces"));
+    EXPECT_THAT(all, HasSubstr("j.toml:7:21: The card compensates tracking errors of encoders only"));
     EXPECT_THAT(all, HasSubstr("j.toml:8:2: 3 parts need a 'spacing_mm'"));
-    EXPECT_THAT(all, HasSubstr("j.toml:8:2: McBSP words say where the part is"));
+    EXPECT_THAT(all, HasSubstr("j.toml:8:2: McBSP words have absolute positions"));
     EXPECT_THAT(all, HasSubstr("j.toml:10:9: Equidistant parts need no sensor"));
     EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[parts]\ncount = 2\nspacing_mm = 5\n"),
-                HasSubstr("a belt or table that moves"));
+                HasSubstr("a moving belt or table"));
     EXPECT_THAT(errors_of("[drawing]\ntext = 'A'\n[belt]\nvelocity_mm_s = 1\n[parts]\npart_positions_mm = [0, 7, 5]\n"),
                 HasSubstr("j.toml:6:28: 'part_positions_mm' must be"));
     EXPECT_THAT(

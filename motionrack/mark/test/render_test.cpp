@@ -116,7 +116,7 @@ TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
     EXPECT_TRUE(near.out.on.overflows.empty());
     ASSERT_EQ(warnings_of(near.out).size(), 1u);
     EXPECT_THAT(warnings_of(near.out)[0], HasSubstr("mm are left at the right edge of the field"));
-    EXPECT_THAT(outcome_text(near.job, near.out), HasSubstr("mm are left in the field, at its right edge"));
+    EXPECT_THAT(outcome_text(near.job, near.out), HasSubstr("mm to the right edge of the field"));
     const Shown over =
         shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     ASSERT_FALSE(over.out.on.overflows.empty());

@@ -82,10 +82,10 @@ TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
 
 TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
     const std::string why = refusal(job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'")), long_svg);
-    EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks go up to"));
-    const std::size_t at = why.find("It just fits at ");
+    EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks leave the field by up to"));
+    const std::size_t at = why.find("The limit is ");
     ASSERT_NE(at, std::string::npos) << why;
-    const double fits = std::stod(why.substr(at + 16));
+    const double fits = std::stod(why.substr(at + 13));
     MarkingJob job = job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'"));
     job.belt.speed = fits * 0.999;
     EXPECT_EQ(refusal(job, long_svg), "");
@@ -100,18 +100,18 @@ TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
 TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
     const std::string belt = "velocity_mm_s = 100", fly = "mode = 'encoder'";
     EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"),
-                HasSubstr("never is in the field"));
+                HasSubstr("is never inside the field"));
     EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M65 0 H70'/></svg>"),
-                HasSubstr("has left the field 10.431 mm before"));
+                HasSubstr("has left the field by 10.431 mm before"));
     EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg),
-                HasSubstr("leaves nothing of a field of 121."));
+                HasSubstr("exceeds a field of 121."));
     EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("Waits need a correction"));
-    EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never backwards"));
+    EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never reverses"));
     EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
                 HasSubstr("two values of 16 bits"));
     EXPECT_THAT(
         errors_of("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 10\n[fly]\nmode = 'encoder'\nwait_mode = 'auto'\n"),
-        HasSubstr("j.toml:7:13: Waits are for drawings along a belt"));
+        HasSubstr("j.toml:7:13: Waits need a belt"));
 }
 
 TEST(Waits, GoTogetherWithPartsAndProfiles) {

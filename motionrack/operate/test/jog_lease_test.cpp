@@ -109,7 +109,7 @@ TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {
     o.run(2);
     EXPECT_THAT(o.states, testing::ElementsAre("disabled", "standstill", "jogging", "standstill"));
     EXPECT_DOUBLE_EQ(o.x(), 0);
-    EXPECT_THAT(o.machine->status().reason, HasSubstr("the - end of its travel was reached. Move it the other way."));
+    EXPECT_THAT(o.machine->status().reason, HasSubstr("the - soft limit was reached. Move it the other way."));
 }
 
 TEST(AJogLease, OfTwoAxesIsLetGoOneByOne) {

@@ -186,7 +186,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
             open();
             EXPECT_FALSE(journal_->before()->clean);
             const LastKnownPositions last = read_last(*journal_->before(), table());
-            EXPECT_THAT(last.sentence, HasSubstr("was cut off"));
+            EXPECT_THAT(last.sentence, HasSubstr("was interrupted"));
             EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
             EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
             EXPECT_NEAR(last.axes[0].true_position, 50, 12);  // at most 0.1 s old
@@ -201,7 +201,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     EXPECT_NEAR(machine->status().axes[0].true_position, 50, 12);
     EXPECT_FALSE(machine->status().axes[0].position_valid);
     ASSERT_EQ(machine->status().alarms.size(), 1u);
-    EXPECT_THAT(machine->status().alarms[0].text, HasSubstr("cut off"));
+    EXPECT_THAT(machine->status().alarms[0].text, HasSubstr("interrupted"));
     EXPECT_EQ(machine->status().alarms[0].source, "last run");
     ASSERT_TRUE(machine->enable(true));
     EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
@@ -223,7 +223,7 @@ TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
     EXPECT_THAT(texts("setting"), ElementsAre("Feed override 50 %.", "Single block on."));
     EXPECT_THAT(texts("alarm"), Contains(HasSubstr("emergency stop")));
     EXPECT_THAT(texts("position"), Contains(HasSubstr("not trusted any more")));
-    EXPECT_THAT(texts("job"), Contains(HasSubstr("broke off at line 1")));
+    EXPECT_THAT(texts("job"), Contains(HasSubstr("failed at line 1")));
 }
 
 TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
@@ -235,7 +235,7 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
         const LastKnownPositions last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
         ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
         for (const InitialAxisState& one : last.axes) EXPECT_FALSE(one.position_valid) << kept;
-        EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;
+        EXPECT_THAT(last.sentence, HasSubstr("interrupted")) << kept;
     }
 }
 
@@ -245,11 +245,11 @@ TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
     EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].position_valid);
     const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {"its end does not fit"}, {}}, table());
     EXPECT_FALSE(last.axes[0].position_valid);
-    EXPECT_THAT(last.sentence, HasSubstr("The journal is not to be trusted: its end does not fit. No position is"));
+    EXPECT_THAT(last.sentence, HasSubstr("The journal is invalid: its end does not fit. No position is"));
     const LastKnownPositions none = read_last({1, true, 0, {}, {}, {}}, table());
     ASSERT_FALSE(none.axes.empty());
     EXPECT_FALSE(none.axes[0].position_valid) << "without a record it may stand anywhere";
-    EXPECT_THAT(none.sentence, HasSubstr("does not say where the machine stood"));
+    EXPECT_THAT(none.sentence, HasSubstr("has no axis positions"));
     const LastKnownPositions changed =
         read_last({1, true, 0, {{"machine", kept}}, {}, "Entry 3 was changed."}, table());
     EXPECT_TRUE(changed.axes[0].position_valid);

@@ -129,7 +129,7 @@ TEST(ARealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
         EXPECT_FALSE(m.service().on());
         ASSERT_EQ(o.alarms().size(), 1U);
         EXPECT_EQ(o.alarms()[0].source, "card bench");
-        EXPECT_THAT(o.alarms()[0].text, AllOf(HasSubstr("still drives after 100 looks"),
+        EXPECT_THAT(o.alarms()[0].text, AllOf(HasSubstr("still moves after 100 polls"),
                                               HasSubstr("press the emergency stop that cuts the motors' power")));
         m.reset(dora);
     });
@@ -164,7 +164,7 @@ TEST(ARealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
     });
     o.run(1.1);
     ASSERT_EQ(o.said.size(), 1U);
-    EXPECT_THAT(o.said[0], HasSubstr("had not ended 100 ms after the stop and was broken off"));
+    EXPECT_THAT(o.said[0], HasSubstr("had not ended 100 ms after the stop and was aborted"));
 }
 
 TEST(ARealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
@@ -207,7 +207,7 @@ TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
         });
         o.at(0.2, [&](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::standstill);
-            EXPECT_THAT(m.status().reason, AllOf(HasSubstr("was not begun"), HasSubstr(says)));
+            EXPECT_THAT(m.status().reason, AllOf(HasSubstr("was not started"), HasSubstr(says)));
         });
         o.at(0.25, [&](Machine&) { file.memory('\xFF'); });
         o.call(0.3, "ReadLPS", {{"axis", 1}});
@@ -226,8 +226,8 @@ TEST(ARealCard, StandsForACardThatMovesNoAxis) {
     };
     EXPECT_THAT(refused({"m=port:/dev/zero"}), HasSubstr("Card m moves X, Y of the machine"));
     EXPECT_THAT(refused({"glass=port:/dev/zero"}), HasSubstr("Card glass is an ioflex02"));
-    EXPECT_THAT(refused({"none=port:/dev/zero"}), HasSubstr("its cards are: m, bench, glass"));
-    EXPECT_THAT(refused({"bench=port:/dev/zero", "bench=port:/dev/null"}), HasSubstr("Card bench has two places"));
+    EXPECT_THAT(refused({"none=port:/dev/zero"}), HasSubstr("the cards of this rack are: m, bench, glass"));
+    EXPECT_THAT(refused({"bench=port:/dev/zero", "bench=port:/dev/null"}), HasSubstr("Card bench has two addresses"));
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");
 }
 

@@ -66,12 +66,13 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackUntrusted) {
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y3\nM2\n", "p")); });
     o.run(2);
-    EXPECT_EQ(o.said, (std::vector<std::string>{
-                          "Card m is in service: it was reset, and nothing else drives it. The position of X, Y is not "
-                          "trusted any more.",
-                          "Written.", "Y drives.", "640 pulses",
-                          "The service of card m has ended; the position of X, Y is not trusted: home it, or declare "
-                          "where it stands."}));
+    EXPECT_EQ(o.said,
+              (std::vector<std::string>{
+                  "Card m is in service: it was reset, and only its functions drive it. The position of X, Y is not "
+                  "trusted any more.",
+                  "Written.", "Y drives.", "640 pulses",
+                  "The service of card m has ended; the position of X, Y is not trusted: home it, or declare its "
+                  "position."}));
     EXPECT_NEAR(o.x(), 12, 1e-9);
     EXPECT_NEAR(o.y(), 3, 1e-9);
 }
@@ -179,7 +180,7 @@ TEST(AService, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
     });
     o.run(1);
     ASSERT_EQ(o.said.size(), 5u);
-    EXPECT_EQ(o.said[3], "refused: ReadLPS was not called: wait still works. Wait until it ends, or end the service.");
+    EXPECT_EQ(o.said[3], "refused: ReadLPS was not called: wait still runs. Wait until it ends, or end the service.");
     EXPECT_EQ(o.said[4], "Stopped on request; X stands still.");
 }
 

@@ -39,10 +39,10 @@ constexpr BrokenJog broken_jogs[] = {
     {"encoder_swapped", false, 50, "encoder.swapped", false, false, behind},
     {"encoder_input_held", false, 50, "m.xeca", true, false, behind},
     {"nothing", false, 50, "encoder.broken_a=0", false, true, ""},
-    {"servo_stall", true, 100, "motor.stall", false, false, "does not move as it is driven"},
-    {"servo_encoder_dead", true, 100, "encoder.broken_a", false, false, "does not move as it is driven"},
+    {"servo_stall", true, 100, "motor.stall", false, false, "does not follow"},
+    {"servo_encoder_dead", true, 100, "encoder.broken_a", false, false, "does not follow"},
     {"servo_encoder_swapped", true, 100, "encoder.swapped", false, false, behind},
-    {"servo_without_voltage", true, 100, "X.drive", true, false, "does not move as it is driven"},
+    {"servo_without_voltage", true, 100, "X.drive", true, false, "does not follow"},
     {"servo_estop", true, 100, "estop", true, true, "emergency stop"},
     {"servo_pushed", true, 100, "motor.push=1000", false, true, ""},
 };
@@ -204,7 +204,7 @@ TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     o.at(0.65, [](Machine& m) {
         ASSERT_THAT(m.status().alarms, testing::SizeIs(1)) << "above 0.5 mm";
         EXPECT_EQ(m.status().alarms[0].source, "following error");
-        EXPECT_THAT(m.status().alarms[0].text, HasSubstr("above 0.5 mm, where it is told"));
+        EXPECT_THAT(m.status().alarms[0].text, HasSubstr("above the warning limit of 0.5 mm"));
         EXPECT_EQ(m.state(), MachineState::moving);
     });
     o.run(2);

@@ -143,7 +143,7 @@ TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
     a.at(0.6, anna, "mdi", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.at(0.8, eve, "status", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["status"]["reason"],
-                  "STOP by bert: line 1 was stopped. Reset, then start anew. The positions are kept.");
+                  "STOP by bert: line 1 was stopped. Reset, then start again. The positions are kept.");
     });
     a.at(1, anna, "mdi", {{"text", "G1 X0 F1200"}}, refused(409, "Take control first"));
     a.good(1.2, "take_control");
@@ -194,7 +194,7 @@ TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     a.at(0.2, anna, "read_register", {{"card", "m"}, {"bits", 16}, {"address", 0}},
          [](const Answer& answer) { EXPECT_TRUE(answer.body["value"].is_number()) << answer.body; });
     a.at(0.3, anna, "read_register", {{"card", "m"}, {"bits", 32}, {"address", 0}}, refused(409, "not of 32"));
-    a.at(0.3, anna, "read_register", {{"card", "q"}, {"bits", 16}, {"address", 0}}, refused(400, "no card"));
+    a.at(0.3, anna, "read_register", {{"card", "q"}, {"bits", 16}, {"address", 0}}, refused(400, "Unknown card"));
     a.good(0.4, "enable", {{"on", true}});
     a.good(0.5, "mdi", {{"text", "G1 X30 F600"}});
     a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}},

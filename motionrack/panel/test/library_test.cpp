@@ -41,7 +41,7 @@ TEST(ALibraryOnThePage, IsDeclaredWithRangesAndUnits) {
         EXPECT_EQ(set_v["arguments"][0]["values"][3]["meaning"], "U");
     });
     a.at(0.1, eve, "library", {{"name", "glass"}}, is_refused(409, "no function library"));
-    a.at(0.1, eve, "library", {{"name", "nothing"}}, is_refused(400, "its cards are: m, free, glass"));
+    a.at(0.1, eve, "library", {{"name", "nothing"}}, is_refused(400, "the cards of this rack are: m, free, glass"));
     a.at(0.1, eve, "rack", json::object(), [](const Answer& answer) {
         EXPECT_GT(answer.body["cards"][0]["functions"], 57);
         EXPECT_EQ(answer.body["cards"][2]["functions"], 0);
@@ -87,7 +87,7 @@ TEST(ALibraryOnThePage, IsCalledAndWrittenDown) {
         EXPECT_EQ(answer.body["status"]["state"], "service");
     });
     a.at(0.9, anna, "service", {{"card", "m"}, {"on", false}}, [](const Answer& answer) {
-        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("home it, or declare where it stands"));
+        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("home it, or declare its position"));
     });
     a.at(1.1, eve, "events", {{"limit", 100}}, [](const Answer& answer) {
         std::string all;

@@ -39,7 +39,7 @@ TEST(AFollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
     EXPECT_TRUE(outcome.position_valid) << "the pulses are right";
     EXPECT_EQ(outcome.axes[0].actual_end, 40);
     EXPECT_THAT(warnings_of(outcome), HasSubstr("the following error of X was 0."));
-    EXPECT_THAT(warnings_of(outcome), HasSubstr("above 0.5 mm"));
+    EXPECT_THAT(warnings_of(outcome), HasSubstr("above the warning limit of 0.5 mm"));
 }
 
 TEST(AFollowingError, BelowItsWarningLimitIsNotTold) {

@@ -95,7 +95,7 @@ TEST(GratingBusInARack, WhatDoesNotFitIsRefusedWithItsPlace) {
     EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\nscales = 128\nperiod_us = 12\n"),
                 AllOf(HasSubstr("r.toml:3"), HasSubstr("14090.0 ns")));
     EXPECT_THAT(errors("[card.c1]\ntype = \"grating_bus\"\n[card.c2]\ntype = \"grating_bus\"\nscales = 3\n"),
-                HasSubstr("all cards of a bus take the same number"));
+                HasSubstr("all cards of a bus read the same number"));
     EXPECT_THAT(errors("[card.d]\ntype = \"grating_decoder\"\n[card.e]\ntype = \"grating_decoder\"\n"),
                 HasSubstr("two decoders"));
     EXPECT_THAT(errors(std::string(three_cards) + "[wires]\n\"decoder.a4\" = \"estop\"\n"), HasSubstr("decoder.a4"));
@@ -146,7 +146,7 @@ TEST(GratingBusInARack, AWrongListIsRefusedWithItsPlace) {
     EXPECT_EQ(errors("addresses = \"5, 2, 9\"\n"), "");
     EXPECT_EQ(errors("addresses = \"5, 2, 9\"\nscales = 3\n"), "") << "the same, said twice";
     EXPECT_THAT(errors("addresses = \"5, 2, 5\"\n"), AllOf(HasSubstr("r.toml:3"), HasSubstr("the address 5 twice")));
-    EXPECT_THAT(errors("addresses = \"5 2\"\n"), HasSubstr("no comma"));
+    EXPECT_THAT(errors("addresses = \"5 2\"\n"), HasSubstr("must be a comma"));
     EXPECT_THAT(errors("addresses = \"5, 2\"\nscales = 3\n"), HasSubstr("leave those two out"));
     EXPECT_THAT(errors("addresses = \"5, 2\"\nfirst = 1\n"), HasSubstr("leave those two out"));
     EXPECT_THAT(errors("addresses = \"5, 2\"\n[card.d]\ntype = \"grating_decoder\"\n"),

@@ -97,7 +97,7 @@ TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
     EXPECT_EQ(out.ended.error().kind, ErrorKind::machine);
-    EXPECT_THAT(out.ended.error().message, HasSubstr("Shift the switch by half a motor turn"));
+    EXPECT_THAT(out.ended.error().message, HasSubstr("Shift the switch by half a motor revolution"));
     EXPECT_FALSE(out.axes[1].begun);
     EXPECT_DOUBLE_EQ(out.axes[1].machine_position, 7);
     EXPECT_THAT(homing_text(out), HasSubstr("not begun"));
@@ -118,7 +118,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"),
                 HasSubstr("type 4 needs the encoder's index"));
     EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nsearch_velocity_mm_s = 101\n"),
-                HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
+                HasSubstr("the speed is 101 mm/s; it must be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
 }
 
@@ -192,7 +192,7 @@ TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
     EXPECT_THAT(warnings, HasSubstr("Axis X needs home_offset_mm or index_after_mm to home to its index"));
     const HomingOutcome out = homed(text);
     ASSERT_FALSE(out.ended);
-    EXPECT_THAT(out.ended.error().message, HasSubstr("give it home_offset_mm (what the index is called)"));
+    EXPECT_THAT(out.ended.error().message, HasSubstr("give it home_offset_mm (position of the index)"));
 }
 
 TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
@@ -202,7 +202,7 @@ TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
     ASSERT_TRUE(reading.config);
     std::string warnings;
     for (const Error& warning : reading.warnings) warnings += warning.message + "\n";
-    EXPECT_THAT(warnings, HasSubstr("index_after_mm of axis X is not looked at"));
+    EXPECT_THAT(warnings, HasSubstr("index_after_mm of axis X is ignored"));
 }
 
 TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {

@@ -193,8 +193,7 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
     }
     EXPECT_THAT(bench.session->set_part("head.height", 1).error().message,
                 HasSubstr("head has no quantity 'height'; it has: spot_x_mm"));
-    EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message,
-                HasSubstr("There is no quantity 'tail.light'"));
+    EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message, HasSubstr("Unknown quantity 'tail.light'"));
 }
 
 TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
@@ -282,7 +281,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
         EXPECT_FALSE(reading.config) << text;
         return reading.errors.empty() ? std::string() : all_texts(reading.errors);
     };
-    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"), HasSubstr("6:8: belt line: there is no card 'none'"));
+    EXPECT_THAT(refused("[belt.line]\ncard = \"none\"\n"), HasSubstr("6:8: belt line: unknown card 'none'"));
     EXPECT_THAT(refused("[belt.line]\ncard = \"m\"\n"), HasSubstr("one of type rtc5 marks"));
     EXPECT_THAT(refused("[belt.scan]\n"), HasSubstr("cannot be the name"));
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
@@ -293,13 +292,14 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
                 HasSubstr("encoder input 0 of card scan has the encoder of one"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"),
                 HasSubstr("2550 us is possible"));
-    EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nbits_per_mm = 0\n"), HasSubstr("measures nothing"));
+    EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nbits_per_mm = 0\n"),
+                HasSubstr("a sender needs bits other than 0"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.parts]\npart_pitch_mm = 5\n"),
                 HasSubstr("the next one comes after 5"));
     EXPECT_THAT(refused("[table.dial]\n[table.dial.sender]\ntwo_axes = true\n"), HasSubstr("two_axes"));
     EXPECT_THAT(refused("[scanner.head]\n"), HasSubstr("scanner head has no card"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nconveyor = \"line\"\n"),
-                HasSubstr("there is no belt or table 'line'"));
+                HasSubstr("unknown belt or table 'line'"));
     EXPECT_THAT(refused("[scanner.one]\ncard = \"scan\"\n[scanner.two]\ncard = \"scan\"\n"),
                 HasSubstr("drives scanner one already"));
     EXPECT_THAT(refused("[scanner.head]\ncard = \"scan\"\nbits_per_mm = 5000\n[scanner.head.lens]\n"),

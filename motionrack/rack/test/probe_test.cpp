@@ -159,7 +159,7 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
     EXPECT_EQ(set_probe_result(may),
-              std::vector<std::string>{"probe did not touch on its way, which ended at X 50.0000 Y 0.0000 Z 80.0000"});
+              std::vector<std::string>{"probe did not touch before the end of its move at X 50.0000 Y 0.0000 Z 80.0000"});
     EXPECT_EQ(may.axes[0].actual_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
@@ -171,11 +171,11 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
 TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
     const JobOutcome touches = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
     ASSERT_FALSE(touches.ended);
-    EXPECT_THAT(touches.ended.error().message, HasSubstr("touches already"));
+    EXPECT_THAT(touches.ended.error().message, HasSubstr("is closed before the move"));
     EXPECT_EQ(touches.axes[0].actual_end, 20);
     const JobOutcome free = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG38.5 X50 F600\n");
     ASSERT_FALSE(free.ended);
-    EXPECT_THAT(free.ended.error().message, HasSubstr("does not touch before the move"));
+    EXPECT_THAT(free.ended.error().message, HasSubstr("is open before the move"));
 }
 
 TEST(Probing, GoesWithLimitedJerkToo) {

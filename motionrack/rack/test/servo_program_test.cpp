@@ -39,7 +39,7 @@ TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
     EXPECT_NEAR(x.top.peak_velocity, 499, 2);
     EXPECT_GT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0);
     EXPECT_LT(to_seconds(out.time), 2460 / 500.0 + 1 + 1280 / 200.0 + 0.5 + 1280 / 100.0 + 2);
-    EXPECT_THAT(summary_of(config, out), HasSubstr("servos stand at most 0."));
+    EXPECT_THAT(summary_of(config, out), HasSubstr("servos are at most 0."));
     EXPECT_EQ(run(text, "G0 X300\n").trace_hash, run(text, "G0 X300\n").trace_hash);
 }
 
@@ -95,7 +95,7 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
     } wrong[] = {
         {carriage("coulomb_friction_mm_s2 = 6000\n"), "could never start"},
         {carriage("saturation_velocity_mm_s = 20000\n"), "it may be 1000000"},
-        {carriage("", "[axis.X.motor]\nstart_stop_hz = 100\n"), "so motor means nothing"},
+        {carriage("", "[axis.X.motor]\nstart_stop_hz = 100\n"), "so motor has no effect"},
         {carriage("", "[axis.Y]\ncard = \"board\"\n"), "both on card board"},
         {carriage("", "[wires]\n\"X.drive\" = \"board.sign\"\n"), "X.drive is a voltage and board.sign a logic level"},
         {carriage("", "[wires]\n\"board.esr\" = \"board.vout\"\n"),
@@ -117,7 +117,7 @@ TEST(ServoRackFile, TellsWhatIsWrong) {
     EXPECT_THAT(all_texts(read_rack_text(carriage("time_constant_ms = 100\ncoulomb_friction_mm_s2 = 30\n")).warnings),
                 HasSubstr("stop short of its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("load_inertia_ratio = 9\n")).warnings),
-                HasSubstr("run past its target"));
+                HasSubstr("overshoot its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("velocity_per_volt_mm_s = 40\n")).warnings),
                 HasSubstr("reaches at 10 V"));
     EXPECT_TRUE(read_rack_text(*rack_template("carriage")).warnings.empty());

@@ -70,7 +70,7 @@ TEST(StageSections, SayWhatDoesNotFit) {
         {cards + "[stage.host]\ncard = \"host\"\ninput = 0\n", "'host' cannot be a stage's name"},
         {cards + "[stage]\nmask = 3\n", "stage.mask is a whole number, but must be a table"},
         {cards + "[stage.mask]\ninput = 0\n", "card"},
-        {cards + "[stage.mask]\ncard = \"third\"\ninput = 0\n", "Stage mask: there is no card 'third'."},
+        {cards + "[stage.mask]\ncard = \"third\"\ninput = 0\n", "Stage mask: unknown card 'third'."},
         {cards + "[stage.mask]\ncard = \"decoder\"\ninput = 0\n",
          "card decoder is of type grating_decoder; one of type grating_bus drives a stage."},
         {cards + "[stage.mask]\ncard = \"host\"\ninput = 3\n",
@@ -81,12 +81,12 @@ TEST(StageSections, SayWhatDoesNotFit) {
         {stage + "start_mm = 2000\n", "it starts at 2000 mm, beyond its ends of travel at -1000 and 1000 mm."},
         {stage + "hard_stop_minus_mm = 5\nhard_stop_plus_mm = 5\n", "the first must be the smaller."},
         {stage + "scale = { interpolation = 6 }\n", "6 counts of a pitch are no multiple of 4"},
-        {stage + "scale = { pitch_um = 0.0012345 }\n", "a pitch of 0.0012345 um is no whole number of picometres"},
+        {stage + "scale = { pitch_um = 0.0012345 }\n", "a pitch of 0.0012345 um is not a whole number of picometres"},
         {stage + "scale = { pitch_nm = 5 }\n", "did you mean 'pitch_um'?"},
-        {stage + "servo = { control_delay_us = 200 }\n", "computing takes 200 us, but there is a frame every 200 us."},
+        {stage + "servo = { control_delay_us = 200 }\n", "computing takes 200 us, but the frame period is 200 us."},
         {stage + "servo = { profile = \"scan\", from_mm = 5, to_mm = 5 }\n",
-         "from_mm is 5 and to_mm is 5; a scan goes from the smaller to the greater."},
-        {stage + "servo = { profile = \"steps\", step_mm = 0 }\n", "step_mm is 0; a step goes somewhere."},
+         "from_mm is 5 and to_mm is 5; from_mm must be below to_mm."},
+        {stage + "servo = { profile = \"steps\", step_mm = 0 }\n", "step_mm is 0; it must be other than 0."},
         {stage + "servo = { profile = \"steps\", step_mm = 50, step_period_ms = 100 }\n", "A step of 50 mm takes"},
         {stage + "servo = { profile = \"jump\" }\n", "jump"},
     };
@@ -156,10 +156,8 @@ TEST(RunningStages, FaultsOfMotorAndScaleOpenTheLoop) {
     ASSERT_EQ(conditions.size(), 2u);
     EXPECT_THAT(r.rack.describe(conditions[0]),
                 HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
-    EXPECT_THAT(
-        r.rack.describe(conditions[1]),
-        HasSubstr(
-            "nm from where it was to be, more than max_following_error_um = 100; card second opened its loop: 0 V"));
+    EXPECT_THAT(r.rack.describe(conditions[1]),
+                HasSubstr("nm, more than max_following_error_um = 100; card second opened its loop: 0 V"));
     EXPECT_FALSE(inject_fault(r.rack, "motor.load=-1", "table"));
 }
 

@@ -121,7 +121,7 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
     EXPECT_THAT(ran.error(), HasSubstr("The watchdog of card board restarted it"));
     EXPECT_NEAR(ran.x(), 200, 1);
     EXPECT_FALSE(ran.outcome.position_valid) << "its counter begins anew";
-    EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts anew"));
+    EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts from 0"));
 }
 
 TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {

@@ -39,10 +39,10 @@ Result<void> check(const ScanLens& lens) {
     for (int i = 0; i <= 64; ++i) {
         const double theta = corner * i / 64;
         if (!(slope(lens, theta) > 0))
-            return fail(ErrorKind::refused, fmt::format("a lens whose image height does not grow at {:.3f} rad: its "
-                                                        "coefficients f1 .. f4 ({}, {}, {}, {} mm) are "
-                                                        "none of an f-theta lens",
-                                                        theta, lens.f_mm[0], lens.f_mm[1], lens.f_mm[2], lens.f_mm[3]));
+            return fail(ErrorKind::refused,
+                        fmt::format("a lens whose image height does not grow at {:.3f} rad: its "
+                                    "coefficients f1 .. f4 ({}, {}, {}, {} mm) are not those of an f-theta lens",
+                                    theta, lens.f_mm[0], lens.f_mm[1], lens.f_mm[2], lens.f_mm[3]));
     }
     return {};
 }

@@ -15,25 +15,22 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
                 axis, at, c.a, c.b);
         case AxisCondition::lost_steps:
             return fmt::format(
-                "axis {}: at {:.6f} s the motor was in step again and had {} {} pulses ({} in all); the machine is not "
-                "where the controller believes it is, so find home again",
+                "axis {}: at {:.6f} s the motor was in step again and had {} {} pulses ({} in all); the true position "
+                "differs from the commanded one: home it again",
                 axis, at, c.a < 0 ? "run on by" : "lost", c.a < 0 ? -c.a : c.a, c.b);
         case AxisCondition::end_of_travel:
-            return fmt::format(
-                "axis {}: at {:.6f} s the axle ran into its {} end of travel at {} microsteps and stopped there", axis,
-                at, c.a > 0 ? "plus" : "minus", c.b);
-        case AxisCondition::axle_held:
-            return fmt::format(
-                "axis {}: at {:.6f} s the axle was held fast at {} microsteps (a fault that was asked for)", axis, at,
-                c.a);
-        case AxisCondition::stage_end:
-            return fmt::format("stage {}: at {:.6f} s it ran into its {} end of travel at {} nm and stopped there",
+            return fmt::format("axis {}: at {:.6f} s the axle hit its {} hard stop at {} microsteps and stopped there",
                                axis, at, c.a > 0 ? "plus" : "minus", c.b);
+        case AxisCondition::axle_held:
+            return fmt::format("axis {}: at {:.6f} s the axle was held fast at {} microsteps (an injected fault)", axis,
+                               at, c.a);
+        case AxisCondition::stage_end:
+            return fmt::format("stage {}: at {:.6f} s it hit its {} hard stop at {} nm and stopped there", axis, at,
+                               c.a > 0 ? "plus" : "minus", c.b);
         case AxisCondition::scale_too_fast:
             return fmt::format(
-                "scale {}: at {:.6f} s it came to move at {} counts/s, its electronics follow {} counts/s; nothing is "
-                "counted "
-                "until it is slower, and its position is not to be trusted until it is referenced again",
+                "scale {}: at {:.6f} s its speed reached {} counts/s, above the {} counts/s of its electronics; it "
+                "counts nothing until it is slower, and its position is invalid until it is referenced again",
                 axis, at, c.a, c.b);
         case AxisCondition::scale_lost:
             return fmt::format(

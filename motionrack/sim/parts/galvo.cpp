@@ -41,7 +41,7 @@ Result<void> check(const GalvoSettings& s) {
     MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
     MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
-    return range("a greatest speed in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
+    return range("a maximum speed in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
 }
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {

@@ -273,7 +273,7 @@ TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
     EXPECT_EQ(rig.speed(), 0);
     ASSERT_EQ(rig.kernel.conditions().size(), 1u);
     EXPECT_NE(describe(rig.kernel.conditions()[0], "x")
-                  .find("stage x: at 0.020000 s it ran into its plus end of travel at 1000000 nm"),
+                  .find("stage x: at 0.020000 s it hit its plus hard stop at 1000000 nm"),
               std::string::npos);
     rig.volts(2);
     rig.run(1);

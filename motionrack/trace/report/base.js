@@ -81,7 +81,7 @@ const shownNumber = (value) => {
 };
 const shownTime = (time) => time.toFixed(whole.to - whole.from > 100 ? 3 : 4) + " s";
 
-// A colour of the style sheet; read anew for each picture, so that a change from light to dark is followed.
+// A colour of the style sheet; read again for each picture, so that a change from light to dark is followed.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
 const palette = () => Object.fromEntries(["card", "ink", "soft", "grid", "rule", "accent", "good", "wrong", "planned", "driven",
   "box", "hot", "x", "y", "z", "a", "b", "c", "d"].map((name) => [name, colour(name)]));

@@ -224,7 +224,7 @@ TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
     std::ofstream(scratch.path("c.bin")) << "\x01\x02";
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("b.vcd")).error().message, HasSubstr("same kind"));
     EXPECT_THAT(diff_files(scratch.path("a.csv"), scratch.path("c.bin")).error().message,
-                HasSubstr("none that is read"));
+                HasSubstr("Unknown file format"));
     EXPECT_EQ(diff_files(scratch.path("a.csv"), scratch.path("nowhere")).error().kind, ErrorKind::io);
 }
 

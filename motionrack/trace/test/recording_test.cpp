@@ -228,7 +228,7 @@ TEST(Recording, RefusesWhatIsNone) {
     auto other = hdf5::File::create(scratch.path("other.h5"));
     ASSERT_TRUE(other && other->close());
     EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message,
-                HasSubstr("no recording of motionrack"));
+                HasSubstr("not a recording of motionrack"));
     const auto of_format = [&](std::int64_t version) {
         auto file = hdf5::File::create(scratch.path("version.h5"));
         file->set("/", "format", "motionrack recording");

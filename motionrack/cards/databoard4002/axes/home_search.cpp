@@ -170,7 +170,7 @@ Result<void> HomeSearch::count(Instant now) {
 
 Result<void> HomeSearch::check_set_up(const Events& seen) const {
     if (!seen.was_reset()) return {};
-    return failed("the card was reset (its watchdog, or the bus); home again, by which it is set up anew");
+    return failed("the card was reset (its watchdog, or the bus); home again, which initialises it");
 }
 
 Result<void> HomeSearch::look_at_events(Instant now) {
@@ -184,7 +184,7 @@ Result<void> HomeSearch::look_at_events(Instant now) {
         marked_ = true;
     } else if (seen.position() && (marking() || state_ == State::back)) {
         return failed(
-            fmt::format("no {} was found on a way of {:.3f} {}; look at its wire",
+            fmt::format("no {} was found within {:.3f} {}; check its wire",
                         marks() == (event::REF | event::ZERO) ? "zero pulse under the reference" : "reference",
                         static_cast<double>(frame_.travel) / frame_.counts_per_unit, frame_.unit));
     }
@@ -202,8 +202,9 @@ Result<void> HomeSearch::look_at_stop(Instant now) {
     if (!(marking() || state_ == State::back) || !status.end_stop(forward_)) return {};
     if (state_ == State::search && order_.turn_at_limit && !turned_) {
         turned_ = true;
-        outcome_.notes.push_back(fmt::format("the {} end stop was met first; the reference was searched the other way",
-                                             forward_ ? "right" : "left"));
+        outcome_.notes.push_back(
+            fmt::format("the {} end stop was reached first; the reference was searched in the other direction",
+                        forward_ ? "right" : "left"));
         MOTIONRACK_CHECK(driver_.quit());
         return enter(State::back, now);
     }

@@ -55,7 +55,7 @@ tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& 
 
 Result<int> PositionAxis::rate_of(const char* what, double speed) const {
     if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity))
-        return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
+        return refuse(what, fmt::format("the speed is {} {}/s; it must be above 0 and up to {}", speed, settings_.unit,
                                         settings_.limits.max_velocity));
     const int rate = settings_.scale.rate_for(speed * settings_.counts_per_unit * (1 + 1e-12));
     if (rate > 0) return rate;
@@ -64,7 +64,7 @@ Result<int> PositionAxis::rate_of(const char* what, double speed) const {
 }
 
 Result<void> PositionAxis::check_free(const char* what, bool forward) {
-    if (busy()) return refuse(what, "it moves; stop it and wait until it stands");
+    if (busy()) return refuse(what, "it moves; stop it and wait for standstill");
     const Status status = driver_.status();
     if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
     if (status.end_stop(forward))
@@ -98,8 +98,8 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
         trusted_ = false;
         return refuse(
             what,
-            "the card was reset since it was set up; its table and position are gone. Home it, or declare where it "
-            "stands: that sets it up anew");
+            "the card was reset since it was set up; its table and position are lost. Home it, or declare its "
+            "position: either initialises the card again");
     }
     progress_time_ = progress_time(settings_.scale.speed(rate));
     progress_from_ = last_counts_;
@@ -109,7 +109,7 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
 
 Result<void> PositionAxis::move_to(double position, double speed) {
     const control::AxisLimits& limits = settings_.limits;
-    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
+    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or set its position with set_position");
     if (!(position >= limits.min_position && position <= limits.max_position))
         return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
                                           limits.min_position, limits.max_position));
@@ -169,9 +169,8 @@ Result<void> PositionAxis::jog(double speed, Instant now) {
         return {};
     }
     if (doing_ == Doing::nothing && !search_.running()) return begin_jog(speed, now);
-    if (doing_ == Doing::moving || search_.running())
-        return refuse("Jog", "it moves; stop it and wait until it stands");
-    if (error_) return refuse("Jog", "something has stopped it; wait until it stands");
+    if (doing_ == Doing::moving || search_.running()) return refuse("Jog", "it moves; stop it and wait for standstill");
+    if (error_) return refuse("Jog", "something has stopped it; wait for standstill");
     MOTIONRACK_TRY(const int rate, rate_of("Jog", std::fabs(speed)));
     renewed_ = now;
     if (doing_ == Doing::jogging && (speed > 0) == forward_) {
@@ -203,14 +202,12 @@ void PositionAxis::look_at_progress(Instant now) {
     const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
     progress_due_ = later(now, progress_time_);
     if (gone >= min_progress) return;
-    end_with(
-        {ErrorKind::machine,
-         fmt::format(
-             "Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
-             "ended and the position is not "
-             "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
-             settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
-             offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
+    end_with({ErrorKind::machine,
+              fmt::format("Axis {} does not follow: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
+                          "ended and the position is not trusted: the motor is held or has no voltage, or its encoder "
+                          "is not counted. Check both, then home it.",
+                          settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
+                          offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
 }
 
 // ---- stops
@@ -276,9 +273,9 @@ void PositionAxis::end_with(Error error, bool counted) {
 Result<void> PositionAxis::set_position(double position) {
     const double most = static_cast<double>(max_move_counts) / settings_.counts_per_unit;
     if (!(std::fabs(position) <= most))
-        return refuse("Position",
-                      fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
-    if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
+        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position, most,
+                                              settings_.unit));
+    if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     // The card's events show whether its watchdog has reset the card in the meantime.
     if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));
     if (unanswered_ || driver_.met_reset()) MOTIONRACK_CHECK(set_up());
@@ -291,7 +288,7 @@ Result<void> PositionAxis::set_position(double position) {
 Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now) {
     MOTIONRACK_TRY(const int rate, rate_of("Homing", order.speed));
     MOTIONRACK_TRY(const int slow, rate_of("Homing", order.slow_speed));
-    if (busy()) return refuse("Homing", "it moves; stop it and wait until it stands");
+    if (busy()) return refuse("Homing", "it moves; stop it and wait for standstill");
     if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) &&
           order.travel >= 0 && std::isfinite(order.travel)))
         return refuse("Homing", "clearance, travel and position must be numbers, the first two 0 or more");

@@ -24,7 +24,7 @@ void PositionAxis::look_at_events(Instant now) {
         return end_with(
             {ErrorKind::machine,
              fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
-                         "trusted. Home it, by which the card is set up anew.",
+                         "trusted. Home it, which initialises the card again.",
                          settings_.name)});
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
     if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping))
@@ -42,12 +42,13 @@ void PositionAxis::look_at_stop() {
         if (*rate != 0 || driver_.status().event()) return;
         why = "the emergency stop was active";
     }
-    end_with({ErrorKind::machine,
-              fmt::format(
-                  "Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
-                  "other way, or release the stop.",
-                  settings_.name, position(), settings_.unit, why)},
-             true);
+    end_with(
+        {ErrorKind::machine,
+         fmt::format(
+             "Axis {} reached a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
+             "other way, or release the stop.",
+             settings_.name, position(), settings_.unit, why)},
+        true);
 }
 
 void PositionAxis::settle(Instant now) {

@@ -35,12 +35,10 @@ Result<void> Driver::wait_ready(const char* what) {
     const Instant until = later(interrupt_.now(), settings_.ready_timeout);
     while (!status().ready()) {
         if (interrupt_.now() >= until)
-            return fail(
-                ErrorKind::machine,
-                fmt::format(
-                    "Card {} was not Ready for {} within {:.0f} ms, so it was not sent. If this lasts more than a "
-                    "second, not even its watchdog helps: reset the card.",
-                    settings_.select, what, to_seconds(settings_.ready_timeout) * 1e3));
+            return fail(ErrorKind::machine,
+                        fmt::format("Card {} was not Ready for {} within {:.0f} ms, so it was not sent. If this lasts "
+                                    "longer than a second, its watchdog has not helped: reset the card.",
+                                    settings_.select, what, to_seconds(settings_.ready_timeout) * 1e3));
         interrupt_.pass(settings_.poll);
     }
     return {};

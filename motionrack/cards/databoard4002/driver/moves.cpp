@@ -28,7 +28,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
             if (seen.was_reset())
                 return fail(ErrorKind::machine,
                             fmt::format("Card {} was reset while an event was waited for (its watchdog, or the bus); "
-                                        "position and table are gone. Set it up again.",
+                                        "position and table are lost. Set it up again.",
                                         settings_.select));
             if (seen.word & wanted) return seen;
             continue;
@@ -39,10 +39,10 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
                         fmt::format("Stopped on request; the move of card {} was ended by Q.", settings_.select));
         }
         if (interrupt_.now() >= until)
-            return fail(ErrorKind::machine,
-                        fmt::format("Card {} told of no event {:02X}h within {:.3f} s. Check that it moves, and the "
-                                    "time-out.",
-                                    settings_.select, wanted, to_seconds(timeout)));
+            return fail(
+                ErrorKind::machine,
+                fmt::format("Card {} reported no event {:02X}h within {:.3f} s. Check that it moves, and the time-out.",
+                            settings_.select, wanted, to_seconds(timeout)));
         const bool polls = how == Waiting::polling || now.interrupt() || (enables_ & event::ON_EVENT) == 0;
         // The line is shared: the interrupt may come from another card.
         if (polls || (interrupt_.wait(std::min(until - interrupt_.now(), milliseconds(100))) && !status().interrupt()))
@@ -75,13 +75,13 @@ Result<bool> Driver::held(bool forward) {
 
 Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how) {
     if (const Status now = status(); now.emergency())
-        return fail(ErrorKind::machine, fmt::format("Card {} was not told to move because {}. Release it first.",
-                                                    settings_.select, now.stops()));
+        return fail(ErrorKind::machine,
+                    fmt::format("Card {} was not started: {}. Release it first.", settings_.select, now.stops()));
     const auto wake = static_cast<std::uint8_t>(how == Waiting::interrupt ? event::ON_EVENT : 0);
     MOTIONRACK_TRY(const Events old, enable_events(static_cast<std::uint8_t>(wanted | event::STOP | wake)));
     if (old.was_reset())
         return fail(ErrorKind::machine,
-                    fmt::format("Card {} was reset since it was set up; position and table are gone, so it was not "
+                    fmt::format("Card {} was reset since it was set up; position and table are lost, so it was not "
                                 "moved. Set it up again.",
                                 settings_.select));
     MOTIONRACK_CHECK(go());
@@ -97,12 +97,10 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
     const std::string stops = status().stops();
     MOTIONRACK_CHECK(quit());
     MOTIONRACK_TRY(const std::int64_t there, position());
-    return fail(
-        ErrorKind::machine,
-        fmt::format(
-            "Card {} met a stop at {} counts ({:.3f} mm): {}. The move was ended; move away in the other direction, or "
-            "release the stop.",
-            settings_.select, there, to_mm(there), stops.empty() ? "it is no longer active" : stops));
+    return fail(ErrorKind::machine,
+                fmt::format("Card {} reached a stop at {} counts ({:.3f} mm): {}. The move was ended; move away in the "
+                            "other direction, or release the stop.",
+                            settings_.select, there, to_mm(there), stops.empty() ? "it is inactive again" : stops));
 }
 
 Result<void> Driver::move_to(std::int64_t counts, Duration timeout, Waiting how) {
@@ -129,7 +127,7 @@ Result<void> Driver::move_to_mm(double mm, Duration timeout, Waiting how) {
 Result<void> Driver::find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout, Waiting how) {
     if (marks == 0 || (marks & ~(event::ZERO | event::REF)) != 0)
         return fail(ErrorKind::refused,
-                    fmt::format("The marks to look for are {:02X}h, but they are 02h (zero pulse), 04h (reference) or "
+                    fmt::format("The marks to search are {:02X}h; they must be 02h (zero pulse), 04h (reference) or "
                                 "06h (both). Nothing was moved.",
                                 marks));
     MOTIONRACK_TRY(const std::int64_t here, position());

@@ -37,10 +37,11 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
             return fail(ErrorKind::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.",
                                                         each.name, each.value));
     if (!(d.load >= 0 && d.load < 1e6))
-        return fail(ErrorKind::refused, fmt::format("The load is {}, but it is 0 or more. No table was made.", d.load));
+        return fail(ErrorKind::refused,
+                    fmt::format("The load is {}; it must be 0 or more. No table was made.", d.load));
     if (!(d.lag_s >= 0 && d.lag_s < 1e6))
         return fail(ErrorKind::refused,
-                    fmt::format("The lag is {} s, but it is 0 or more. No table was made.", d.lag_s));
+                    fmt::format("The lag is {} s; it must be 0 or more. No table was made.", d.lag_s));
     if (!(d.creep_speed >= 0 && d.creep_speed < d.top_speed))
         return fail(ErrorKind::refused,
                     fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
@@ -65,17 +66,16 @@ Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, doubl
         const double speed = creep + i * step;
         const int rate = scale.rate_for(speed * (1 + 1e-12));
         if (rate == 0)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Take "
-                            "a greater creep speed. No table was made.",
-                            speed, scale.speed(1)));
+            return fail(ErrorKind::refused,
+                        fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Use "
+                                    "a higher creep speed. No table was made.",
+                                    speed, scale.speed(1)));
         const double longer = i == 0 ? 4 * lag * scale.speed(rate) : lag * step;
         position = std::max(position + scale.speed(rate) * step / ramp + longer, position + 1);
         if (position > static_cast<double>(max_move_counts))
             return fail(ErrorKind::refused,
-                        fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Take a "
-                                    "lower top speed or a steeper ramp. No table was made.",
+                        fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Use a lower "
+                                    "top speed or a steeper ramp. No table was made.",
                                     d.top_speed, ramp, max_move_counts));
         table.set(first + i, {rate, static_cast<std::int64_t>(position + 0.5)});
     }
@@ -98,7 +98,7 @@ Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& sca
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale) {
     if (distance < 0 || distance > max_move_counts)
         return fail(ErrorKind::refused,
-                    fmt::format("The move is {} counts long, but it is 0 to {}.", distance, max_move_counts));
+                    fmt::format("The move is {} counts long; it must be 0 to {}.", distance, max_move_counts));
     SlopeMotion motion;
     motion.distance = distance;
     std::int64_t at = 0;

@@ -18,7 +18,7 @@ inline constexpr CommandInfo commands[] = {
      "deviation; out: how far lock lets the position deviate (absolute value); in: present minus requested position",
      true, 3},
     {"G", 'G', 0, 0, 0, "", "", "go: starts what N, P, R and S specify; switches lock off"},
-    {"I", 'I', 0, 0, 0, "", "", "initialise: changes nothing; the maker's programs send it"},
+    {"I", 'I', 0, 0, 0, "", "", "initialise: without effect; the maker's programs send it"},
     {"L", 'L', 0, 0, 0, "", "", "lock: goes back to the requested position whenever it deviates by more than D"},
     {"M", 'M', 0, 0, 0, "", "", "manual: slope mode and lock off"},
     {"N", 'N', 3, min_24, max_24, "counts", "", "number: the target relative to the position at the next G"},

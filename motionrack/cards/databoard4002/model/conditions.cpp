@@ -16,9 +16,9 @@ std::string byte_text(std::int64_t code) {
 const char* flaw_text(std::int64_t flaw) {
     switch (static_cast<SlopeFlaw>(flaw)) {
         case SlopeFlaw::speed_zero:
-            return "has the speed 0, so the move stands still there";
+            return "has the speed 0, so the move stops there";
         case SlopeFlaw::descending:
-            return "ends before the one in front of it, so it is never used";
+            return "ends before the preceding one, so it is never used";
         case SlopeFlaw::too_far:
             return "ends beyond 8,388,607 counts, farther than any move";
         case SlopeFlaw::none:
@@ -41,7 +41,7 @@ std::string what_happened(const sim::Condition& c) {
             return fmt::format("a data byte {:02X}h came that no command waits for; it was dropped", c.a);
         case CardCondition::during_move:
             return fmt::format(
-                "the command {} came during a move; the move keeps its target and table, or is replaced by G",
+                "the command {} came during a move; the move keeps its target and table until G replaces it",
                 byte_text(c.a));
         case CardCondition::move_refused:
             return fmt::format(
@@ -58,18 +58,16 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::position_wrapped:
             return fmt::format("the counter left its 24 bits at {}; positions read now are 16,777,216 off", c.a);
         case CardCondition::rate_exceeded:
-            return fmt::format(
-                "the encoder came to {} counts a second, more than the inputs follow; counts are being lost", c.a);
+            return fmt::format("the encoder reached {} counts/s, above the limit of the inputs; counts are lost", c.a);
         case CardCondition::counts_lost:
-            return fmt::format("the encoder is slow enough again; {} counts were lost, so find the reference again",
+            return fmt::format("the encoder is slow enough again; {} counts were lost, so search the reference again",
                                c.a);
         case CardCondition::line_too_quick:
             return fmt::format(
-                "the line O{} changed more quickly than the input follows; counts are lost, so find the "
-                "reference again",
+                "the line O{} changed faster than the input can follow; counts are lost, so search the reference again",
                 c.a);
         case CardCondition::watchdog_reset:
-            return "the watchdog restarted the firmware, which had hung; position and settings are gone";
+            return "the watchdog restarted the firmware, which had hung; position and settings are lost";
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }

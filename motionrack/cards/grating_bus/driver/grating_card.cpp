@@ -27,7 +27,7 @@ Result<CardInfo> GratingCard::open() {
         return fail(
             ErrorKind::refused,
             fmt::format(
-                "What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Look at its address.",
+                "What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Check its address.",
                 answer, signature));
     CardInfo info;
     const std::uint16_t role = port_.read(offset("ROLE"));
@@ -37,7 +37,7 @@ Result<CardInfo> GratingCard::open() {
     info.scales = port_.read(offset("SCALES"));
     if (info.scales < 1 || info.scales > max_scales)
         return fail(ErrorKind::refused,
-                    fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Look at its address.",
+                    fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Check its address.",
                                 info.scales, max_scales));
     info.first = port_.read(offset("FIRST"));
     info.timing.t1 = Duration{port_.read(offset("T1"))};
@@ -57,10 +57,10 @@ Result<Reading> GratingCard::take() {
     if (frame.words == 0)
         return fail(
             ErrorKind::refused,
-            "The card has no frame yet: no host has read one since the start. Is there a host, and does it run?");
+            "The card has no frame yet: no host has read one since the start. Check that the bus has a running host.");
     if (frame.words > max_scales)
         return fail(ErrorKind::refused,
-                    fmt::format("The card says that its frame has {} scales, but {} are the most; it was not read.",
+                    fmt::format("The card reports a frame of {} scales, above the maximum of {}; it was not read.",
                                 frame.words, max_scales));
     frame.sequence = read32(offset("SEQUENCE_L"));
     std::uint64_t time = 0;
@@ -94,8 +94,7 @@ Result<Reading> GratingCard::read() {
     port_.write(offset("CONTROL"), RELEASE.mask);
     if (out && stale())
         return fail(ErrorKind::refused, fmt::format("Frame {} of {:.7f} s is older than two periods: the positions are "
-                                                    "stale and must not be used. Look at the "
-                                                    "bus' host.",
+                                                    "stale and must not be used. Check the bus' host.",
                                                     out->frame.sequence, to_seconds(out->frame.instant())));
     return out;
 }
@@ -105,8 +104,9 @@ Result<Reading> GratingCard::wait(Duration timeout) {
     while (!FRAME.test(port_.read(offset("STATUS")))) {
         const Duration left = end - interrupt_.now();
         if (interrupt_.stop_requested())
-            return fail(ErrorKind::stopped,
-                        "Waiting for a frame was stopped by the user; none was read. The card goes on reading frames.");
+            return fail(
+                ErrorKind::stopped,
+                "The wait for a frame was stopped by the user; no frame was read. The card keeps reading frames.");
         if (left <= Duration{0})
             return fail(ErrorKind::refused,
                         fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?",

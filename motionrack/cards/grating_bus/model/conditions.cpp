@@ -34,8 +34,8 @@ std::string what_happened(const sim::Condition& c) {
                 c.a, reasons(c.b));
         case BusCondition::missed_edges:
             return fmt::format(
-                "{} edge{} of clk before frame {} {} not seen; no frame was read in that time, and the sequence goes "
-                "on as if they had been",
+                "{} edge{} of clk before frame {} {} missed; no frame was read in that time, and the sequence counts "
+                "them",
                 c.a, c.a == 1 ? "" : "s", c.b, c.a == 1 ? "was" : "were");
         case BusCondition::overrun:
             return fmt::format(
@@ -44,15 +44,15 @@ std::string what_happened(const sim::Condition& c) {
                 c.a);
         case BusCondition::stale:
             if (c.a < 0)
-                return "no frame has come for two periods since the start; there are no positions. Is there a host, "
-                       "and does it run?";
+                return "no frame has come for two periods since the start; there are no positions. Check that the bus "
+                       "has a running host.";
             return fmt::format(
                 "no good frame for two periods since frame {} of {:.7f} s; its positions are stale and must not be "
                 "used",
                 c.a, to_seconds(Duration{c.b}));
         case BusCondition::no_register:
-            if (c.b < 0) return fmt::format("a read from {:02X}h, where there is no register, gave FFFFh", c.a);
-            return fmt::format("{:04X}h was written to {:02X}h, which takes nothing; nothing was changed", c.b, c.a);
+            if (c.b < 0) return fmt::format("a read from {:02X}h, which has no register, returned FFFFh", c.a);
+            return fmt::format("{:04X}h was written to {:02X}h, which is read-only; nothing was changed", c.b, c.a);
         case BusCondition::other_scale:
             return fmt::format(
                 "word {} of a frame is that of scale {}, as the host has addressed it, but the card's own list has {} "
@@ -73,9 +73,8 @@ std::string describe(const sim::Condition& condition, std::string_view card) {
 
 std::string describe(const sim::Condition& c, const Bus& bus) {
     return fmt::format(
-        "bus: at {:.7f} s two cards drive {} at once, {} high and {} low: a conflict; low wins, and what is read is "
-        "wrong. More on this "
-        "line are only listed. A bus has one host",
+        "bus: at {:.7f} s two cards drive {} at once, {} high and {} low: a conflict; low wins, and the read value is "
+        "wrong. More on this line are only listed. A bus has one host",
         to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name,
         bus.driver_name(static_cast<int>(c.b / max_drivers)), bus.driver_name(static_cast<int>(c.b % max_drivers)));
 }

@@ -16,12 +16,12 @@ double ns(Duration d) {
 Result<void> within(const char* name, Duration value, Duration least, Duration most) {
     if (value >= least && value <= most) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{} is {:.1f} ns, but it is {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
+                fmt::format("{} is {:.1f} ns; it must be {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
 }
 
 Result<void> within(const char* name, int value, int least, int most) {
     if (value >= least && value <= most) return {};
-    return fail(ErrorKind::refused, fmt::format("{} is {}, but it is {} to {}.", name, value, least, most));
+    return fail(ErrorKind::refused, fmt::format("{} is {}; it must be {} to {}.", name, value, least, most));
 }
 
 constexpr Duration min_wait{1}, max_wait = microseconds(6);
@@ -29,7 +29,7 @@ constexpr Duration min_wait{1}, max_wait = microseconds(6);
 /// Checks that each address is in range and unique.
 Result<void> check_list(const std::vector<int>& addresses) {
     if (addresses.size() > max_scales)
-        return fail(ErrorKind::invalid_input, fmt::format("The list has {} addresses, but {} are the most of a frame.",
+        return fail(ErrorKind::invalid_input, fmt::format("The list has {} addresses, more than the {} of a frame.",
                                                           addresses.size(), max_scales));
     for (auto at = addresses.begin(); at != addresses.end(); ++at) {
         if (*at < 0 || *at >= max_scales)
@@ -83,7 +83,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text) {
         if (*at != ',')
             return fail(
                 ErrorKind::invalid_input,
-                fmt::format("Character {} of the list is no comma; a list is like \"5, 2, 9\".", at - text.data() + 1));
+                fmt::format("Character {} of the list must be a comma, as in \"5, 2, 9\".", at - text.data() + 1));
         ++at;
     }
     MOTIONRACK_CHECK(check_list(out));
@@ -133,7 +133,7 @@ Result<void> check(const CardSettings& card, const DecoderSettings& decoder) {
         return fail(
             ErrorKind::refused,
             fmt::format(
-                "The decoder needs {:.1f} ns to put data out, but the card takes them after T2 = {:.1f} ns; T2 must "
+                "The decoder needs {:.1f} ns to output data, but the card latches them after T2 = {:.1f} ns; T2 must "
                 "be longer.",
                 ns(decoder.output), ns(card.timing.t2)));
     return {};

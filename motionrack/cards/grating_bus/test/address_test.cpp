@@ -89,15 +89,15 @@ TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsPlace) {
     const auto wrong = [](std::string_view text) { return addresses_from_text(text).error().message; };
     EXPECT_THAT(wrong(""), HasSubstr("Character 1 of the list begins no whole number"));
     EXPECT_THAT(wrong("5, 2,"), HasSubstr("Character 6 of the list begins no whole number"));
-    EXPECT_THAT(wrong("5 2"), HasSubstr("Character 3 of the list is no comma"));
-    EXPECT_THAT(wrong("5; 2"), HasSubstr("Character 2 of the list is no comma"));
+    EXPECT_THAT(wrong("5 2"), HasSubstr("Character 3 of the list must be a comma"));
+    EXPECT_THAT(wrong("5; 2"), HasSubstr("Character 2 of the list must be a comma"));
     EXPECT_THAT(wrong("3, 128"), HasSubstr("the address 128, but an address is 0 to 127"));
     EXPECT_THAT(wrong("-1"), HasSubstr("the address -1, but"));
     EXPECT_THAT(wrong("99999999999"), HasSubstr("Character 1"));
     EXPECT_THAT(wrong("3, 4, 3"), HasSubstr("the address 3 twice"));
     std::string many = "0";
     for (int n = 1; n <= 128; ++n) many += "," + std::to_string(n);
-    EXPECT_THAT(wrong(many), HasSubstr("129 addresses, but 128 are the most"));
+    EXPECT_THAT(wrong(many), HasSubstr("129 addresses, more than the 128 of a frame"));
     CardSettings s = host_settings(3);
     s.addresses = {5, 2, 9};
     EXPECT_TRUE(check(s));

@@ -156,7 +156,7 @@ TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndSaysSo) {
     EXPECT_EQ(crate.cards[1]->counter(Card::missed_edges), 3);
     EXPECT_THAT(crate.sentences(),
                 Contains(HasSubstr("card c1: at 0.0012000 s no good frame for two periods since frame 4")));
-    EXPECT_THAT(crate.sentences(), Contains(HasSubstr("3 edges of clk before frame 8 were not seen")));
+    EXPECT_THAT(crate.sentences(), Contains(HasSubstr("3 edges of clk before frame 8 were missed")));
 }
 
 TEST(GratingBus, WhenTheHostIsGoneSlavesMarkTheirDataStaleWithinTwoPeriods) {
@@ -332,7 +332,7 @@ TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
     s = host_settings(0);
     EXPECT_FALSE(check(s));
     s = host_settings(129);
-    EXPECT_THAT(check(s).error().message, HasSubstr("is 129, but it is 1 to 128"));
+    EXPECT_THAT(check(s).error().message, HasSubstr("is 129; it must be 1 to 128"));
     s = host_settings(100);
     s.first = 29;
     EXPECT_FALSE(check(s));

@@ -131,32 +131,28 @@ std::string describe(const Finding& f, const AxisDetail& now, const std::string&
         case EncoderFault::illegal:
             return fmt::format(
                 "axis {}: lines A and B changed at once {} times, the last time at {}; the position may be off. The "
-                "encoder is "
-                "too quick, or there is noise on the lines",
+                "encoder is too fast, or the lines have noise",
                 axis, f.number, to);
         case EncoderFault::line_a_missing:
             return fmt::format(
                 "axis {}: line A stood at {} while B changed {} times, from {} to {}: A is broken, or the axis "
-                "trembles on an "
-                "edge of B",
+                "oscillates on an edge of B",
                 axis, now.a ? 1 : 0, f.number, from, to);
         case EncoderFault::line_b_missing:
             return fmt::format(
                 "axis {}: line B stood at {} while A changed {} times, from {} to {}: B is broken, or the axis "
-                "trembles on an "
-                "edge of A",
+                "oscillates on an edge of A",
                 axis, now.b ? 1 : 0, f.number, from, to);
         case EncoderFault::index_missing:
             return fmt::format(
-                "axis {}: {} index {} did not come between {} and {}: Z is broken, or counts come without motion", axis,
-                f.number, f.number == 1 ? "pulse" : "pulses", from, to);
+                "axis {}: {} index {} did not come between {} and {}: Z is broken, or the axis counts without motion",
+                axis, f.number, f.number == 1 ? "pulse" : "pulses", from, to);
         case EncoderFault::index_extra:
-            return fmt::format("axis {}: an index pulse came at {}, where none should be", axis, to);
+            return fmt::format("axis {}: an unexpected index pulse came at {}", axis, to);
         case EncoderFault::counts_lost:
             return fmt::format(
                 "axis {}: {} counts were lost between the index pulses at {} and {}: lines are dirty there, or the "
-                "encoder was too "
-                "quick. Calibrate again",
+                "encoder was too fast. Calibrate again",
                 axis, f.number, from, to);
         case EncoderFault::counts_extra:
             return fmt::format(
@@ -171,7 +167,7 @@ std::string describe(const Finding& f, const AxisDetail& now, const std::string&
                 axis, f.number, from, to);
         case EncoderFault::too_many_edges:
             return fmt::format(
-                "axis {}: {} edges more than the move from {} to {} needs: noise on the lines. A filter helps", axis,
+                "axis {}: {} edges more than the move from {} to {} needs: noise on the lines. Set a filter", axis,
                 f.number, from, to);
     }
     return axis;

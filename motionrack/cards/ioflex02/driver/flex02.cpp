@@ -16,7 +16,7 @@ constexpr Field LOADING = field("STATUS", "LOADING"), RUNNING = field("STATUS", 
 const char* refusal(std::uint16_t code) {
     switch (static_cast<CfgError>(code)) {
         case CfgError::foreign:
-            return "it is no image of this card";
+            return "it is not an image of this card";
         case CfgError::length:
             return "the length in its header is out of range";
         case CfgError::cut_short:
@@ -24,7 +24,7 @@ const char* refusal(std::uint16_t code) {
         case CfgError::crc:
             return "its CRC-32 is wrong, so it is damaged";
         default:
-            return "the card gives no reason that is known";
+            return "the card reports an unknown reason";
     }
 }
 
@@ -65,7 +65,7 @@ bool Flex02::find_card() {
     if (seen != signature)
         return set(
             Flex_ErrDevice,
-            fmt::format("No IOFLEX02 answers at {:04X}h: the signature reads {:04X}h, but it is {:04X}h. Nothing was "
+            fmt::format("No IOFLEX02 answers at {:04X}h: the signature reads {:04X}h; it must be {:04X}h. Nothing was "
                         "written; check the base address and its switches.",
                         base_, seen, signature));
     if ((serial ^ inverted) != 0xFFFF)
@@ -82,12 +82,9 @@ bool Flex02::feed(std::span<const std::uint8_t> raw) {
     out(offset("CONTROL"), field("CONTROL", "CONFIGURE").mask);
     const std::uint16_t state = in(offset("STATUS"));
     if (!status::LOADING.test(state))
-        return set(
-            Flex_ErrDevice,
-            fmt::format(
-                "The card at {:04X}h does not take an image: its status reads {:04X}h after CONFIGURE. Its array is "
-                "empty; the card seems faulty.",
-                base_, state));
+        return set(Flex_ErrDevice, fmt::format("The card at {:04X}h does not accept an image: its status reads {:04X}h "
+                                               "after CONFIGURE. Its array is empty; the card seems faulty.",
+                                               base_, state));
     for (std::size_t i = 0; i < raw.size(); i += 2) {
         const unsigned high = i + 1 < raw.size() ? raw[i + 1] : 0u;
         out(offset("DATA"), static_cast<std::uint16_t>(raw[i] | high << 8));
@@ -107,7 +104,7 @@ bool Flex02::wait_until_running() {
                 Flex_ErrCfg,
                 fmt::format(
                     "The card at {:04X}h refused the configuration image (error {}): {}. Its array is empty; make or "
-                    "copy the image anew.",
+                    "copy the image again.",
                     base_, code, refusal(code)));
         }
         if (interrupt_.stop_requested())
@@ -119,7 +116,7 @@ bool Flex02::wait_until_running() {
                 Flex_ErrCfg,
                 fmt::format(
                     "The array of the card at {:04X}h did not start within {:.1f} s after its image. Call Init again; "
-                    "if this stays, the card is faulty.",
+                    "if this persists, the card is faulty.",
                     base_, to_seconds(settings_.start_timeout)));
         interrupt_.pass(settings_.poll);
     }
@@ -129,12 +126,9 @@ bool Flex02::check_project() {
     const std::uint16_t code = in(offset("CFG_ERROR"));
     const std::uint16_t ident = in(offset("IDENT"));
     if (static_cast<CfgError>(code) == CfgError::unknown_project)
-        return set(
-            Flex_ErrProject,
-            fmt::format(
-                "The image for the card at {:04X}h is of another project than \"{}\" (ident {:02X}h). The array runs "
-                "it, but it cannot be used here.",
-                base_, position_project, ident));
+        return set(Flex_ErrProject, fmt::format("The image for the card at {:04X}h is of another project than \"{}\" "
+                                                "(ident {:02X}h). The array runs it, but this library cannot use it.",
+                                                base_, position_project, ident));
     if (ident != settings_.ident)
         return set(
             Flex_ErrProject,

@@ -188,7 +188,7 @@ motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
     while (statuses()[static_cast<std::size_t>(axis)] != sCal) {
         if (stop_requested())
             return fail(ErrorKind::stopped,
-                        fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
+                        fmt::format("The wait for the calibration of axis {} was stopped by the user.", axis));
         if (now() >= until)
             return fail(
                 ErrorKind::machine,
@@ -206,12 +206,12 @@ motionrack::Result<void> Flex2Pos::set_mode(int axis, const AxisMode& wanted) {
     if (!ok()) return fail(ErrorKind::machine, why());
     if (wanted.edges != 4 && wanted.edges != 2 && wanted.edges != 1)
         return fail(ErrorKind::refused,
-                    fmt::format("Axis {} is to count {} edges of a line, but that is 4, 2 or 1. Nothing was written.",
-                                axis, wanted.edges));
+                    fmt::format("Axis {} has {} edges per line; it must be 4, 2 or 1. Nothing was written.", axis,
+                                wanted.edges));
     if (wanted.filter < 0 || wanted.filter > 15)
         return fail(
             ErrorKind::refused,
-            fmt::format("The filter of axis {} is {}, but it is 0 to 15. Nothing was written.", axis, wanted.filter));
+            fmt::format("The filter of axis {} is {}; it must be 0 to 15. Nothing was written.", axis, wanted.filter));
     std::uint16_t word = 0;
     word = REVERSED.set(word, wanted.reversed);
     word = EDGES.set(word, wanted.edges == 4 ? 0u : wanted.edges == 2 ? 1u : 2u);

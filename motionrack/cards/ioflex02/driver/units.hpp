@@ -29,10 +29,9 @@ class Units {
   private:
     static Result<Units> of(double counts_per_unit, const char* what) {
         if (!std::isfinite(counts_per_unit) || counts_per_unit == 0)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("There are {} {}, but that must be a number other than 0. The units were not changed.",
-                            counts_per_unit, what));
+            return fail(ErrorKind::refused,
+                        fmt::format("The {1} are {0}; they must be a number other than 0. The units were not changed.",
+                                    counts_per_unit, what));
         Units out;
         out.counts_per_unit_ = counts_per_unit;
         return out;

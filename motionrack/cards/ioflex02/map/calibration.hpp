@@ -49,7 +49,7 @@ constexpr tIOFlexSts status_of(CalState state) {
 namespace map {
 
 inline constexpr CommandInfo commands[] = {
-    {"cNop", cNop, 0, 0, 0, "", "", "no calibration; ends one that is waited for, the position stays"},
+    {"cNop", cNop, 0, 0, 0, "", "", "no calibration; cancels a pending one, the position stays"},
     {"cRes", cRes, 0, 0, 0, "", "", "the position becomes 0 at once"},
     {"cResNm", cResNm, 0, 0, 0, "", "", "the position becomes 0 at the first index pulse"},
     {"cResNmSig", cResNmSig, 0, 0, 0, "", "", "the position becomes 0 at the first index pulse after Cal has risen"},
@@ -57,9 +57,9 @@ inline constexpr CommandInfo commands[] = {
 static_assert(declared<commands_flaw(commands)>());
 
 inline constexpr StateInfo calibration_states[] = {
-    {"calibrated", "sCal: nothing is waited for"},
+    {"calibrated", "sCal: no calibration is pending"},
     {"wait index", "sNotCal: the next index pulse zeroes the position"},
-    {"wait cal", "sNotCal: a rising edge of Cal is waited for; index pulses do nothing"},
+    {"wait cal", "sNotCal: waits for a rising edge of Cal; index pulses have no effect"},
 };
 inline constexpr TransitionInfo calibration_transitions[] = {
     {"calibrated", "wait index", "cResNm"},
@@ -70,14 +70,14 @@ inline constexpr TransitionInfo calibration_transitions[] = {
     {"wait cal", "calibrated", "cRes, cNop"},
 };
 inline constexpr StateInfo array_states[] = {
-    {"empty", "no project: the project's registers read FFFFh"},     {"loading", "the image's bytes are taken"},
-    {"starting", "the image is whole; the array configures itself"}, {"running", "the project works"},
+    {"empty", "no project: the project's registers read FFFFh"},        {"loading", "the image's bytes are accepted"},
+    {"starting", "the image is complete; the array configures itself"}, {"running", "the project works"},
     {"failed", "the image was refused: CFG_ERROR has the reason"},
 };
 inline constexpr TransitionInfo array_transitions[] = {
     {"empty", "loading", "CONFIGURE"},
-    {"loading", "starting", "the last byte, and the image is in order"},
-    {"loading", "failed", "something is wrong with the image, or END before its last byte"},
+    {"loading", "starting", "the last byte, and the image is valid"},
+    {"loading", "failed", "the image is invalid, or END before its last byte"},
     {"starting", "running", "the time of configuration is over"},
     {"starting", "loading", "CONFIGURE"},
     {"running", "loading", "CONFIGURE"},

@@ -14,7 +14,7 @@ namespace motionrack::ioflex02::map {
 
 inline constexpr FieldInfo status_fields[] = {
     {"LOADING", 0x0001, "the array waits for the image's bytes"},
-    {"STARTING", 0x0002, "the image was taken, the array configures itself"},
+    {"STARTING", 0x0002, "the image was accepted, the array configures itself"},
     {"RUNNING", 0x0004, "a project runs"},
     {"FAILED", 0x0008, "the image was refused; CFG_ERROR says why"},
     {"ILLEGAL", 0x00F0, "bit 4 + n: axis n has had illegal transitions since CLEAR_ERRORS"},
@@ -50,11 +50,11 @@ inline constexpr FieldInfo lines_fields[] = {
 inline constexpr FieldInfo control_fields[] = {
     {"CONFIGURE", 0x0001, "empties the array and waits for an image"},
     {"END", 0x0002, "the image has ended; if bytes are missing it is refused"},
-    {"RESET", 0x0004, "the project begins anew: positions and time 0, sCal, outputs 0, errors cleared"},
+    {"RESET", 0x0004, "the project restarts: positions and time 0, sCal, outputs 0, errors cleared"},
     {"CLEAR_ERRORS", 0x0008, "clears the counts of illegal transitions"},
 };
 inline constexpr FieldInfo strobe_fields[] = {
-    {"CAPTURE", 0x0001, "latches time, positions and all that belongs to them, of this instant"},
+    {"CAPTURE", 0x0001, "latches time, positions and all captured registers at this instant"},
     {"CLEAR_TIME", 0x0002, "zeroes the time, after the capture; not its phase"},
 };
 inline constexpr FieldInfo cmd_fields[] = {
@@ -62,7 +62,7 @@ inline constexpr FieldInfo cmd_fields[] = {
     {"CMD1", 0x000C, "of axis 1"},
     {"CMD2", 0x0030, "of axis 2"},
     {"CMD3", 0x00C0, "of axis 3"},
-    {"KEEP", 0x0F00, "bit 8 + n: axis n takes no command and keeps what it waits for"},
+    {"KEEP", 0x0F00, "bit 8 + n: axis n ignores the command and stays armed"},
 };
 inline constexpr FieldInfo byte_fields[] = {
     {"BYTE", 0x00FF, "a bit an output"},
@@ -87,16 +87,16 @@ inline constexpr RegisterInfo registers[] = {
     {"DATA", 0x02, 16, w, false, "", "two bytes of the image, the first one low", {}},
     {"SIGNATURE", 0x00, 16, r, false, "", "4F49h: an IOFLEX02 answers here", {}},
     {"SERIAL", 0x02, 16, r, false, "", "the card's serial number", {}},
-    {"SERIAL_N", 0x04, 16, r, false, "", "the same with every bit inverted; two cards at one address do not read so",
+    {"SERIAL_N", 0x04, 16, r, false, "", "the same with every bit inverted; two cards at one address read otherwise",
      {}},
     {"STATUS", 0x06, 16, r, false, "", "the array's state, and which axes have errors", status_fields},
     {"CFG_ERROR", 0x08, 16, r, false, "", "why the last image was refused; cleared by CONFIGURE", error_fields},
     // ---- the project
-    {"STROBE", 0x10, 16, w, false, "", "one instant for everything", strobe_fields},
+    {"STROBE", 0x10, 16, w, false, "", "capture of one instant, reset of the time", strobe_fields},
     {"CMD", 0x12, 16, w, false, "", "calibration commands of the axes, together", cmd_fields},
     {"OUTL", 0x14, 16, w, false, "", "low 8 outputs of X5", byte_fields},
     {"OUTH", 0x16, 16, w, false, "", "high 8 outputs of X5; X7 is not driven by this project", byte_fields},
-    {"AXIS", 0x18, 16, w, false, "", "chooses the axis of the registers that there are one an axis", axis_fields},
+    {"AXIS", 0x18, 16, w, false, "", "chooses the axis of the registers per axis", axis_fields},
     {"IDENT", 0x0A, 16, r, false, "", "the project in the array", ident_fields},
     {"STS", 0x0C, 16, r, false, "", "calibration status", sts_fields},
     {"IN", 0x0E, 16, r, false, "", "the 16 inputs as they are, before the filter", in_fields},
@@ -140,7 +140,7 @@ inline constexpr RegisterInfo registers[] = {
     {"ILLEGAL_AT_L", 0x5E, 16, r, true, "", "captured: RAW at the last illegal transition, low", {}},
     {"ILLEGAL_AT_H", 0x60, 16, r, true, "", "captured: the same, high", {}},
     {"MODE_NOW", 0x62, 16, r, true, "", "how the axis counts", mode_fields},
-    {"MODE", 0x62, 16, w, true, "", "how the axis counts from now on; after a reset as the image says", mode_fields},
+    {"MODE", 0x62, 16, w, true, "", "mode of the axis from now on; a reset restores that of the image", mode_fields},
 };
 // clang-format on
 static_assert(declared<registers_flaw(registers)>());

@@ -34,7 +34,7 @@ struct AxisState {
     std::int64_t edge = no_sample;            ///< sample of the last count
     std::int64_t index_at = 0;                ///< raw count at the last index
     std::int64_t illegal_at = 0;              ///< raw count at the last illegal transition
-    std::int64_t illegal_sample = no_sample;  ///< sample of the first one since CLEAR_ERRORS
+    std::int64_t illegal_sample = no_sample;  ///< instant of the first illegal transition since CLEAR_ERRORS
     std::uint16_t illegal = 0;                ///< stays at FFFFh
     std::uint16_t edges_a = 0, edges_b = 0, indexes = 0;
     std::uint16_t mode = 0;

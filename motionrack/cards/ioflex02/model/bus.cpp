@@ -30,14 +30,14 @@ void Bus::tell_conflict(std::uint32_t address) {
 
 std::uint16_t Bus::read(std::uint32_t address) {
     tell_conflict(address);
-    unsigned out = nobody;
+    unsigned out = no_answer;
     for (Card* card : cards_)
         if (answers(*card, address)) out &= card->read(address - card->settings().base_address);
     return static_cast<std::uint16_t>(out);
 }
 
 std::uint16_t Bus::peek(std::uint32_t address) const {
-    unsigned out = nobody;
+    unsigned out = no_answer;
     for (const Card* card : cards_)
         if (answers(*card, address)) out &= card->peek(address - card->settings().base_address);
     return static_cast<std::uint16_t>(out);

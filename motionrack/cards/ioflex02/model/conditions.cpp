@@ -19,7 +19,7 @@ const char* refusal(std::int64_t code) {
         case CfgError::crc:
             return "its CRC-32 is wrong";
         default:
-            return "it is in order";
+            return "it is valid";
     }
 }
 
@@ -28,8 +28,7 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::illegal_transition:
             return fmt::format(
                 "lines A and B of axis {} changed at once at {} ns; nothing was counted, so its position may be off. "
-                "More of "
-                "them are counted only, until CLEAR_ERRORS",
+                "Further ones are only counted, until CLEAR_ERRORS",
                 c.a, c.b);
         case CardCondition::image_refused:
             return fmt::format("the configuration image was refused after {} bytes: {}; the array is empty", c.b,
@@ -41,15 +40,13 @@ std::string what_happened(const sim::Condition& c) {
                 c.a);
         case CardCondition::no_project:
             return fmt::format(
-                "the register at {:02X}h was used while no project runs; it reads FFFFh and takes nothing", c.a);
+                "the register at {:02X}h was used while no project runs; it reads FFFFh and ignores writes", c.a);
         case CardCondition::no_register:
-            if (c.b < 0) return fmt::format("a read from {:02X}h, where there is no register, gave FFFFh", c.a);
-            return fmt::format("{:04X}h was written to {:02X}h, where there is no register; nothing was changed", c.b,
-                               c.a);
+            if (c.b < 0) return fmt::format("a read from {:02X}h, which has no register, returned FFFFh", c.a);
+            return fmt::format("{:04X}h was written to {:02X}h, which has no register; nothing was changed", c.b, c.a);
         case CardCondition::address_conflict:
             return fmt::format(
-                "two cards answer at the base address {:04X}h: what is read is both cards' words and-ed, what is "
-                "written goes "
+                "two cards answer at the base address {:04X}h: a read returns both words ANDed, a write goes "
                 "to both. Give each card its own address",
                 c.a);
     }

@@ -42,7 +42,8 @@ std::uint16_t Card::word(const State& state, std::uint32_t at) const {
         default:
             break;
     }
-    if (c.array != ArrayState::running || (!c.known && at != offset("IDENT")) || !declared_at(at, false)) return nobody;
+    if (c.array != ArrayState::running || (!c.known && at != offset("IDENT")) || !declared_at(at, false))
+        return no_answer;
     return project_word(state, at);
 }
 
@@ -89,7 +90,7 @@ std::uint16_t Card::project_word(const State& state, std::uint32_t at) const {
         case offset("MODE_NOW"):
             return state.axes[state.axis].mode;
         default:
-            return nobody;
+            return no_answer;
     }
 }
 

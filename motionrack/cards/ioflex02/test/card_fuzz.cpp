@@ -135,7 +135,7 @@ class Run {
     }
     void look() {
         check(rig_.card.time() <= mask_24, "a time of more than 24 bits");
-        const bool known = rig_.card.running() && rig_.card.peek(offset("STS")) != nobody;
+        const bool known = rig_.card.running() && rig_.card.peek(offset("STS")) != no_answer;
         for (int axis = 0; axis < 4; ++axis) {
             const std::int32_t position = rig_.card.position(axis);
             check(position >= -8'388'608 && position <= 8'388'607, "a position of more than 24 bits");

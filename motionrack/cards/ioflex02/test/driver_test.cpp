@@ -175,7 +175,7 @@ TEST(Flex2PosInit, ImagesThatAreCutDamagedOrForeignAreErrCfg) {
         {text, "cannot be unpacked"},
         {compressed(raw_cut), "error 3): it is cut short"},
         {compressed(raw_damaged), "error 4): its CRC-32 is wrong"},
-        {compressed(raw_foreign), "error 1): it is no image"},
+        {compressed(raw_foreign), "error 1): it is not an image"},
         {compressed(std::vector<std::uint8_t>{}), "error 3)"},
     };
     for (const auto& [image, sentence] : images) {
@@ -284,7 +284,7 @@ TEST(Flex2Pos, ModesAreReadBackAndOutOfRangeOnesRefused) {
     EXPECT_EQ(r.card.mode(1), mode);
     EXPECT_EQ(r.card.mode(0), AxisMode{});
     ASSERT_FALSE(r.card.set_mode(1, {false, 3, false, 0}));
-    EXPECT_THAT(r.card.set_mode(1, {false, 3, false, 0}).error().message, HasSubstr("count 3 edges"));
+    EXPECT_THAT(r.card.set_mode(1, {false, 3, false, 0}).error().message, HasSubstr("has 3 edges per line"));
     EXPECT_FALSE(r.card.set_mode(1, {false, 4, false, 16}));
     EXPECT_FALSE(r.card.set_mode(1, {false, 4, false, -1}));
     EXPECT_EQ(r.card.mode(1), mode);
@@ -372,7 +372,7 @@ TEST(Flex2PosUnits, AreMillimetresOrDegrees) {
     EXPECT_EQ(spindle.to_counts(-180), -2048);
     EXPECT_FALSE(Units::mm(0));
     EXPECT_FALSE(Units::degrees(1.0 / 0.0));
-    EXPECT_THAT(Units::mm(0).error().message, HasSubstr("There are 0 counts for a mm"));
+    EXPECT_THAT(Units::mm(0).error().message, HasSubstr("counts for a mm are 0"));
 }
 
 }  // namespace

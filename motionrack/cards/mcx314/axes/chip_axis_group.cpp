@@ -307,13 +307,14 @@ tl::unexpected<Error> ChipAxisGroup::stopped_by_machine() {
         if (!cause.empty())
             why += fmt::format("{}axis {}: {}", why.empty() ? "" : "; ", control::axis_letters[i], cause);
     }
-    if (why.empty()) why = "the chip's counters are not where the path ends";
+    if (why.empty()) why = "the chip's counters differ from the end of the path";
     chain_running_ = false;
-    return fail(ErrorKind::machine,
-                fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
-                            "clear the cause, move back and start again.",
-                            current_line_, why, control::position_text(commanded_position(), map_.limits)),
-                {current_line_, 1});
+    return fail(
+        ErrorKind::machine,
+        fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was executed; "
+                    "clear the cause, move back and start again.",
+                    current_line_, why, control::position_text(commanded_position(), map_.limits)),
+        {current_line_, 1});
 }
 
 tl::unexpected<Error> ChipAxisGroup::stopped_by_user() {

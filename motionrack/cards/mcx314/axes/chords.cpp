@@ -55,11 +55,12 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
     const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
     const double deviation = arc ? work.path.radius * (1 - sin_cos(half).cos) : 0;
     if (work.auxiliary >= 0)
-        note_split(
-            work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator",
-            deviation);
+        note_split(work,
+                   "four axes move together: the chip interpolates three, the fourth axis follows with its own speed "
+                   "generator",
+                   deviation);
     else
-        note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
+        note_split(work, "the chip has no helix: the arc is approximated by short lines of three axes", deviation);
     const double step = work.path.length / count;
     // An auxiliary receives one speed per segment, so the speeds of the segments change more slowly than its limit.
     const double top_speed = work.move.cruise_velocity,

@@ -57,18 +57,16 @@ Result<void> ChipAxisGroup::check_probe(bool release) {
     if (probe_channels_ == 0)
         return fail(ErrorKind::refused, "No probe is connected to IN3 of this card. Nothing was moved.");
     if ((used & ~probe_channels_) != 0) {
-        return fail(
-            ErrorKind::refused,
-            "The probe is not at the input IN3 of each channel that moves an axis, so not all places could be caught. "
-            "Nothing was moved; wire them in the rack file.");
+        return fail(ErrorKind::refused,
+                    "The probe is not at the input IN3 of each channel that moves an axis, so not all positions could "
+                    "be latched. Nothing was moved; wire them in the rack file.");
     }
     for (int c = 0; c < channel_count; ++c) {
         if ((used >> c & 1) == 0 || driver_.inputs(c).in[probe_input] == release) continue;
         return fail(ErrorKind::machine,
-                    release
-                        ? "The probe does not touch before the move that should lead it away. Nothing was moved."
-                        : "The probe touches already before the move that should find the contact. Nothing was moved; "
-                          "lead it away first (G38.4).");
+                    release ? "The probe is open before the move that should open it. Nothing was moved."
+                            : "The probe is closed before the move that should close it. Nothing was moved; move it "
+                              "away first (G38.4).");
     }
     return {};
 }

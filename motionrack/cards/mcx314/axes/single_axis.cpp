@@ -50,12 +50,12 @@ tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& wh
 
 Result<void> SingleAxis::check_speed(const char* what, double speed) const {
     if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity) return {};
-    return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit,
+    return refuse(what, fmt::format("the speed is {} {}/s; it must be above 0 and up to {}", speed, settings_.unit,
                                     settings_.limits.max_velocity));
 }
 
 Result<void> SingleAxis::check_free(const char* what) {
-    if (busy()) return refuse(what, "it moves; stop it and wait until it stands");
+    if (busy()) return refuse(what, "it moves; stop it and wait for standstill");
     const AxisStatus status = driver_.axis_status(settings_.channel);
     if (field("RR2", "EMG").test(status.rr2)) return refuse(what, "the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse(what, "its drive reports an alarm; clear it");
@@ -91,7 +91,7 @@ Result<void> SingleAxis::begin_move(double distance, double speed) {
 
 Result<void> SingleAxis::move_to(double position, double speed) {
     const control::AxisLimits& limits = settings_.limits;
-    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
+    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or set its position with set_position");
     MOTIONRACK_CHECK(check_speed("Move", speed));
     if (!(position >= limits.min_position && position <= limits.max_position))
         return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
@@ -108,7 +108,7 @@ Result<void> SingleAxis::move_by(double distance, double speed) {
     const double most = max_pulses / settings_.limits.pulses_per_unit;
     if (!(std::fabs(distance) <= most))
         return refuse("Move",
-                      fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
+                      fmt::format("the distance is {} {}; it must be at most {:.0f}", distance, settings_.unit, most));
     MOTIONRACK_CHECK(check_free("Move"));
     MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
     return begin_move(distance, speed);
@@ -162,7 +162,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
     MOTIONRACK_CHECK(check_speed("Homing", order.speed));
     const auto outside = [&](const char* what, double value, double least, double greatest) -> Result<void> {
         if (value >= least && value <= greatest) return {};
-        return refuse("Homing", fmt::format("{} is {}, but may be {} to {}", what, value, least, greatest));
+        return refuse("Homing", fmt::format("{} is {}; it must be {} to {}", what, value, least, greatest));
     };
     const double max_way = max_pulses / limits.pulses_per_unit, max_home = max_place / limits.pulses_per_unit;
     MOTIONRACK_CHECK(outside("the home position", order.position, -max_home, max_home));
@@ -196,7 +196,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
     out.turn = settings_.pulses_per_turn;
     if (index && order.index_after) {
-        MOTIONRACK_CHECK(outside("the way from the switch to the index", *order.index_after, 0, max_way));
+        MOTIONRACK_CHECK(outside("the distance from the switch to the index", *order.index_after, 0, max_way));
         out.index_after = pulses(*order.index_after);
     }
     if (order.hysteresis) {
@@ -273,9 +273,9 @@ void SingleAxis::trust(bool on) {
 Result<void> SingleAxis::set_position(double position) {
     const double most = max_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
     if (!(std::fabs(position) <= most))
-        return refuse("Position",
-                      fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
-    if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
+        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position, most,
+                                              settings_.unit));
+    if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)
         MOTIONRACK_CHECK(driver_.EPS(mask(), nearest_pulse(position, settings_.counts_per_unit)));

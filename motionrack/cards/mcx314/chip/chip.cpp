@@ -23,8 +23,8 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
                 card, condition.a, "XYZU"[condition.b & 3]);
         case path_ignored:
             return fmt::format(
-                "{}: interpolation command {:02X}h was ignored: the next segment is queued already, an axis is named "
-                "twice or drives on its own, or a bit pattern runs; wait for CNEXT or the end of the drive",
+                "{}: interpolation command {:02X}h was ignored: the next segment is queued already, an axis is used "
+                "twice or has a drive of its own, or a bit pattern runs; wait for CNEXT or the end of the drive",
                 card, condition.a);
         case pattern_full:
             return fmt::format(
@@ -33,21 +33,21 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
                 card);
         case pattern_ran_out:
             return fmt::format(
-                "{}: the bit pattern ended after {} basic pulses without its end code, since no more words were "
-                "stacked; stack them sooner, drive slower, or end with both bits of an axis set",
+                "{}: the bit pattern ended after {} basic pulses without its end code, because no further words were "
+                "stacked; stack them earlier, reduce the speed, or end with both bits of an axis set",
                 card, condition.a);
         case step_ignored:
             return fmt::format(
                 "{}: command 3Ah was ignored: no interpolation that waits for it (WR5 CMPLS at its command) runs, or "
-                "its last step is still under way",
+                "its last step is not finished",
                 card);
         case unknown_command:
             if (condition.b == 1)
                 return fmt::format(
-                    "{}: command {:02X}h is one of the MCX314As, and this is an MCX314; nothing was done; set variant "
+                    "{}: command {:02X}h belongs to the MCX314As, and this is an MCX314; nothing was done; set variant "
                     "= \"mcx314as\" for the card, or leave the command out",
                     card, condition.a);
-            return fmt::format("{}: command {:02X}h is not one of this model's; nothing was done", card, condition.a);
+            return fmt::format("{}: command {:02X}h does not exist on this model; nothing was done", card, condition.a);
         default:
             return fmt::format("{}: condition {}", card, condition.code);
     }

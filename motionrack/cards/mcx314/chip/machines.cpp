@@ -10,7 +10,7 @@ namespace {
 consteval const MachineInfo& machine(std::string_view name) {
     for (const MachineInfo& each : map::machines)
         if (each.name == name) return each;
-    throw "there is no state machine of this name";
+    throw "unknown state machine name";
 }
 /// Index of a state in its machine's table; an unknown name does not compile.
 consteval int place(std::string_view machine_name, std::string_view name) {

@@ -34,7 +34,7 @@ Result<void> Driver::ContStart(const CONTDATA& data) {
     MOTIONRACK_CHECK(check_speeds(axis_x, speeds));
     if (chain_.open && chain_.running && status().interpolating())
         return fail(ErrorKind::refused,
-                    "ContStart: the chain before runs still. Nothing was written. Call ContEnd or stop it first.");
+                    "ContStart: the previous chain still runs. Nothing was written. Call ContEnd or stop it first.");
     chain_ = {};
     chain_.open = true;
     chain_.speeds = speeds;
@@ -64,11 +64,9 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
     if (v != 0) {
         MOTIONRACK_CHECK(check(1u << generator, param::V, v));
         if (chain_.speeds.kind == Curve::constant)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("{}: a chain of constant speed cannot change it. Nothing was written. Give ContStart an "
-                            "acceleration.",
-                            who));
+            return fail(ErrorKind::refused, fmt::format("{}: a chain of constant speed cannot change the speed. "
+                                                        "Nothing was written. Give ContStart an acceleration.",
+                                                        who));
     }
     MOTIONRACK_CHECK(check_chain_speed(generator, v != 0 ? v : chain_.speeds.V));
     if (chain_.kept_back) {

@@ -22,7 +22,7 @@ Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value
 Result<void> check_switch(const char* who, int n, int greatest, const char* meanings) {
     if (n >= 0 && n <= greatest) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
+                fmt::format("{}: n is {}; it must be 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
 }
 
 Result<void> check_no_path(const char* who, MainStatus main) {

@@ -237,10 +237,10 @@ Result<std::int64_t> best_dec_point(const CurveData& data) {
         return fail(ErrorKind::refused,
                     "A continuous drive has no deceleration point. Nothing was planned. Give the number of pulses.");
     CurveData tried = data;
-    const std::function<void(const CurveSpan&)> nobody;
+    const std::function<void(const CurveSpan&)> no_observer;
     auto ends_slow = [&](std::int64_t point) {
         tried.dec_point = point;
-        return Walk(tried, nobody).run().ends_slow();
+        return Walk(tried, no_observer).run().ends_slow();
     };
     // If the top speed is reached, its deceleration is almost the answer; otherwise the answer lies below.
     const std::int64_t guess = *data.pulses - (data.V > data.SV ? fall_pulses(data, data.V) : 0);
@@ -261,10 +261,10 @@ Result<std::int64_t> best_offset(const CurveData& data) {
                     "A continuous drive needs no offset. Nothing was planned. Give the number of pulses.");
     CurveData tried = data;
     tried.dec_point.reset();
-    const std::function<void(const CurveSpan&)> nobody;
+    const std::function<void(const CurveSpan&)> no_observer;
     auto ends_slow = [&](std::int64_t offset) {
         tried.AO = offset;
-        return Walk(tried, nobody).run().ends_slow();
+        return Walk(tried, no_observer).run().ends_slow();
     };
     std::int64_t low = -1, high = 0;  // too fast at low, slow at high
     while (high < param::AO.max && !ends_slow(high)) {

@@ -78,7 +78,7 @@ Result<void> Driver::check_channel(int axis, const char* who) {
     if (axis >= 0 && axis < 4) return {};
     return fail(
         ErrorKind::refused,
-        fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
+        fmt::format("{}: the axis is {}; it must be one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
 }
 
 Result<void> Driver::check_standing(unsigned axes, const char* who, MainStatus main) {
@@ -258,7 +258,7 @@ void Driver::SetSCurve(unsigned axes, bool on) {
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));
     for (const int i : channels_of(axes)) kept(i).from_known = false;
-    if (axes & path_axes_) pieces_ = {};  // the start of its axes is no longer known
+    if (axes & path_axes_) pieces_ = {};  // the start position of its axes is unknown now
     return {};
 }
 Result<void> Driver::EPS(unsigned axes, std::int64_t value) {

@@ -73,11 +73,10 @@ Result<CurveData> Driver::planned_curve(const char* who, int axis, Speeds speeds
                                         std::optional<std::int64_t> pulses) const {
     const Kept& own = kept(axis);
     if (own.asymmetric && !written(axis, cmd::D))
-        return fail(
-            ErrorKind::refused,
-            fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call SetD "
-                        "first, or SetAsymmetric(.., false).",
-                        who, axes_text(1u << axis)));
+        return fail(ErrorKind::refused,
+                    fmt::format("{}: {} decelerates with its own D, which is not set. Nothing was written. Call SetD "
+                                "first, or SetAsymmetric(.., false).",
+                                who, axes_text(1u << axis)));
     if (own.asymmetric) speeds.D = *written(axis, cmd::D);
     CurveData curve = curve_of(axis, speeds, pulses ? std::optional(rules::magnitude(*pulses)) : std::nullopt);
     if (own.manual) curve.dec_point = own.dec_point;

@@ -298,8 +298,8 @@ void Home::drive_reached(const Look& look, Instant now) {
     if (state_->pace == HomingSpeed::fast && !at_speed_ && settings_.v > settings_.sv &&
         (settings_.type == 1 || settings_.type == 3))
         report_.notes.push_back(
-            "the switch came before V was reached, with no way for a longer run-up: a start from farther away may end "
-            "elsewhere");
+            "the switch came before V was reached, without room for a longer run-up: a start from farther away may "
+            "find another edge");
     leave_by(HomingTransition::done, look, now);
 }
 

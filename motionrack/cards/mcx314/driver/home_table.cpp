@@ -22,7 +22,7 @@ constexpr HomeState wait_steady(std::string_view name, std::string_view meaning,
 }
 
 constexpr HomeState check_start = {"CHECK_START",
-                                   "looks where the axis stands",
+                                   "checks the inputs at the start position",
                                    HomingAction::look,
                                    {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
 constexpr HomeState search_start = drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT",
@@ -33,7 +33,7 @@ constexpr HomeState search_wait(Exits exits) {
 constexpr HomeState rest_start = {
     "REST_START", "stands, past the switch's edge or at a limit", HomingAction::settle, {{{done, "REST_WAIT"}}}};
 constexpr HomeState rest_wait =
-    wait_steady("REST_WAIT", "contacts come to rest", {{{on, "BACK_START"}, {off, "RETURN_START"}}});
+    wait_steady("REST_WAIT", "waits until contacts settle", {{{on, "BACK_START"}, {off, "RETURN_START"}}});
 constexpr HomeState return_start =
     drive("RETURN_START", "away from the limit, or back over a short switch, to the switch", "RETURN_WAIT",
           SearchDirection::away, HomingSpeed::back, HomingStopInput::on);
@@ -50,11 +50,12 @@ constexpr HomeState clear_wait =
 constexpr HomeState settle_start = {
     "SETTLE_START", "stands, beside the switch", HomingAction::settle, {{{done, "SETTLE_WAIT"}}}};
 constexpr HomeState settle_wait(std::string_view next) {
-    return wait_steady("SETTLE_WAIT", "contacts come to rest", {{{off, next}, {on, "BACK_START"}}});
+    return wait_steady("SETTLE_WAIT", "waits until contacts settle", {{{off, next}, {on, "BACK_START"}}});
 }
 /// If the search did not begin before the switch, it is repeated for the index behind the switch.
-constexpr HomeState settle_wait_indexed = wait_steady(
-    "SETTLE_WAIT", "contacts come to rest", {{{unseen, "SEARCH_START"}, {off, "SLOW_START"}, {on, "BACK_START"}}});
+constexpr HomeState settle_wait_indexed =
+    wait_steady("SETTLE_WAIT", "waits until contacts settle",
+                {{{unseen, "SEARCH_START"}, {off, "SLOW_START"}, {on, "BACK_START"}}});
 constexpr HomeState slow_start = drive("SLOW_START", "towards the switch, slowly", "SLOW_WAIT",
                                        SearchDirection::towards, HomingSpeed::slow, HomingStopInput::on);
 constexpr HomeState slow_wait(std::string_view next) {

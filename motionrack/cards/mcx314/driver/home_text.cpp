@@ -47,7 +47,7 @@ Result<void> HomeReport::result() const {
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
     if (type < 1 || type > 4)
         return motionrack::fail(ErrorKind::refused,
-                                fmt::format("The type of homing is {}, but it is 1 to 4. Nothing was moved.", type));
+                                fmt::format("The type of homing is {}; it must be 1 to 4. Nothing was moved.", type));
     HomeSettings out;
     const bool to_index = type >= 3;
     out.type = type == 4 ? 5 : type;
@@ -89,32 +89,32 @@ Result<void> Home::check_ready() {
         {"the speed off the switch (at most SV)", s.back_v == 0 ? 1 : s.back_v, 1, s.sv},
         {"the slow speed (at most SV)", s.slow_v == 0 ? 1 : s.slow_v, 1, s.sv},
         {"the travel", s.travel, 1, param::pulses.max},
-        {"the pulses of a turn", s.turn, 0, param::pulses.max},
+        {"the pulses per revolution", s.turn, 0, param::pulses.max},
         {"the hysteresis of the switch (-1: not known)", s.hysteresis, -1, param::pulses.max},
-        {"the way within which the switch repeats", s.repeats, 0, param::pulses.max},
+        {"the repeatability of the switch", s.repeats, 0, param::pulses.max},
         {"the clearance", s.clearance, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
-        {"the way from the switch to the index (-1: any)", s.index_after, -1, param::pulses.max},
+        {"the distance from the switch to the index (-1: any)", s.index_after, -1, param::pulses.max},
         {"the home position", s.home_position, param::LP.min, param::LP.max},
         {"the encoder's home position", s.home_counts, param::EP.min, param::EP.max},
     };
     for (const Bound& bound : bounds)
         if (bound.value < bound.min || bound.value > bound.max)
-            return refuse(fmt::format("{} is {}, but may be {} to {}", bound.name, grouped(bound.value),
+            return refuse(fmt::format("{} is {}; it must be {} to {}", bound.name, grouped(bound.value),
                                       grouped(bound.min), grouped(bound.max)));
     if (s.type >= 3 && s.input == s.index_input)
         return refuse(fmt::format("home switch and index are both IN{}", s.input));
     if (!(s.pulses_per_unit != 0) || !std::isfinite(s.pulses_per_unit))
         return refuse("the pulses per unit must be a number other than 0");
     if (running_) return refuse("it is being homed already; stop that first");
-    if (driver_.status().driving(mask())) return refuse("it moves; stop it and wait until it stands");
+    if (driver_.status().driving(mask())) return refuse("it moves; stop it and wait for standstill");
     const AxisStatus status = driver_.axis_status(axis_);
     if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     if (field("RR2", "HLMTP").test(status.rr2) && field("RR2", "HLMTM").test(status.rr2))
         return refuse(
-            "both limit switches are active, so it can move neither way; look for a broken wire or a wrong level (WR2 "
+            "both limit switches are active, so it cannot move; look for a broken wire or a wrong level (WR2 "
             "HLMTP, HLMTM)");
     return {};
 }
@@ -148,30 +148,31 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
                         how_far,
                         settings_.negative == (table_->state(failed_in_).way == SearchDirection::towards) ? "-" : "+",
                         turned_ && !found ? ", nor in the other direction up to the limit switch" : ""),
-                    "Look at its wire and level (RR4, RR5), or search in the other direction or farther"};
+                    "Check its wire and level (RR4, RR5), or search in the other direction or farther"};
         case HomeFault::near_limit:
             return {
                 fmt::format(
-                    "{} acts so near to the limit switch that the axis came upon that while it decelerated, after {}",
+                    "{} is so near to the limit switch that the axis reached the limit while decelerating, after {}",
                     switch_text(), text(failed_after_)),
                 "Shift the switch away from the limit, or search more slowly"};
         case HomeFault::not_released:
             return {fmt::format("{} is active and was not released within {}", switch_text(), how_far),
-                    "Look whether it is stuck or has the other level, or move the axis off it by hand"};
+                    "Check whether it is stuck or has the other level, or move the axis off it by hand"};
         case HomeFault::edges_differ:
             return {fmt::format("{} is not sound: {}", switch_text(),
                                 conflict_->text([&](double way) { return text(std::llround(way)); })),
-                    "Look for a loose wire and for contacts that break, stick or bounce for long"};
+                    "Check for a loose wire and for contacts that break, stick or bounce for long"};
         case HomeFault::no_index:
             return {fmt::format("{} was not seen within {} after the switch", index, how_far),
-                    "Look at the encoder's Z wire and level, or home without it (type 1 or 2)"};
+                    "Check the encoder's Z wire and level, or home without it (type 1 or 2)"};
         case HomeFault::wrong_index:
             return {fmt::format("{} was seen {} behind the switch, where it should be {} behind it", index,
                                 text(report_.switch_to_index().value_or(0)), text(settings_.index_after)),
                     "Look for a second index or noise on the encoder's Z wire, or whether the switch was moved"};
         default:
-            return {fmt::format("{} is active where the switch acts, so another start might find another turn", index),
-                    "Shift the switch by half a motor turn, or look whether the index is stuck"};
+            return {
+                fmt::format("{} is active at the switch edge, so another start might find another revolution", index),
+                "Shift the switch by half a motor revolution, or check whether the index is stuck"};
     }
 }
 
@@ -180,10 +181,10 @@ std::string Home::why_failed(const Look& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
     if (report_.homed)
         return settings_.unit == "pulses"
-                   ? fmt::format("Axis {} is homed: its counter read {} where it is {} since.", axis,
+                   ? fmt::format("Axis {} is homed: its counter was {} at the position that is now {}.", axis,
                                  grouped(report_.zero_lp), grouped(settings_.home_position))
-                   : fmt::format("Axis {} is homed: its counter read {:.4f} where it is {:.4f} {} since.", axis,
-                                 report_.zero_lp / settings_.pulses_per_unit,
+                   : fmt::format("Axis {} is homed: its counter was {:.4f} at the position that is now {:.4f} {}.",
+                                 axis, report_.zero_lp / settings_.pulses_per_unit,
                                  static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
                                  settings_.unit);
     const bool at_limit = limit_in_way(look, SearchDirection::towards) || limit_in_way(look, SearchDirection::away);
@@ -210,12 +211,12 @@ std::string Home::why_failed(const Look& look) const {
         case HomeFault::time:
             what = fmt::format("{} lasted {:.3f} s, longer than it may; it had made {}", failed_in_,
                                to_seconds(report_.stays[report_.stays.size() - 3].took), text(failed_after_));
-            next = "Look whether nINPOS is enabled but never active, or the home input never rests";
+            next = "Check whether nINPOS is enabled but never active, or the home input keeps changing";
             break;
         case HomeFault::foreign_stop:
             what =
-                fmt::format("the drive of {} ended after {} for no reason of its own", failed_in_, text(failed_after_));
-            next = "Let no one else command the axis meanwhile";
+                fmt::format("the drive of {} ended after {} without a reported cause", failed_in_, text(failed_after_));
+            next = "No other program may command the axis meanwhile";
             break;
         case HomeFault::stopped:
             what = "it was stopped on request", next = "";

@@ -107,7 +107,7 @@ Result<void> Driver::SetVectorSpeed(int axes_count) {
     if (axes_count < 1 || axes_count > 3)
         return fail(
             ErrorKind::refused,
-            fmt::format("SetVectorSpeed: {} axes, but it is 1 (off), 2 or 3. Nothing was changed.", axes_count));
+            fmt::format("SetVectorSpeed: {} axes; it must be 1 (off), 2 or 3. Nothing was changed.", axes_count));
     vector_axes_ = axes_count;
     return {};
 }

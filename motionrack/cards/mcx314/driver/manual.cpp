@@ -16,20 +16,20 @@ constexpr Duration turn_rest = milliseconds(20);
 
 constexpr StateInfo states[] = {
     {"standing", "no manual drive"},
-    {"jogging", "a drive that is renewed: continuous, or to the end of the travel"},
-    {"turning", "decelerates and rests, to jog on the other way"},
+    {"jogging", "a renewed drive: continuous, or to the soft limit"},
+    {"turning", "decelerates to standstill, to reverse the jog"},
     {"stepping", "a fixed drive"},
-    {"homing", "a homing that is renewed"},
+    {"homing", "a renewed homing"},
     {"stopping", "decelerates"},
 };
 constexpr TransitionInfo transitions[] = {
     {"standing", "jogging", "jog()"},
     {"standing", "stepping", "step_jog()"},
     {"standing", "homing", "home()"},
-    {"jogging", "turning", "jog() the other way"},
+    {"jogging", "turning", "jog() in the other direction"},
     {"jogging", "stopping", "not renewed, jog(0) or stop()"},
-    {"jogging", "standing", "the chip ended the drive, or the travel has ended"},
-    {"turning", "jogging", "the axis has rested and the jog is renewed"},
+    {"jogging", "standing", "the chip ended the drive, or the soft limit is reached"},
+    {"turning", "jogging", "the axis stood still and the jog is renewed"},
     {"turning", "stopping", "not renewed, jog(0) or stop()"},
     {"turning", "standing", "the axis stands at a limit of the new direction"},
     {"stepping", "standing", "the pulses are out, or the chip ended the drive"},
@@ -62,7 +62,7 @@ Result<void> Manual::set(const ManualSettings& settings) {
     for (const Bound& bound : bounds)
         if (bound.value < bound.min || bound.value > bound.max)
             return fail(ErrorKind::refused,
-                        fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.",
+                        fmt::format("Manual operation of {}: {} is {}; it must be {} to {}. Nothing was changed.",
                                     name(), bound.name, bound.value, bound.min, bound.max));
     if (state_ != ManualState::standing)
         return fail(
@@ -78,7 +78,7 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
         return fail(ErrorKind::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
     };
     if (v == 0 || v > settings_.max_v || v < -settings_.max_v)
-        return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.max_v));
+        return refuse(fmt::format("the speed is {}; it must be 1 to {} in either direction", v, settings_.max_v));
     if (state_ == ManualState::stepping || state_ == ManualState::homing)
         return refuse(fmt::format("it is {}; stop that first", state_name()));
     if (state_ == ManualState::standing && driver_.moving(mask()))
@@ -224,7 +224,7 @@ void Manual::end_drive() {
     static_cast<void>(driver_.SetAO(mask(), std::nullopt));
     const bool negative = wanted_ < 0;
     if (why_.empty() && state_ == ManualState::jogging && way_left(negative) <= 0)
-        why_ = fmt::format("the {} end of its travel was reached", negative ? "-" : "+");
+        why_ = fmt::format("the {} soft limit was reached", negative ? "-" : "+");
 }
 
 void Manual::stop() {

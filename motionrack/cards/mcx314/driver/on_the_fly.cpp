@@ -23,7 +23,7 @@ std::string Driver::not_changeable(int axis, MainStatus main) {
     if (!main.driving(1u << axis)) return name + " stands";
     const int generator = static_cast<int>(field("WR5", "AX1").get(path_mode_));
     if (main.interpolating() && (path_axes_ >> axis & 1) && axis != (chain_.running ? chain_.generator : generator))
-        return fmt::format("{} is led by {} in an interpolation", name,
+        return fmt::format("{} is interpolated with main axis {}", name,
                            axes_text(1u << (chain_.running ? chain_.generator : generator)));
     const AxisStatus state = axis_status(axis);
     if (state.in_s_ramp()) return name + " is in a ramp of an S-curve, and the chip takes changes only after it";
@@ -62,11 +62,11 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
     if (!why.empty()) return refused(why);
     const std::string name = axes_text(mask);
     if ((main.interpolating() && (path_axes_ & mask)) || !own.from_known)
-        return refused(name + " is not in a fixed drive of which this library knows the start");
+        return refused(name + " is not in a fixed drive that this library started");
     if ((pulses < 0) != own.negative)
-        return refused(
-            fmt::format("{} drives in {} direction, and the chip cannot turn back; stop it and start the other way",
-                        name, own.negative ? "-" : "+"));
+        return refused(fmt::format(
+            "{} drives in {} direction, and the chip cannot reverse; stop it and start in the other direction", name,
+            own.negative ? "-" : "+"));
     const std::int64_t v = ReadCV(axis);
     const std::int64_t made = rules::magnitude(way_between(own.from, ReadLPS(axis))), wanted = rules::magnitude(pulses);
     const bool manual = field("WR3", "MANLD").test(own.mode[2]);
@@ -76,9 +76,9 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
                : fall_pulses(curve_of(axis, written_speeds(axis), 0), v) + written(axis, cmd::AO).value_or(0);
     const auto rest = static_cast<std::int64_t>(static_cast<double>(v) * multiple(axis) * to_seconds(margin)) + 1;
     if (wanted < made + fall + rest)
-        return refused(fmt::format(
-            "{} has made {} pulses and needs {} more to decelerate, so {} is too near; the least possible is {}", name,
-            made, fall, wanted, made + fall + rest));
+        return refused(
+            fmt::format("{} has made {} pulses and needs {} more to decelerate, so {} is too near; the minimum is {}",
+                        name, made, fall, wanted, made + fall + rest));
     if (manual) put(mask, param::DP, wanted - fall);
     put(mask, param::pulses, wanted);
     return {};

@@ -70,7 +70,7 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
             const std::string why = error_text(axes);
             return fail(ErrorKind::machine,
                         why.empty()
-                            ? "The pattern's next word came too late or behind its end code: the drive has ended. "
+                            ? "The pattern's next word came too late or after its end code: the drive has ended. "
                               "Lower the speed, or stack words earlier."
                             : "The pattern was stopped. " + why);
         }

@@ -74,7 +74,7 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
             return fail(
                 ErrorKind::machine,
                 fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
-                            to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
+                            to_seconds(timeout), stopped ? "a stop was commanded" : "nothing was stopped"));
         // The drive-end interrupt, if enabled, wakes at once; otherwise the status is polled.
         doze(axes, default_poll_period);
     }

@@ -17,9 +17,9 @@ constexpr std::array pulse_modes = {ValueInfo{0, "two pulse trains"}, ValueInfo{
 constexpr std::array pulse_mode = {axes, one_of("mode", pulse_modes, "pulse output")};
 constexpr std::array multiple = {axes, number("data", 1, 500, "", "the multiple M = 8,000,000 / R", 10)};
 constexpr std::array range = {of("data", param::R, "", "R of all axes: M = 8,000,000 / R", 800'000)};
-constexpr std::array max_speed = {number("data", 1, 4'000'000, "pulses/s", "greatest speed that V reaches", 80'000)};
+constexpr std::array max_speed = {number("data", 1, 4'000'000, "pulses/s", "maximum speed of V", 80'000)};
 constexpr std::array jerk = {axes, k_of("data")};
-constexpr std::array offset = {axes, of("data", param::AO, pulse_unit, "kept for the end at SV", 0)};
+constexpr std::array offset = {axes, of("data", param::AO, pulse_unit, "reserved for the end at SV", 0)};
 constexpr std::array way = {axes, of("data", param::pulses, pulse_unit, "the sign is the direction", 1000)};
 constexpr std::array dec_point = {axes, of("DecPulse", param::DP, pulse_unit, "of the drive, then it decelerates", 0)};
 
@@ -55,7 +55,7 @@ constexpr std::array limit_stop = {one_of("n", at_once_or_ramp, "a limit switch 
 constexpr std::array switch_all = {one_of("n", off_on, "of all axes")};
 constexpr std::array compared = {one_of("n", counters, "of all axes, COMP+ and COMP- are compared with")};
 constexpr std::array encoder = {one_of("n", encoders, "encoder inputs"), axes};
-constexpr std::array division = {one_of("n", divisions, "edges of A/B that count"), axes};
+constexpr std::array division = {one_of("n", divisions, "counted edges of A/B"), axes};
 
 constexpr std::array wr1_bits = {ValueInfo{0x01, "IN0 at High"},     ValueInfo{0x02, "IN0 stops"},
                                  ValueInfo{0x04, "IN1 at High"},     ValueInfo{0x08, "IN1 stops"},
@@ -67,9 +67,9 @@ constexpr std::array home_data = {
     sv_of("SV"), v_of("V"), a_of("A")};
 
 constexpr std::array read_axis = {one_axis};
-constexpr std::array logical = {axes, of("data", param::LP, pulse_unit, "what the logical position becomes", 0)};
-constexpr std::array real = {axes, of("data", param::EP, "counts", "what the real position becomes", 0)};
-constexpr std::array compare = {axes, of("data", param::COMP_PLUS, pulse_unit, "place of the software limit", 0)};
+constexpr std::array logical = {axes, of("data", param::LP, pulse_unit, "new logical position", 0)};
+constexpr std::array real = {axes, of("data", param::EP, "counts", "new real position", 0)};
+constexpr std::array compare = {axes, of("data", param::COMP_PLUS, pulse_unit, "position of the software limit", 0)};
 
 // ---- functions with individual rows
 
@@ -108,7 +108,7 @@ Result<CallAnswer> s_curve_c(LibraryChip& chip, Values v) {
 }
 Result<CallAnswer> reset(LibraryChip& chip, Values) {
     chip.driver.RESET();
-    return CallAnswer{{}, "The chip was reset; set the multiple and all else again."};
+    return CallAnswer{{}, "The chip was reset; set the multiple and all parameters again."};
 }
 
 using D = Driver;
@@ -132,10 +132,11 @@ constexpr std::array rows = {
     FunctionRow{{"SetA", basic, "Acceleration.", ramp}, set<&D::SetA>},
     FunctionRow{{"SetD", basic, "Deceleration, in force from then on.", ramp}, set_d},
     FunctionRow{{"SetAA", basic, "K, the acceleration's rate.", jerk}, set<&D::SetAA>},
-    FunctionRow{{"SetAO", basic, "Pulses kept for the end at SV.", offset}, set_ao},
+    FunctionRow{{"SetAO", basic, "Pulses reserved for the end at SV.", offset}, set_ao},
     FunctionRow{{"Pulse", basic, "Output pulses of a fixed drive.", way}, set<&D::Pulse>},
     FunctionRow{{"AutoDec", basic, "The chip finds the deceleration of all axes itself."}, auto_dec},
-    FunctionRow{{"ManualDec", basic, "Fixed drives decelerate after so many pulses.", dec_point}, set<&D::ManualDec>},
+    FunctionRow{{"ManualDec", basic, "Sets the pulses after which fixed drives decelerate.", dec_point},
+                set<&D::ManualDec>},
     FunctionRow{{"ManDec", basic, "As ManualDec; the source has both names.", dec_point}, set<&D::ManDec>},
     FunctionRow{{"TCurve_F", basic, "Fixed drive with T-curve.", t_fixed}, t_curve_f},
     FunctionRow{{"TCurve_C", basic, "Continuous drive with T-curve in + direction, until it is stopped.", t_endless},
@@ -167,9 +168,10 @@ constexpr std::array rows = {
     FunctionRow{{"HLMTSig", signals, "How limit switches stop.", limit_stop}, turn<&D::HLMTSig>},
     FunctionRow{{"SLMTP", signals, "Software limit at COMP+.", switch_all}, turn_all<&D::SLMTP>},
     FunctionRow{{"SLMTM", signals, "Software limit at COMP-.", switch_all}, turn_all<&D::SLMTM>},
-    FunctionRow{{"SLMTSig", signals, "What the software limits are compared with.", compared}, turn_all<&D::SLMTSig>},
+    FunctionRow{{"SLMTSig", signals, "Counter that the software limits are compared with.", compared},
+                turn_all<&D::SLMTSig>},
     FunctionRow{{"EncoderMode", signals, "Kind of the encoder inputs.", encoder}, turn<&D::EncoderMode>},
-    FunctionRow{{"EncoderCWCCW", signals, "Which edges of A/B count.", division}, turn<&D::EncoderCWCCW>},
+    FunctionRow{{"EncoderCWCCW", signals, "Counted edges of A/B.", division}, turn<&D::EncoderCWCCW>},
     FunctionRow{{"EnableALM", signals, "Alarm inputs.", switch_all}, turn_all<&D::EnableALM>},
     FunctionRow{{"EnableInPos", signals, "In-position inputs.", switch_all}, turn_all<&D::EnableInPos>},
     FunctionRow{{"ALMSig", signals, "Level at which the alarm input acts.", active_level}, turn<&D::ALMSig>},
@@ -178,16 +180,17 @@ constexpr std::array rows = {
     FunctionRow{
         {"HomeType1", homes, "Decelerates at the home switch. The axes are those of home_axes.", home_data, {}, true},
         home<1>},
-    FunctionRow{{"HomeType2", homes, "As 1, then back at SV and slowly to the switch again.", home_data, {}, true},
+    FunctionRow{{"HomeType2", homes, "HomeType1, then back at SV and slowly to the switch again.", home_data, {}, true},
                 home<2>},
-    FunctionRow{{"HomeType3", homes, "As 1, then on at SV to the encoder's index Z.", home_data, {}, true}, home<3>},
-    FunctionRow{{"HomeType4", homes, "As 3 slowly, then as 2.", home_data, {}, true}, home<4>},
+    FunctionRow{{"HomeType3", homes, "HomeType1, then on at SV to the encoder's index Z.", home_data, {}, true},
+                home<3>},
+    FunctionRow{{"HomeType4", homes, "HomeType3 slowly, then HomeType2.", home_data, {}, true}, home<4>},
 
     FunctionRow{{"LPS", positions, "Sets the logical position.", logical}, set<&D::LPS>},
     FunctionRow{{"EPS", positions, "Sets the real (encoder) position.", real}, set<&D::EPS>},
     FunctionRow{{"ReadLPS", positions, "The logical position of one axis.", read_axis, of_counter}, read<&D::ReadLPS>},
     FunctionRow{{"ReadEPS", positions, "The real position of one axis.", read_axis, "counts"}, read<&D::ReadEPS>},
-    FunctionRow{{"ReadCV", positions, "Present speed of one axis; 0 at rest.", read_axis, speed_unit},
+    FunctionRow{{"ReadCV", positions, "Present speed of one axis; 0 at standstill.", read_axis, speed_unit},
                 read<&D::ReadCV>},
     FunctionRow{{"ReadCA", positions, "Present acceleration of one axis.", read_axis, ramp_unit}, read<&D::ReadCA>},
     FunctionRow{{"SetCompP", positions, "COMP+, the + software limit.", compare}, set<&D::SetCompP>},

@@ -99,7 +99,7 @@ namespace {
 std::string diagnosis(const HomeReport& report) {
     std::string out = report.sentence;
     for (const std::string& note : report.notes) out += ' ' + note;
-    out += fmt::format(" LP was {}, EP {}, where home is; the switch bounced {} times.", report.zero_lp, report.zero_ep,
+    out += fmt::format(" At home LP was {} and EP {}; the switch bounced {} times.", report.zero_lp, report.zero_ep,
                        report.bounces);
     if (const auto way = report.switch_to_index()) out += fmt::format(" From the switch to Z: {} pulses.", *way);
     for (const ChipHomingStateVisit& stay : report.stays)

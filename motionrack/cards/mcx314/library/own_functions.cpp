@@ -15,13 +15,13 @@ constexpr std::string_view motion = "Stops and status", contours = "Continuous i
 // ---- arguments
 
 constexpr std::array some_axes = {axes};
-constexpr std::array wait_data = {axes, number("milliseconds", 0, 60'000, "ms", "how long at most", 10'000)};
-constexpr std::array asymmetric_data = {axes, one_of("on", off_on, "decelerations take D instead of A")};
+constexpr std::array wait_data = {axes, number("milliseconds", 0, 60'000, "ms", "maximum time", 10'000)};
+constexpr std::array asymmetric_data = {axes, one_of("on", off_on, "decelerations use D instead of A")};
 constexpr std::array output_data = {axes, number("output", 0, 7, "", "OUT0 to OUT7", 0),
                                     one_of("level", low_high, "level")};
 constexpr ArgumentInfo a_or_constant = number("A", 0, param::A.max, ramp_unit, "0: constant speed V", 0);
 constexpr std::array contour_data = {sv_of("SV"), v_of("V"), a_or_constant, d_or_a};
-constexpr ArgumentInfo v_from_here = number("V", 0, param::V.max, speed_unit, "from here on; 0: unchanged", 0);
+constexpr ArgumentInfo v_from_here = number("V", 0, param::V.max, speed_unit, "velocity from here on; 0: unchanged", 0);
 constexpr std::string_view of_segment = "from the segment's start";
 constexpr ArgumentInfo path_axes{"axis", 3, 14, {}, "two or three axes", 3, axis_values, true};
 constexpr ArgumentInfo px = finish_of("PX", of_segment, 1000), py = finish_of("PY", of_segment, 1000),
@@ -62,13 +62,13 @@ Result<CallAnswer> moving(LibraryChip& chip, Values v) {
     std::int64_t out = 0;
     for (const int i : channels_of(axes_of(v[0])))
         if (chip.driver.moving(1u << i)) out |= std::int64_t{1} << i;
-    return CallAnswer{out, out == 0 ? "None of them drives." : axes_text(axes_of(out)) + " drives."};
+    return CallAnswer{out, out == 0 ? "None of the axes drives." : axes_text(axes_of(out)) + " drives."};
 }
 Result<CallAnswer> at_limit(LibraryChip& chip, Values v) {
     std::int64_t out = 0;
     for (const int i : channels_of(axes_of(v[0])))
         if (chip.driver.axis_status(i).at_limit()) out |= std::int64_t{1} << i;
-    return CallAnswer{out, out == 0 ? "None of them is at a limit." : axes_text(axes_of(out)) + " is at a limit."};
+    return CallAnswer{out, out == 0 ? "None of the axes is at a limit." : axes_text(axes_of(out)) + " is at a limit."};
 }
 Result<CallAnswer> report(LibraryChip& chip, Values v) {
     CallAnswer out;
@@ -86,15 +86,15 @@ Result<CallAnswer> set_output(LibraryChip& chip, Values v) {
 }
 Result<CallAnswer> contour_begin(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK(chip.driver.ContStart({v[0], v[1], v[2], v[3]}));
-    return CallAnswer{{}, "The contour is open; give its lines and arcs."};
+    return CallAnswer{{}, "The contour is open; add its lines and arcs."};
 }
 Result<CallAnswer> contour_line(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK(chip.driver.ContLine(axes_of(v[0]), four(v.subspan(1)), v[5]));
-    return CallAnswer{{}, "The line was taken."};
+    return CallAnswer{{}, "The line was accepted."};
 }
 Result<CallAnswer> contour_arc(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK(chip.driver.ContArc(axes_of(v[0]), four(v.subspan(1)), four(v.subspan(5)), v[9] == 1, v[10]));
-    return CallAnswer{{}, "The arc was taken."};
+    return CallAnswer{{}, "The arc was accepted."};
 }
 Result<CallAnswer> contour_end(LibraryChip& chip, Values) {
     MOTIONRACK_TRY(const ContOutcome outcome, chip.driver.ContEnd());
@@ -145,13 +145,13 @@ constexpr std::array rows = {
                 stop<StopKind::slow>},
     FunctionRow{{"stop_now", motion, "Stops axes at once.", some_axes, {}, false, true}, stop<StopKind::quick>},
     FunctionRow{{"wait", motion, "Waits until none of the axes drives.", wait_data, {}, true, true}, wait},
-    FunctionRow{{"moving", motion, "Those of the axes that drive.", some_axes, mask, false, true}, moving},
-    FunctionRow{{"at_limit", motion, "Those of the axes at a limit switch or beyond a software limit.", some_axes, mask,
+    FunctionRow{{"moving", motion, "Mask of the axes that drive.", some_axes, mask, false, true}, moving},
+    FunctionRow{{"at_limit", motion, "Mask of the axes at a limit switch or beyond a software limit.", some_axes, mask,
                  false, true},
                 at_limit},
-    FunctionRow{{"report", motion, "Whether axes drive, where they are, why they stopped.", some_axes, {}, false, true},
-                report},
-    FunctionRow{{"asymmetric", motion, "Whether decelerations take D.", asymmetric_data, {}, false, true}, asymmetric},
+    FunctionRow{{"report", motion, "State, position and stop reason of axes.", some_axes, {}, false, true}, report},
+    FunctionRow{{"asymmetric", motion, "Selects D instead of A for decelerations.", asymmetric_data, {}, false, true},
+                asymmetric},
     FunctionRow{{"set_output", motion, "A general output: servo on, brakes.", output_data, {}, false, true},
                 set_output},
 
@@ -163,8 +163,9 @@ constexpr std::array rows = {
     FunctionRow{
         {"contour_arc", contours, "The next arc; waits until the chip takes it.", contour_arc_data, {}, true, true},
         contour_arc},
-    FunctionRow{{"contour_end", contours, "Drives the last segment and waits for the end.", {}, "segments", true, true},
-                contour_end},
+    FunctionRow{
+        {"contour_end", contours, "Executes the last segment and waits for the end.", {}, "segments", true, true},
+        contour_end},
 
     FunctionRow{{"pattern_begin", patterns, "Opens a bit pattern of two or three axes.", pattern_data, {}, false, true},
                 pattern_begin},

@@ -12,7 +12,7 @@ namespace motionrack::mcx314::map {
 
 inline constexpr FieldInfo em6_fields[] = {
     {"EPCLR", 0x0001, "EP is cleared when IN2 becomes active"},
-    {"EPINV", 0x0002, "EP counts the other way round"},
+    {"EPINV", 0x0002, "EP counts in reverse"},
     {"POINV", 0x0004, "the wires nPP and nPM are exchanged"},
     {"AVTRI", 0x0008, "fixed T-curve drives: no triangle, half the pulses at constant speed"},
     {"VRING", 0x0010, "LP and EP count in a ring: .., COMP+, 0, 1, .."},
@@ -38,8 +38,8 @@ inline constexpr FieldInfo em7_fields[] = {
     {"SAND", 0x0200, "step 3 stops where IN1 and IN2 are active"},
     {"LIMIT", 0x0400, "steps 1 and 2 look for the limit switch of their direction"},
     {"DCCE", 0x0800, "nDRIVE gives the deviation counter clear pulse instead of the drive status"},
-    {"DCCL", 0x1000, "that pulse is: 0 High, 1 Low"},
-    {"DCCW", 0xE000, "and lasts: 10, 20, 100, 200 us, 1, 2, 10, 20 ms"},
+    {"DCCL", 0x1000, "polarity of that pulse: 0 High, 1 Low"},
+    {"DCCW", 0xE000, "width of that pulse: 10, 20, 100, 200 us, 1, 2, 10, 20 ms"},
 };
 inline constexpr FieldInfo sm6_fields[] = {
     {"PGECP", 0x0001, "condition: the counter becomes >= COMP+"},
@@ -57,8 +57,8 @@ inline constexpr FieldInfo sm6_fields[] = {
 inline constexpr FieldInfo sm7_fields[] = {
     {"FDRVP", 0x0001, "action: drive P pulses in + direction (20h)"},
     {"FDRVM", 0x0002, "action: drive P pulses in - direction (21h)"},
-    {"CDRVP", 0x0004, "action: drive on and on in + direction (22h)"},
-    {"CDRVM", 0x0008, "action: drive on and on in - direction (23h)"},
+    {"CDRVP", 0x0004, "action: continuous drive in + direction (22h)"},
+    {"CDRVM", 0x0008, "action: continuous drive in - direction (23h)"},
     {"SSTOP", 0x0010, "action: decelerating stop (26h)"},
     {"ISTOP", 0x0020, "action: immediate stop (27h)"},
     {"LPSAV", 0x0040, "action: LP to BR"},
@@ -122,21 +122,21 @@ inline constexpr TransitionInfo home_transitions[] = {
     {"again", "index", "stopped at IN1; ST3E"},
     {"again", "offset", "stopped at IN1; ST4E without ST3E"},
     {"index", "offset", "stopped at IN2, and the deviation counter clear pulse is over; ST4E"},
-    {"near", "idle", "no step is left; or stopped by anything else"},
-    {"home", "idle", "no step is left; or stopped by anything else"},
-    {"escape", "idle", "stopped by anything else than IN1"},
-    {"again", "idle", "no step is left; or stopped by anything else"},
-    {"index", "idle", "no step is left; or stopped by anything else"},
+    {"near", "idle", "no step is left; or stopped by another event"},
+    {"home", "idle", "no step is left; or stopped by another event"},
+    {"escape", "idle", "stopped by an event other than IN1"},
+    {"again", "idle", "no step is left; or stopped by another event"},
+    {"index", "idle", "no step is left; or stopped by another event"},
     {"offset", "idle", "P pulses are out; or stopped"},
 };
 inline constexpr StateInfo filter_states[] = {
-    {"same", "the input is as the chip sees it"},
-    {"differs", "the input is the other way, not yet for the delay"},
+    {"same", "the filtered level equals the input"},
+    {"differs", "the input differs, but not yet for the delay"},
 };
 inline constexpr TransitionInfo filter_transitions[] = {
     {"same", "differs", "the input changes"},
-    {"differs", "same", "the input changes back: nothing was seen"},
-    {"differs", "same", "the delay is over: the chip sees the input's level"},
+    {"differs", "same", "the input changes back within the delay"},
+    {"differs", "same", "the delay is over: the filtered level changes"},
 };
 inline constexpr StateInfo clear_states[] = {
     {"rest", "no pulse"},
@@ -144,16 +144,16 @@ inline constexpr StateInfo clear_states[] = {
 };
 inline constexpr TransitionInfo clear_transitions[] = {
     {"rest", "pulse", "63h, the end of step 3 of a home search, or the action OUT, with DCCE"},
-    {"pulse", "pulse", "one of these again: the pulse begins anew"},
-    {"pulse", "rest", "its width is over"},
+    {"pulse", "pulse", "one of these again: the pulse restarts"},
+    {"pulse", "rest", "the pulse width has elapsed"},
 };
 inline constexpr StateInfo action_states[] = {
-    {"waiting", "no condition of SM has come"},
-    {"due", "one has: the axis and those of AXIS act at the end of this tick or write"},
+    {"waiting", "no condition of SM is met"},
+    {"due", "a condition is met: the axis and those of AXIS act at the end of this tick or write"},
 };
 inline constexpr TransitionInfo action_transitions[] = {
-    {"waiting", "due", "a condition that SM names comes"},
-    {"due", "waiting", "the axes have done what their SM7 says"},
+    {"waiting", "due", "a condition in SM is met"},
+    {"due", "waiting", "the axes have executed the actions of their SM7"},
 };
 
 }  // namespace motionrack::mcx314::map

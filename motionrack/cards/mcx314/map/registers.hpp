@@ -12,7 +12,7 @@
 namespace motionrack::mcx314::map {
 
 inline constexpr FieldInfo wr0_fields[] = {
-    {"CODE", 0x00FF, "command code; written last, it is carried out at once"},
+    {"CODE", 0x00FF, "command code; write it last: it is executed at once"},
     {"X", 0x0100, "the command is for axis X"},
     {"Y", 0x0200, "the command is for axis Y"},
     {"Z", 0x0400, "the command is for axis Z"},
@@ -45,14 +45,14 @@ inline constexpr FieldInfo wr2_fields[] = {
     {"HLMTM", 0x0010, "nLMTM acts at: 0 Low, 1 High"},
     {"CMPSL", 0x0020, "COMP+ and COMP- are compared with: 0 LP, 1 EP"},
     {"PLSMD", 0x0040, "pulse output: 0 two pulse trains, 1 pulse and direction"},
-    {"PLSL", 0x0080, "pulses are: 0 positive, 1 negative"},
+    {"PLSL", 0x0080, "polarity of pulses: 0 positive, 1 negative"},
     {"DIRL", 0x0100, "direction output: 0 + is Low, 1 + is High"},
     {"PINMD", 0x0200, "encoder input: 0 A/B quadrature, 1 up and down pulses"},
     {"PIND", 0x0C00, "A/B edges counted: 0 all, 1 every second, 2 every fourth"},
     {"ALML", 0x1000, "nALARM acts at: 0 Low, 1 High"},
     {"ALME", 0x2000, "nALARM enabled"},
     {"INPL", 0x4000, "nINPOS acts at: 0 Low, 1 High"},
-    {"INPE", 0x8000, "nINPOS enabled: a drive lasts until it is active"},
+    {"INPE", 0x8000, "nINPOS enabled: a drive ends when it is active"},
 };
 inline constexpr FieldInfo wr3_fields[] = {
     {"MANLD", 0x0001, "deceleration of a fixed drive: 0 automatic, 1 from DP on"},
@@ -72,12 +72,12 @@ inline constexpr FieldInfo wr4_fields[] = {
     {"UOUT", 0xF000, "levels of UOUT0..3"},
 };
 inline constexpr FieldInfo wr5_fields[] = {
-    {"AX1", 0x0003, "first axis of interpolation: its generator gives the speed"},
+    {"AX1", 0x0003, "first axis of interpolation: its generator sets the speed"},
     {"AX2", 0x000C, "second axis"},
     {"AX3", 0x0030, "third axis"},
     {"LSPD", 0x0300, "constant vector speed: 0 off, 1 two axes, 3 three axes"},
-    {"EXPLS", 0x0800, "a basic pulse each time that the wire EXPLSN goes Low"},
-    {"CMPLS", 0x1000, "a basic pulse each command 3Ah"},
+    {"EXPLS", 0x0800, "a basic pulse at each falling edge of EXPLSN"},
+    {"CMPLS", 0x1000, "a basic pulse per command 3Ah"},
     {"CIINT", 0x4000, "interrupt when the next segment may be written"},
     {"BPINT", 0x8000, "interrupt when BPSC goes from 2 to 1"},
 };
@@ -87,7 +87,7 @@ inline constexpr FieldInfo rr0_fields[] = {
     {"IDRV", 0x0100, "an interpolation runs"},
     {"CNEXT", 0x0200, "the next segment may be written"},
     {"ZONE", 0x1C00, "octant of a circular interpolation, 0..7"},
-    {"BPSC", 0x6000, "bit-pattern stack counter: words that wait, 0..3"},
+    {"BPSC", 0x6000, "bit-pattern stack counter: stacked words, 0..3"},
 };
 inline constexpr FieldInfo rr1_fields[] = {
     {"CMPP", 0x0001, "LP or EP >= COMP+"},
@@ -154,9 +154,8 @@ inline constexpr RegisterInfo registers[] = {
     {"WR5", 0x0A, 16, write, false, "", "interpolation mode", wr5_fields},
     {"WR6", 0x0C, 16, write, false, "", "low word of the data that the next data command takes", {}},
     {"WR7", 0x0E, 16, write, false, "", "high word of the data that the next data command takes", {}},
-    {"RR0", 0x00, 16, read, false, "", "main status: who drives, who has an error, whether the next segment may come",
-     rr0_fields},
-    {"RR1", 0x02, 16, read, true, "", "status 1: drive and why it ended", rr1_fields},
+    {"RR0", 0x00, 16, read, false, "", "main status: driving axes, errors, readiness for the next segment", rr0_fields},
+    {"RR1", 0x02, 16, read, true, "", "status 1: drive and its stop reason", rr1_fields},
     {"RR2", 0x04, 16, read, true, "", "status 2: errors, live", rr2_fields},
     {"RR3", 0x06, 16, Access::read_clears, true, "", "status 3: interrupts", rr3_fields},
     {"RR4", 0x08, 16, read, false, "", "input levels of X and Y", rr4_fields},

@@ -27,7 +27,7 @@ TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
     ASSERT_EQ(conditions.size(), 8u);
     EXPECT_EQ(conditions[2].code, unknown_command);
     EXPECT_EQ(describe(conditions[2], "motion"),
-              "motion: command 60h is one of the MCX314As, and this is an MCX314; nothing was done; set variant = "
+              "motion: command 60h belongs to the MCX314As, and this is an MCX314; nothing was done; set variant = "
               "\"mcx314as\" for the card, or leave the command out");
     EXPECT_EQ(b.read(0), 0u);
 }

@@ -283,7 +283,7 @@ TEST_F(Contract, SpeedAndTargetChangeWhileDriving) {
     done(card().change_pulses(0, 25'000));
     const Result<void> back = card().change_pulses(0, -30'000);
     ASSERT_FALSE(back);
-    EXPECT_THAT(back.error().message, HasSubstr("cannot turn back"));
+    EXPECT_THAT(back.error().message, HasSubstr("cannot reverse"));
     finish(axis_x);
     EXPECT_EQ(card().ReadLPS(0), 25'000);
     EXPECT_FALSE(card().change_speed(axis_x, 100));

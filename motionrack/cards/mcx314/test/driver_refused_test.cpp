@@ -134,7 +134,7 @@ TEST_F(Refused, AxesThatDoNotExist) {
     set_up();
     forbid_writing();
     for (const int axis : {-1, 4, 32, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
-        const std::string told = "the axis is " + std::to_string(axis) + ", but it is one of 0 X, 1 Y, 2 Z, 3 U";
+        const std::string told = "the axis is " + std::to_string(axis) + "; it must be one of 0 X, 1 Y, 2 Z, 3 U";
         expect_refused(driver_.change_pulses(axis, 100), told);
         const Finish ends[] = {{0, 1, 1}, {axis, 1, 1}};
         expect_refused(driver_.Line(ends, 2), told);
@@ -264,11 +264,11 @@ TEST_F(Refused, SwitchesOtherThanTheirPositions) {
     for (const Call call :
          {&Driver::HLMTP, &Driver::HLMTM, &Driver::HLMTSig, &Driver::SLMTP, &Driver::SLMTM, &Driver::SLMTSig,
           &Driver::EncoderMode, &Driver::EnableALM, &Driver::EnableInPos, &Driver::ALMSig, &Driver::InPosSig})
-        for (const int n : {-1, 2, 255}) expect_refused((driver_.*call)(n, axis_x), "but it is 0 to 1");
-    expect_refused(driver_.EncoderCWCCW(3, axis_x), "but it is 0 to 2");
-    expect_refused(driver_.SetPulseMode(axis_x, 2), "but it is 0 to 1");
-    expect_refused(driver_.SetStopInput(axis_x, 4, StopInput::at_low), "but it is 0 to 3");
-    expect_refused(driver_.SetOutput(axis_x, 8, true), "but it is 0 to 7");
+        for (const int n : {-1, 2, 255}) expect_refused((driver_.*call)(n, axis_x), "it must be 0 to 1");
+    expect_refused(driver_.EncoderCWCCW(3, axis_x), "it must be 0 to 2");
+    expect_refused(driver_.SetPulseMode(axis_x, 2), "it must be 0 to 1");
+    expect_refused(driver_.SetStopInput(axis_x, 4, StopInput::at_low), "it must be 0 to 3");
+    expect_refused(driver_.SetOutput(axis_x, 8, true), "it must be 0 to 7");
     expect_refused(driver_.EnableInterrupt(axis_x, 0x0100), "are not bits 0 to 7");
 }
 

@@ -21,7 +21,7 @@ TEST(DriverMessages, TellTheCauseThePlaceAndWhatToDo) {
     for (const Case& one : {Case{"xlmtp", "the + limit switch was reached", "Drive in - direction"},
                             Case{"xalarm", "the drive's alarm is active", "Clear the alarm"},
                             Case{"emgn", "the emergency stop input is active", "Release the emergency stop"},
-                            Case{"xin1", "input IN1 stopped it", "look at the input"}}) {
+                            Case{"xin1", "input IN1 stopped it", "check the input"}}) {
         DriverRig rig;
         Driver& d = rig.driver;
         done(d.SetMultiple(axis_x, 10));
@@ -90,7 +90,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     done(d.LPS(axis_z, 77));
     const Result<void> unknown = d.change_pulses(2, 5'000);
     ASSERT_FALSE(unknown);
-    EXPECT_THAT(unknown.error().message, HasSubstr("of which this library knows the start"));
+    EXPECT_THAT(unknown.error().message, HasSubstr("that this library started"));
     // The last pulses at SV belong to the end too.
     done(d.SetAO(axis_z, 500));
     while (!(d.axis_status(2).constant() && d.ReadCV(2) == 10)) rig.port.pass(milliseconds(1));
@@ -119,7 +119,7 @@ TEST(DriverFlight, TheLeastPossibleTargetIsToldAndTaken) {
         const Result<void> refused = d.change_pulses(0, -5'000);
         ASSERT_FALSE(refused);
         const std::string& text = refused.error().message;
-        const std::int64_t least = std::stoll(text.substr(text.find("least possible is ") + 18));
+        const std::int64_t least = std::stoll(text.substr(text.find("the minimum is ") + 15));
         EXPECT_GT(least, 5'000);
         EXPECT_LT(least, 13'700);
         done(d.change_pulses(0, -(least + 5)));
@@ -154,7 +154,7 @@ TEST(DriverFlight, TheSpeedOfALedAxisIsThatOfItsLeader) {
     rig.port.pass(whole_seconds(1));
     const Result<void> led = d.change_speed(axis_z, 100);
     ASSERT_FALSE(led);
-    EXPECT_THAT(led.error().message, HasSubstr("Z is led by Y"));
+    EXPECT_THAT(led.error().message, HasSubstr("Z is interpolated with main axis Y"));
     EXPECT_FALSE(d.change_pulses(1, 30'000));
     done(d.change_speed(axis_y, 100));
     rig.port.pass(whole_seconds(1));

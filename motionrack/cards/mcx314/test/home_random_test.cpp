@@ -125,7 +125,7 @@ void expect_an_end(const Homing& homing) {
         EXPECT_THAT(done.error().message, AllOf(HasSubstr("Axis X is not homed: "), HasSubstr("again.")));
         // If an axis stops exactly at an index, type 3 reports it; that position depends on the ramp.
         const bool at_index =
-            homing.type == 3 && done.error().message.find("is active where the switch acts") != std::string::npos;
+            homing.type == 3 && done.error().message.find("is active at the switch edge") != std::string::npos;
         EXPECT_FALSE(homing.must_succeed() && !at_index) << done.error().message;
         return;
     }

@@ -121,8 +121,8 @@ TEST(HomingBySource, AnOriginTooNearToTheLimitToBrakeIsSaidToBe) {
         ASSERT_FALSE(done);
         EXPECT_THAT(
             done.error().message,
-            HasSubstr("(IN0, active Low) acts so near to the limit switch that the axis came upon that while it "
-                      "decelerated"));
+            HasSubstr(
+                "(IN0, active Low) is so near to the limit switch that the axis reached the limit while decelerating"));
         EXPECT_FALSE(rig.driver.moving(axis_x));
     }
 }

@@ -254,7 +254,7 @@ TEST(Homing, RefusesToTrustAnIndexAtTheSwitchItself) {
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(4));
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, HasSubstr("Shift the switch by half a motor turn"));
+    EXPECT_THAT(done.error().message, HasSubstr("Shift the switch by half a motor revolution"));
 }
 
 // ---- starting conditions
@@ -324,9 +324,9 @@ TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
         EXPECT_EQ(started.error().kind, ErrorKind::refused);
         return started ? std::string() : started.error().message;
     };
-    EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 6; }), HasSubstr("the type is 6, but may be 1 to 5"));
+    EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 6; }), HasSubstr("the type is 6; it must be 1 to 5"));
     EXPECT_THAT(refusal([](HomeSettings& s) { s.slow_v = 51; }),
-                HasSubstr("the slow speed (at most SV) is 51, but may be 1 to 50"));
+                HasSubstr("the slow speed (at most SV) is 51; it must be 1 to 50"));
     EXPECT_THAT(refusal([](HomeSettings& s) { s.type = 4, s.index_input = 0; }), HasSubstr("both IN0"));
     EXPECT_THAT(refusal([](HomeSettings& s) { s.travel = 0; }), HasSubstr("the travel is 0"));
     rig.hold_wire("c.emgn", 0);

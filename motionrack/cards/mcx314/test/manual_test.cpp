@@ -110,7 +110,7 @@ TEST(Jog, IsRefusedWithItsReason) {
     ManualSettings s;
     s.max_v = 300;
     ASSERT_TRUE(rig.manual.set(s));
-    EXPECT_THAT(rig.manual.jog(301, rig.now()).error().message, HasSubstr("the speed is 301, but may be 1 to 300"));
+    EXPECT_THAT(rig.manual.jog(301, rig.now()).error().message, HasSubstr("the speed is 301; it must be 1 to 300"));
     rig.hold_wire("c.emgn", 0);
     EXPECT_THAT(rig.manual.jog(100, rig.now()).error().message, HasSubstr("emergency stop"));
     rig.kernel.release(rig.kernel.find_wire("c.emgn"));
@@ -122,7 +122,7 @@ TEST(Jog, IsRefusedWithItsReason) {
     ASSERT_TRUE(rig.manual.jog(100, rig.now()));
     EXPECT_THAT(rig.manual.set(s).error().message, HasSubstr("it is jogging"));
     s.hold = Duration{0};
-    EXPECT_THAT(rig.manual.set(s).error().message, HasSubstr("in ms, is 0, but may be 1 to 10000"));
+    EXPECT_THAT(rig.manual.set(s).error().message, HasSubstr("in ms, is 0; it must be 1 to 10000"));
 }
 
 TEST(StepJog, MovesExactlyItsPulses) {

@@ -155,7 +155,7 @@ TEST(Units, AnAxisMovesInMillimetresAsPlanned) {
         while (!rig.driver.axis_status(1).constant()) rig.port.pass(milliseconds(1));
         const auto back = axis.change_distance(-1);
         ASSERT_FALSE(back);
-        EXPECT_NE(back.error().message.find("cannot turn back"), std::string::npos) << back.error().message;
+        EXPECT_NE(back.error().message.find("cannot reverse"), std::string::npos) << back.error().message;
         EXPECT_FALSE(axis.change_distance(0.1)) << "it is beyond that";
         const auto nearer = axis.change_distance(30.0012);
         ASSERT_TRUE(nearer) << nearer.error().message;

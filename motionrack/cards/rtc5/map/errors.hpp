@@ -10,7 +10,7 @@ namespace map {
 
 inline constexpr BitInfo error_bits[] = {
     {"NO_CARD", 0, "init_rtc5_dll found no card"},
-    {"ACCESS_DENIED", 1, "there is no such card"},
+    {"ACCESS_DENIED", 1, "unknown card number"},
     {"PARAM_ERROR", 4, "a parameter is wrong"},
     {"BUSY", 5, "a list is running, or the card moves"},
     {"REJECTED", 6, "the list is full, or none is open, or there is nothing to read"},

@@ -21,7 +21,7 @@ inline constexpr Line lines[] = {
     {{"start_n", in, true, "external start, at the falling edge; high when open"}},
     {{"stop_n", in, true, "external stop, at the falling edge; high when open"}},
     {{"mcbsp", in, false, "the 32-bit word of the last complete transfer, as a number; a change is a new word"}, 32},
-    {{"mcbsp_frame", in, false, "changes when a word was complete that is equal to the one before"}},
+    {{"mcbsp_frame", in, false, "toggles when a complete word equals the previous one"}},
     {{"laser_on", out, false, "LASERON: the gate"}},
     {{"xout", out, false, "scan head A, X, -524288 to 524287 bits, as a number"}, 20},
     {{"yout", out, false, "scan head A, Y"}, 20},

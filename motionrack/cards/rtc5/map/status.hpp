@@ -26,7 +26,7 @@ inline constexpr BitInfo marking_info_bits[] = {
     {"LIMIT_Y_MIN", 6, "the corrected Y was below Ymin"},
     {"LIMIT_Y_MAX", 7, "the corrected Y was above Ymax"},
     {"TRIGGER_ERROR", 8, "a start came while a list was running"},
-    {"ACTIVATE_FLY_ERROR", 9, "activate_fly_2d or activate_fly_xy could not be done"},
+    {"ACTIVATE_FLY_ERROR", 9, "activate_fly_2d or activate_fly_xy failed"},
     {"ENCODER_X_SEQUENCE", 20, "both lines of encoder 0 changed at once"},
     {"ENCODER_Y_SEQUENCE", 21, "both lines of encoder 1 changed at once"},
     {"FLY_Z_UNDERFLOW", 22, "the corrected Z was below -32768"},
@@ -54,12 +54,12 @@ inline constexpr BitInfo status_bits[] = {
 inline constexpr BitInfo list_status_bits[] = {
     {"LOAD1", 0, "list commands go into list 1"},
     {"LOAD2", 1, "list commands go into list 2"},
-    {"READY1", 2, "set_end_of_list was put into list 1"},
-    {"READY2", 3, "set_end_of_list was put into list 2"},
+    {"READY1", 2, "set_end_of_list was added to list 1"},
+    {"READY2", 3, "set_end_of_list was added to list 2"},
     {"BUSY1", 4, "list 1 is running"},
     {"BUSY2", 5, "list 2 is running"},
-    {"USED1", 6, "list 1 ran to its end, and nothing was put into it since"},
-    {"USED2", 7, "list 2 ran to its end, and nothing was put into it since"},
+    {"USED1", 6, "list 1 ran to its end, and got no commands since"},
+    {"USED2", 7, "list 2 ran to its end, and got no commands since"},
 };
 
 constexpr DeclarationError bits_flaw(std::span<const BitInfo> bits) {
@@ -71,7 +71,7 @@ static_assert(declared<bits_flaw(marking_info_bits)>() && declared<bits_flaw(sta
 consteval std::uint32_t bit_named(std::span<const BitInfo> bits, std::string_view name) {
     for (const BitInfo& bit : bits)
         if (bit.name == name) return std::uint32_t{1} << bit.bit;
-    throw "there is no bit of that name";
+    throw "unknown bit name";
 }
 
 }  // namespace map

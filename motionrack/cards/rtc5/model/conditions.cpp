@@ -11,12 +11,10 @@ namespace {
 std::string flag_sentence(std::int64_t number) {
     for (const BitInfo& bit : map::marking_info_bits)
         if (bit.bit == number)
-            return fmt::format(
-                "{}: {}. {}", bit.name, bit.meaning,
-                number < 4
-                    ? "The output is clipped to the field's edge, and the list goes on; the part runs too fast or the "
-                      "drawing begins too late"
-                    : "The list goes on");
+            return fmt::format("{}: {}. {}", bit.name, bit.meaning,
+                               number < 4 ? "The output is clipped to the field's edge, and the list continues; the "
+                                            "part is too fast or the drawing starts too late"
+                                          : "The list continues");
     return fmt::format("bit {} of the marking info was set", number);
 }
 
@@ -27,9 +25,7 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::start_lost:
             return "an external start was lost: a list was running, or eight starts were waiting";
         case CardCondition::unwritten_place:
-            return fmt::format(
-                "the list ran into position {}, which nothing was put into, and ended; set_end_of_list is missing",
-                c.a);
+            return fmt::format("the list reached the empty position {} and ended; set_end_of_list is missing", c.a);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }

@@ -31,9 +31,9 @@ void Engine::load_program_file() {
 
 Result<void> Engine::load_correction(std::shared_ptr<const Table> table, int number) {
     if (number < 1 || number > table_count)
-        return fail(ErrorKind::refused,
-                    fmt::format("load_correction_file: there is no table {}; 1 to {}. Nothing was changed", number,
-                                table_count));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("load_correction_file: table {} must be 1 to {}. Nothing was changed", number, table_count));
     tables_[static_cast<std::size_t>(number - 1)] = std::move(table);
     return {};
 }
@@ -42,8 +42,8 @@ Result<void> Engine::select_cor_table(int head_a, int head_b) {
     for (const int number : {head_a, head_b})
         if (number < 0 || number > table_count)
             return fail(ErrorKind::refused,
-                        fmt::format("select_cor_table: there is no table {}; 1 to {}, or 0. Nothing was changed",
-                                    number, table_count));
+                        fmt::format("select_cor_table: table {} must be 1 to {}, or 0. Nothing was changed", number,
+                                    table_count));
     state_.heads[0].table = head_a;
     state_.heads[1].table = head_b;
     return {};
@@ -102,7 +102,7 @@ Result<void> Engine::simulate_encoder(int which) {
 Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     if (encoder < 0 || encoder >= encoder_count)
         return fail(ErrorKind::refused,
-                    fmt::format("set_ext_start_delay: there is no encoder {}; 0 or 1. Nothing was changed", encoder));
+                    fmt::format("set_ext_start_delay: encoder {} must be 0 or 1. Nothing was changed", encoder));
     state_.starts.delay = delay;
     state_.starts.encoder = encoder;
     return {};
@@ -111,8 +111,9 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
 Result<void> Engine::set_encoder_speed(int encoder, double counts_ms, double smooth) {
     MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "EncoderNo", encoder, 0, 3));
     if (!std::isfinite(counts_ms))
-        return fail(ErrorKind::refused,
-                    fmt::format("set_encoder_speed: Speed is {}, which is no number; nothing was changed", counts_ms));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("set_encoder_speed: Speed is {}, which is not a number; nothing was changed", counts_ms));
     MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "Smooth", smooth, 0, 1));
     State& s = state_;
     s.speed_watched = 1;

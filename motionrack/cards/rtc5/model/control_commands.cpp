@@ -21,7 +21,7 @@ constexpr std::string_view manual_419 = "the RTC5 manual 1.9 e, page 419";
 constexpr std::string_view manual_428 = "the RTC5 manual 1.9 e, page 428";
 constexpr std::string_view manual_511 = "the RTC5 manual 1.9 e, page 511";
 constexpr std::string_view rtc6_703 = "the RTC6 manual 1.0.21, page 703";
-constexpr std::string_view changes_nothing = "taken and changes nothing: the laser is a gate here, on or off";
+constexpr std::string_view changes_nothing = "accepted without effect: the laser is only on or off here";
 
 constexpr double min_32 = -2147483648.0, max_32 = 2147483647, max_place = max_list_memory - 1;
 
@@ -114,7 +114,7 @@ constexpr ControlCommand commands[] = {
      "the position that the next list command gets, over all lists", manual_70},
     {"get_list_space", {}, 1, true, false, or_wrong,
      [](Engine& e, Numbers) { return answer({e.state().lists.input_end - e.input_pointer()}); },
-     "positions that are free in the list that is being put into", manual_70},
+     "free positions in the open list", manual_70},
     {"execute_list_1", {}, 0, true, false, or_busy,
      [](Engine& e, Numbers) { return done(e.execute_list(1)); },
      "starts list 1; refused while a list runs or the card moves", manual_70},
@@ -159,21 +159,21 @@ constexpr ControlCommand commands[] = {
      "counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1", by_header},
     {"set_rot_center", {{centre("X"), centre("Y")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_rot_center({p[0], p[1]})); },
-     "what the rotary corrections turn about", by_header},
+     "centre of the rotary corrections", by_header},
     {"set_fly_tracking_error", {{up_to("TrackingErrorX", 65535, "times 10 us"),
       up_to("TrackingErrorY", 65535, "times 10 us")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) {
          e.set_tracking_error(static_cast<std::uint16_t>(p[0]), static_cast<std::uint16_t>(p[1]));
          return Answered(ControlAnswer{});
      },
-     "how late the mirrors are; encoders are taken ahead by it", manual_428},
+     "lag of the mirrors; encoder counts are extrapolated by it", manual_428},
     {"init_fly_2d", {{{"OffsetX", min_32, max_32, "counts"}, {"OffsetY", min_32, max_32, "counts"}}}, 0,
      true, false, or_wrong,
      [](Engine& e, Numbers p) {
          e.init_fly_2d(small(p[0]), small(p[1]));
          return Answered(ControlAnswer{});
      },
-     "both encoders become 0, and these are added to their counts in 2D corrections", manual_185},
+     "zeroes both encoders; these values are added to their counts in 2D corrections", manual_185},
     {"get_fly_2d_offset", {}, 2, true, true, or_wrong,
      [](Engine& e, Numbers) { return answer({wide(e.state().fly_2d_offset.x), wide(e.state().fly_2d_offset.y)}); },
      "(OffsetX, OffsetY) of init_fly_2d, counts", manual_185},
@@ -187,22 +187,22 @@ constexpr ControlCommand commands[] = {
     {"set_extstartpos", {{up_to("Pos", max_place)}}, 0, true, false, or_wrong, set_extstartpos,
      "where the list of an external start begins, over all lists", manual_511},
     {"simulate_ext_start_ctrl", {}, 0, true, false, or_wrong, plain<&Engine::external_start>,
-     "as if the start line rose", manual_511},
-    {"simulate_ext_stop", {}, 0, true, false, or_wrong, plain<&Engine::external_stop>, "as if the stop line rose",
+     "simulates a start signal", manual_511},
+    {"simulate_ext_stop", {}, 0, true, false, or_wrong, plain<&Engine::external_stop>, "simulates a stop signal",
      by_header},
 
     {"mcbsp_init", {{up_to("XDelay", 2, "bits"), up_to("RDelay", 2, "bits")}}, 0, true, false, or_wrong, taken,
-     "taken and changes nothing: the frame on the wire is not there", by_header},
+     "accepted without effect: the frame on the wire is not simulated", by_header},
     {"mcbsp_init_spi", {{up_to("ClockLevel", 1), up_to("ClockDelay", 1)}}, 0, true, false, or_wrong, taken,
-     "taken and changes nothing: the frame on the wire is not there", by_header},
+     "accepted without effect: the frame on the wire is not simulated", by_header},
     {"set_mcbsp_freq", {{{"Freq", 1, 50'000'000, "Hz"}}}, 1, true, false, or_wrong,
      [](Engine&, Numbers p) { return answer({wide(p[0])}); },
-     "gives Freq back and changes nothing: the frame on the wire is not there", by_header},
+     "returns Freq without effect: the frame on the wire is not simulated", by_header},
     {"get_mcbsp", {}, 1, true, true, or_rejected, [](Engine& e, Numbers) { return one(e.get_mcbsp()); },
      "the present word, signed, which goes to memory location 0 too; refused before the first word", by_header},
     {"read_mcbsp", {{up_to("No", 3)}}, 1, true, true, or_rejected,
      [](Engine& e, Numbers p) { return one(e.read_mcbsp(small(p[0]))); },
-     "memory location No; refused where nothing was put there yet, with what must come first. Location 0 is filled "
+     "memory location No; refused while it is empty, with the command that fills it. Location 0 is filled "
      "from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the "
      "high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm", page_198},
     {"read_multi_mcbsp", {{up_to("No", 7)}}, 1, true, true, or_wrong,
@@ -228,7 +228,7 @@ constexpr ControlCommand commands[] = {
      "online positioning of matrix coefficients", manual_166},
     {"apply_mcbsp", {{{"HeadNo", 1, 4}, up_to("at_once", 3)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.apply_mcbsp(small(p[0]), small(p[1]))); },
-     "what came by online positioning, to a head; at_once 2: with the next jump", manual_166},
+     "applies the online positioning to a head; at_once 2: with the next jump", manual_166},
     {"set_mcbsp_out", {{up_to("Signal1", 255), up_to("Signal2", 255)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_mcbsp_out(std::array{word(p[0]), word(p[1])})); },
      "sends two signals of get_value in turn, one word in 10 us", by_header},

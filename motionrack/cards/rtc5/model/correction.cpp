@@ -58,15 +58,13 @@ bool is_one_to_one(const CorrectionFile& file) {
 /// K = 0 is valid only in the maker's 1:1 table, which is older than the known checksum.
 Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     if (file.header[1] < 0 || file.header[1] > 1'000'000)
-        return refusal(name, fmt::format("{} bits/mm in its header; 1 to 1000000 are possible", file.header[1]));
+        return refusal(name, fmt::format("{} bits/mm in its header; it must be 1 to 1000000", file.header[1]));
     if (file.header[1] == 0 && (file.checksum_known || !is_one_to_one(file)))
-        return refusal(name,
-                       "0 bits/mm in its header, so it does not say how large the field is; 1 to 1000000 are "
-                       "possible");
+        return refusal(name, "0 bits/mm in its header, so the size of the field is unknown; it must be 1 to 1000000");
     if (file.header[12] < 0 || file.header[12] > 90'000)
-        return refusal(name, fmt::format("an angle calibration of {} 1/1000 degrees in its header; 0 to 90000 are "
-                                         "possible",
-                                         file.header[12]));
+        return refusal(name,
+                       fmt::format("an angle calibration of {} 1/1000 degrees in its header; it must be 0 to 90000",
+                                   file.header[12]));
     return {};
 }
 
@@ -81,11 +79,11 @@ Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes
                        fmt::format("its checksum is {:08X}h, its contents give {:08X}h: it is damaged", said, sum));
     if (const std::string damage = damage_of_summed_file(bytes); !damage.empty())
         return refusal(name, damage + ": it is damaged");
-    file.note = fmt::format("{} is of an older program, whose checksum is not known; it was not checked.", name);
+    file.note = fmt::format("{} is from an older program, whose checksum is unknown; it was not checked.", name);
     return {};
 }
 
-/// Orientation of the cell's image at all its corners: 1 or -1; 0: it is flat or folds back.
+/// Orientation of the cell's image at all its corners: 1 or -1; 0: it is flat or folded.
 int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
     const auto edge = [&](std::size_t from, std::size_t to) {
         return std::pair(std::int64_t{file.x[to]} - file.x[from], std::int64_t{file.y[to]} - file.y[from]);
@@ -165,10 +163,10 @@ Result<CorrectionFile> read_ct5(std::span<const std::uint8_t> bytes, const std::
     MOTIONRACK_CHECK(check_sum(out, bytes, name));
     MOTIONRACK_CHECK(check_header(out, name));
     if (const int cell = folded_cell(out); cell >= 0)
-        return refusal(name,
-                       fmt::format("its table cannot be inverted: between columns {} and {}, rows {} and {} it "
-                                   "is flat or folds back",
-                                   cell % grid_side, cell % grid_side + 1, cell / grid_side, cell / grid_side + 1));
+        return refusal(
+            name,
+            fmt::format("its table cannot be inverted: between columns {} and {}, rows {} and {} it is flat or folded",
+                        cell % grid_side, cell % grid_side + 1, cell / grid_side, cell / grid_side + 1));
     return out;
 }
 

@@ -36,7 +36,7 @@ struct CorrectionFile {
     double bits_per_mm() const { return header[1]; }
 };
 
-/// Errors: refused (the sentence says what was found and what is needed) for a wrong length, a node outside 0 ..
+/// Errors: refused (the sentence has the found and the required value) for a wrong length, a node outside 0 ..
 /// 1048575 or far from its neighbours, a table that cannot be inverted, an implausible header (also K = 0, except in
 /// the maker's 1:1 table), and a wrong checksum. Programs before version 4.0 wrote an unknown checksum: the note of
 /// such a file says that it was not verified. A file that looks that old only because of a single damage is refused.

@@ -60,14 +60,14 @@ std::uint32_t ct5_checksum(std::span<const std::uint8_t> bytes) {
 std::string damage_of_summed_file(std::span<const std::uint8_t> file) {
     const auto contents = file.first(file.size() - 4);
     const std::uint32_t difference = ct5_checksum(contents) ^ stored_word(file, contents.size());
-    if (std::has_single_bit(difference)) return "a bit of its checksum is turned over";
+    if (std::has_single_bit(difference)) return "a bit of its checksum is inverted";
     std::array<std::uint32_t, 8> effects{};
     for (std::size_t bit = 0; bit < 8; ++bit) effects[bit] = next_crc(0, static_cast<std::uint8_t>(1u << bit));
     std::array<std::uint32_t, 32> of_program{};
     for (std::size_t at = contents.size(); at-- > 0;) {
         for (std::size_t bit = 0; bit < 8; ++bit) {
             if (effects[bit] == difference)
-                return fmt::format("its checksum would fit if bit {} of byte {} were not turned over", bit, at);
+                return fmt::format("its checksum would fit if bit {} of byte {} were inverted", bit, at);
             if (at >= program_byte && at < program_byte + 4) of_program[8 * (at - program_byte) + bit] = effects[bit];
             effects[bit] = next_crc(effects[bit], 0);
         }

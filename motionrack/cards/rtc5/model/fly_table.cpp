@@ -50,10 +50,10 @@ Result<Points> points_of(std::string_view text, const std::string& section, cons
         }
         if (!inside || line.empty()) continue;
         if (whole.size() > 255)
-            return fail(
-                ErrorKind::invalid_input,
-                fmt::format("the line has {} characters; 255 are possible. The table was not loaded", whole.size()),
-                {number, 0}, file);
+            return fail(ErrorKind::invalid_input,
+                        fmt::format("the line has {} characters; at most 255 are allowed. The table was not loaded",
+                                    whole.size()),
+                        {number, 0}, file);
         const auto values = four_numbers(line);
         if (!values)
             return fail(ErrorKind::invalid_input,
@@ -93,8 +93,8 @@ Result<FlyTable> FlyTable::read(std::string_view text, unsigned number, const st
     const std::size_t nodes = out.columns_.size() * out.rows_.size();
     if (out.columns_.size() < 2 || out.rows_.size() < 2 || nodes != points.size())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} points with {} different Enc0 and {} different Enc1 are no full grid (at least 2 "
-                                "by 2); the table was not loaded",
+                    fmt::format("{} points with {} different Enc0 and {} different Enc1 do not form a full grid (at "
+                                "least 2 by 2); the table was not loaded",
                                 points.size(), out.columns_.size(), out.rows_.size()),
                     {}, file);
     return out;

@@ -14,10 +14,9 @@ Result<void> check(const Settings& s) {
                     fmt::format("a list memory of {} positions is outside {} to {}; nothing was changed", s.list_memory,
                                 min_list_memory, max_list_memory));
     if (s.list1 < 1 || s.list2 < 0 || s.list1 > s.list_memory - s.list2)
-        return fail(ErrorKind::refused,
-                    fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing was changed. List 1 "
-                                "takes 1 or more, list 2 none or more",
-                                s.list1, s.list2, s.list_memory));
+        return fail(ErrorKind::refused, fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing "
+                                                    "was changed. List 1 needs 1 or more, list 2 may have 0",
+                                                    s.list1, s.list2, s.list_memory));
     return {};
 }
 
@@ -95,7 +94,7 @@ void Engine::open(std::int64_t input, std::int64_t end) {
 Result<void> Engine::load_sub(std::uint32_t index) {
     Lists& l = state_.lists;
     if (index >= subroutine_count)
-        return fail(ErrorKind::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed",
+        return fail(ErrorKind::refused, fmt::format("load_sub: subroutine {} must be 0 to {}. Nothing was changed",
                                                     index, subroutine_count - 1));
     open(l.begin[2] + l.list3_used, l.begin[3]);
     l.loading = index + 1;
@@ -125,13 +124,12 @@ Result<void> Engine::put(const Command& command) {
     Lists& l = state_.lists;
     const ListCommandInfo& what = info(command.op);
     if (l.input < 0)
-        return fail(ErrorKind::refused,
-                    fmt::format("{}: no list is open; the command was not put into one. Open a list "
-                                "(load_list, set_start_list)",
-                                what.name));
+        return fail(ErrorKind::refused, fmt::format("{}: no list is open; the command was not added. Open a list "
+                                                    "(load_list, set_start_list)",
+                                                    what.name));
     if (l.input + what.positions > l.input_end)
-        return fail(ErrorKind::refused, fmt::format("{}: the list is full at position {}; the command was not put into "
-                                                    "it. Split the job over two lists (auto_change), or give "
+        return fail(ErrorKind::refused, fmt::format("{}: the list is full at position {}; the command was not added. "
+                                                    "Split the job between two lists (auto_change), or give "
                                                     "the list more memory (config_list)",
                                                     what.name, l.input));
     store(memory(), state_.memory_hash, l.input, command);

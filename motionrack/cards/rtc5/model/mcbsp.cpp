@@ -32,14 +32,12 @@ Result<std::int32_t> McBsp::read(int location) const {
                     fmt::format("read_mcbsp: No is {}, outside 0 to 3; nothing was done", location));
     if (filled >> location & 1) return memory[static_cast<std::size_t>(location)];
     if (!goes_to(location))
-        return fail(ErrorKind::refused,
-                    fmt::format("read_mcbsp: nothing was ever put into location {}, so there is nothing to read; "
-                                "first give {}",
-                                location, commands_before_reading[static_cast<std::size_t>(location)]));
+        return fail(ErrorKind::refused, fmt::format("read_mcbsp: location {} is empty; first use {}", location,
+                                                    commands_before_reading[static_cast<std::size_t>(location)]));
     if (!received) return fail(ErrorKind::refused, fmt::format("read_mcbsp: {}", no_word_yet));
     return fail(
         ErrorKind::refused,
-        fmt::format("read_mcbsp: location {} gets its first word in the next 10 us; let time pass first", location));
+        fmt::format("read_mcbsp: location {} gets its first word in the next 10 us; advance the time first", location));
 }
 
 }  // namespace motionrack::rtc5

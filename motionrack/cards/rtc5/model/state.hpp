@@ -80,8 +80,7 @@ struct Fly {
 };
 
 /// Reason why the location of received words has no value.
-inline constexpr std::string_view no_word_yet =
-    "no word has come over McBSP yet, so there is nothing to read; let the sender send one first";
+inline constexpr std::string_view no_word_yet = "no word was received over McBSP yet; let the sender send one first";
 
 struct McBsp {
     std::int64_t word = 0, previous = 0;

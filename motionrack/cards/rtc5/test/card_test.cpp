@@ -133,7 +133,7 @@ TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsTold) {
     const auto conditions = kernel.conditions();
     ASSERT_EQ(conditions.size(), 2u);
     EXPECT_EQ(describe(conditions[0], "scan"),
-              "card scan: at 0.00011 s TRIGGER_ERROR: a start came while a list was running. The list goes on");
+              "card scan: at 0.00011 s TRIGGER_ERROR: a start came while a list was running. The list continues");
     EXPECT_NE(describe(conditions[1], "scan").find("an external start was lost"), std::string::npos);
 }
 

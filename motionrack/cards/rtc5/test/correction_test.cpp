@@ -116,7 +116,7 @@ TEST(Rtc5Correction, ABitTurnedOverIsFoundWhereverItIsAndWhateverProgramTheFileI
     bytes = written_ct5(plain_file(0));
     bytes[700'000] ^= 1;
     EXPECT_EQ(refusal_of(bytes),
-              "x: its checksum would fit if bit 0 of byte 700000 were not turned over: it is damaged. The file was not "
+              "x: its checksum would fit if bit 0 of byte 700000 were inverted: it is damaged. The file was not "
               "loaded");
 }
 
@@ -126,7 +126,7 @@ TEST(Rtc5Correction, AnOlderFileIsReadWithANoteThatItsChecksumIsNotKnown) {
     const auto read = read_ct5(bytes, "old.ct5");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_FALSE(read->checksum_known);
-    EXPECT_EQ(read->note, "old.ct5 is of an older program, whose checksum is not known; it was not checked.");
+    EXPECT_EQ(read->note, "old.ct5 is from an older program, whose checksum is unknown; it was not checked.");
     EXPECT_EQ(table_of(*read)->note, read->note);
     EXPECT_EQ(read_ct5(written_ct5(plain_file()), "new.ct5")->note, "");
 }
@@ -135,7 +135,7 @@ TEST(Rtc5Correction, WithoutBitsPerMillimetreAFileIsRefusedButForTheMakersOwnOne
     CorrectionFile file = plain_file();
     file.header[1] = 0;
     EXPECT_EQ(refusal_of(written_ct5(file)),
-              "x: 0 bits/mm in its header, so it does not say how large the field is; 1 to 1000000 are possible. The "
+              "x: 0 bits/mm in its header, so the size of the field is unknown; it must be 1 to 1000000. The "
               "file was not loaded");
     file.header[10] = 0;
     auto bytes = written_ct5(file);
@@ -151,10 +151,9 @@ TEST(Rtc5Correction, ATableThatCannotBeInvertedIsRefused) {
         for (std::size_t i = 0; i < grid_nodes; ++i)
             if (const std::size_t column = i % grid_side; column > 128)
                 file.x[i] = folded ? file.x[i - 2 * (column - 128)] : file.x[i - (column - 128)];
-        EXPECT_EQ(
-            refusal_of(written_ct5(file)),
-            "x: its table cannot be inverted: between columns 128 and 129, rows 1 and 2 it is flat or folds back. "
-            "The file was not loaded")
+        EXPECT_EQ(refusal_of(written_ct5(file)),
+                  "x: its table cannot be inverted: between columns 128 and 129, rows 1 and 2 it is flat or folded. "
+                  "The file was not loaded")
             << folded;
     }
     CorrectionFile flat = plain_file();

@@ -1,4 +1,4 @@
-// Processing on the fly from outside: the numbers of the source's formulas.
+// Processing on the fly through the public interface: results of the source's formulas.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
@@ -113,7 +113,7 @@ TEST(Rtc5Fly, LocationZeroIsFilledAfterFlyReturnAndAfterAReset) {
     const auto unread = rig.card.read_mcbsp(0);
     ASSERT_FALSE(unread);
     EXPECT_EQ(unread.error().message,
-              "read_mcbsp: nothing was ever put into location 0, so there is nothing to read; first give "
+              "read_mcbsp: location 0 is empty; first use "
               "set_fly_x_pos, set_fly_y_pos or set_fly_rot_pos in a list (with any scale), or set_mcbsp_in, "
               "set_multi_mcbsp_in or get_mcbsp");
     rig.put(Op::set_fly_x_pos, {1});
@@ -134,8 +134,7 @@ TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     ASSERT_TRUE(rig.card.set_mcbsp_in(3, 1));
     for (int location = 0; location < 4; ++location)
         EXPECT_EQ(rig.card.read_mcbsp(location).error().message,
-                  "read_mcbsp: no word has come over McBSP yet, so there is nothing to read; let the sender send one "
-                  "first");
+                  "read_mcbsp: no word was received over McBSP yet; let the sender send one first");
     rig.card.receive(0xFFFE0003);
     rig.run(1);
     EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";

@@ -127,7 +127,7 @@ bool ExpressionParser::fail(const char* at, std::string message) {
 
 bool ExpressionParser::finite(const char* at, double value) {
     if (std::isfinite(value)) return true;
-    return fail(at, "this comes out larger than any number; take a look at the values in it");
+    return fail(at, "the result is out of range; check the values in it");
 }
 
 bool ExpressionParser::begins(const char* at) const {
@@ -146,8 +146,7 @@ bool ExpressionParser::value(const char*& at, double& value) {
     if (at == end_) return fail(at, "a value is missing here: a number, #1, #<name> or [ ]");
     const char* begin = at;
     const char* bracket_at = at;
-    if (++depth_ > deepest)
-        return fail(at, fmt::format("more than {} brackets, signs or '#' stand in each other here", deepest));
+    if (++depth_ > deepest) return fail(at, fmt::format("more than {} nested brackets, signs or '#'", deepest));
     bool good = false;
     if (*at == '[') {
         good = bracket(at, value);
@@ -160,10 +159,8 @@ bool ExpressionParser::value(const char*& at, double& value) {
             const auto known = source_.named(name.name);
             if (!known)
                 return fail(
-                    begin,
-                    fmt::format(
-                        "#<{}> has no value yet; set it before, e.g. #<{}> = 1 (EXISTS[#<{}>] asks whether it has)",
-                        name.name, name.name, name.name));
+                    begin, fmt::format("#<{}> has no value yet; set it before, e.g. #<{}> = 1 (EXISTS[#<{}>] tests it)",
+                                       name.name, name.name, name.name));
             value = *known;
         }
     } else if (function_at(at, end_, bracket_at) != Function::none) {
@@ -182,7 +179,7 @@ bool ExpressionParser::value(const char*& at, double& value) {
                                    ? "this number is too large; the largest is 1000000000"
                                : number.fault == NumberFault::two_points
                                    ? "this number has two decimal points"
-                                   : "this is no value: a number, #1, #<name>, a function or [ ] is expected");
+                                   : "expected a value: a number, #1, #<name>, a function or [ ]");
     }
     --depth_;
     skip(at);
@@ -311,11 +308,11 @@ bool ExpressionParser::unary(const char*& at, double& value) {
 bool ExpressionParser::arc_tangent(const char*& at, double over, double& value) {
     skip(at);
     if (at == end_ || *at != '/')
-        return fail(at, "ATAN takes two sides of a triangle: '/' and a second bracket are missing, e.g. ATAN[1]/[2]");
+        return fail(at, "ATAN needs two sides of a triangle: '/' and a second bracket are missing, e.g. ATAN[1]/[2]");
     ++at;
     skip(at);
     if (at == end_ || *at != '[')
-        return fail(at, "ATAN takes two sides of a triangle: the second bracket is missing, e.g. ATAN[1]/[2]");
+        return fail(at, "ATAN needs two sides of a triangle: the second bracket is missing, e.g. ATAN[1]/[2]");
     double under = 0;
     if (!bracket(at, under)) return false;
     value = atan2(over, under) * degrees;
@@ -325,7 +322,7 @@ bool ExpressionParser::arc_tangent(const char*& at, double over, double& value) 
 bool ExpressionParser::exists(const char*& at, double& value) {
     const char* open = at++;
     skip(at);
-    if (at == end_ || *at != '#') return fail(at, "EXISTS asks for a parameter, e.g. EXISTS[#<depth>]");
+    if (at == end_ || *at != '#') return fail(at, "EXISTS needs a parameter, e.g. EXISTS[#<depth>]");
     ParameterName name;
     if (!parameter(at, name)) return false;
     value = name.number > 0 || source_.named(name.name).has_value();
@@ -356,7 +353,7 @@ bool ExpressionParser::parameter(const char*& at, ParameterName& name) {
     if (!value(at, number)) return false;
     const double whole = std::floor(number + 0.5);
     if (std::fabs(number - whole) > same || whole < 1 || whole > last_parameter)
-        return fail(begin, fmt::format("there is no parameter #{:.6g}; they are #1 to #{}", number, last_parameter));
+        return fail(begin, fmt::format("unknown parameter #{:.6g}; parameters are #1 to #{}", number, last_parameter));
     name.number = static_cast<int>(whole);
     return true;
 }

@@ -114,9 +114,9 @@ bool parse_oword(std::string_view text, std::size_t column, OWordStatement& line
     const auto found = std::find(words.begin(), words.end(), word);
     const bool numbered = word.empty() && is_digit(text[label_at]) && is_rest_empty(text, at);
     if (found == words.end() && !numbered) {
-        return fail(column, word.empty() ? fmt::format("o{} alone does nothing; it needs one of {}",
+        return fail(column, word.empty() ? fmt::format("o{} has no effect alone; it needs one of {}",
                                                        text.substr(label_at, at - label_at), fmt::join(words, " "))
-                                         : fmt::format("'{}' does not go with an O word; known are {}", word,
+                                         : fmt::format("'{}' is not valid after an O word; known are {}", word,
                                                        fmt::join(words, " ")));
     }
     line.word = numbered ? OWord::numbered : static_cast<OWord>(found - words.begin());

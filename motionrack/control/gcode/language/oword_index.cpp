@@ -78,7 +78,7 @@ void Indexer::line(std::string_view text, std::size_t column, const ProgramLines
                               place.word == OWord::else_if || place.word == OWord::while_true ||
                               place.word == OWord::repeat;
     if (!takes_values && !is_rest_empty(text, place.rest))
-        fail(place, fmt::format("{}: nothing but a comment may stand behind it", what(place)));
+        fail(place, fmt::format("{}: only a comment may follow it", what(place)));
     if (place.word == OWord::sub)
         begin_sub(at, words.label);
     else if (place.word == OWord::numbered)
@@ -90,13 +90,12 @@ void Indexer::line(std::string_view text, std::size_t column, const ProgramLines
 void Indexer::begin_sub(std::int32_t at, const std::string& label) {
     const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
     if (!open_.empty())
-        return fail(place, fmt::format("{}: a sub stands by itself, but {} of line {} is open here; end that first",
+        return fail(place, fmt::format("{}: a sub must not be nested, but {} of line {} is open here; end that first",
                                        what(place), what(open_place()), open_place().line));
     const auto [found, is_first] = index_.subs.try_emplace(label, at);
     if (!is_first)
-        return fail(place,
-                    fmt::format("{}: there is one in line {} already; each sub needs a number or name of its own",
-                                what(place), index_.places[static_cast<std::size_t>(found->second)].line));
+        return fail(place, fmt::format("{}: line {} has the same one; each sub needs its own number or name",
+                                       what(place), index_.places[static_cast<std::size_t>(found->second)].line));
     index_.places.back().begin = at;
     open_.push_back(at);
 }
@@ -107,11 +106,11 @@ void Indexer::begin_program(std::int32_t at, const std::string& label) {
     if (!open_.empty())
         return fail(
             place,
-            fmt::format("O{}: a numbered program stands by itself, but {} of line {} is open here; end that first",
+            fmt::format("O{}: a numbered program must not be nested, but {} of line {} is open here; end that first",
                         label, what(open_place()), open_place().line));
     const auto [found, is_first] = index_.programs.try_emplace(label, at);
     if (is_first) return;
-    fail(place, fmt::format("O{}: there is one in line {} already; each program needs a number of its own", label,
+    fail(place, fmt::format("O{}: line {} has the same one; each program needs its own number", label,
                             index_.places[static_cast<std::size_t>(found->second)].line));
 }
 
@@ -204,7 +203,7 @@ void Indexer::inside(std::int32_t at) {
             return;
         }
     }
-    fail(place, fmt::format("{}: it stands in no {} o{}", what(place), returns ? "sub" : "loop",
+    fail(place, fmt::format("{}: it is not inside {} o{}", what(place), returns ? "sub" : "loop",
                             labels_[static_cast<std::size_t>(place.label)]));
 }
 

@@ -69,7 +69,7 @@ Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
     if (at == no_location) {
         const Block& block = interpreter.block();
         set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported,
-                    "this O word was not found when the program was looked through; put it first on its line");
+                    "this O word was not indexed; put it first on its line");
         place(problem_);
         return tl::unexpected<Problem>(problem_);
     }
@@ -87,8 +87,8 @@ bool ProgramFlow::within_budget(const OWordLocation& place) {
     if (walked_ <= max_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(place, place.column,
-                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever "
-                            "end? No more of it was read",
+                fmt::format("the program has executed {} lines without an end; check that this loop or call ends. The "
+                            "rest was not read",
                             walked_));
 }
 

@@ -33,7 +33,7 @@ std::string text_of(const std::string& label, bool numbered) {
 }
 
 std::string too_deep(const std::string& asks) {
-    return fmt::format("{}: {} calls stand in each other; does the sub call itself without end?", asks, max_call_depth);
+    return fmt::format("{}: {} nested calls; check that the sub does not call itself endlessly", asks, max_call_depth);
 }
 
 }  // namespace
@@ -139,14 +139,14 @@ bool ProgramFlow::find_sub(const OWordLocation& place, const std::string& label,
 bool ProgramFlow::load(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
-        return fail(place, place.column,
-                    fmt::format("{}: this program has no {}, and it came without a folder in which another file could "
-                                "have it; put it into the program",
-                                asks, wanted));
+        return fail(
+            place, place.column,
+            fmt::format("{}: this program has no {}, and no folder to search for its file; put it into the program",
+                        asks, wanted));
     }
     if (!is_plain(name)) {
         return fail(place, place.column,
-                    fmt::format("{}: this program has no {}, and the name is none of a file in its folder (letters, "
+                    fmt::format("{}: this program has no {}, and the name cannot be a file in its folder (letters, "
                                 "digits, '_', '-' and '.')",
                                 asks, wanted));
     }
@@ -189,9 +189,8 @@ bool ProgramFlow::give_back(const OWordLocation& place, Interpreter& interpreter
 bool ProgramFlow::end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned) {
     if (interpreter.end_call(returned)) return true;
     return fail(place, place.column,
-                "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter "
-                "compensation is on; "
-                "write G40 and a straight move before the sub ends");
+                "M73 restores another plane, unit, work offset or feed mode here, which cannot change while cutter "
+                "compensation is on; write G40 and a straight move before the sub ends");
 }
 
 void ProgramFlow::back_to_caller() {
@@ -246,8 +245,8 @@ bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpr
     }
     if (frames_.back().program == no_location)
         return fail(place, place.column,
-                    "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return "
-                    "leaves it before that");
+                    "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, or earlier "
+                    "with return");
     const bool good = end_call(place, interpreter, std::nullopt);
     CallFrame& frame = frames_.back();
     if (--frame.left == 0) {

@@ -30,8 +30,8 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     Interpreter reader = interpreter.contour_interpreter();
     if (!reader.parameters().enter({})) {
         fail(here, here.column,
-             fmt::format("{} stands in {} calls; does the sub call itself without end?", name_of_g(block.g[g_motion]),
-                         max_call_depth));
+             fmt::format("{} is nested in {} calls; check that the sub does not call itself endlessly",
+                         name_of_g(block.g[g_motion]), max_call_depth));
         return failed();
     }
     std::vector<ContourSegment> contour;
@@ -43,8 +43,8 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
     if (!good) return failed();
     if (contour.empty()) {
         fail(here, here.column,
-             fmt::format("{}: o{} sub draws no contour; it needs a straight move to where the contour begins, and one "
-                         "or more after it",
+             fmt::format("{}: o{} sub has no contour; it needs a straight move to the start of the contour, and one or "
+                         "more after it",
                          name_of_g(block.g[g_motion]), interpreter.contour_label()));
         return failed();
     }
@@ -94,8 +94,8 @@ bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, st
             return fail(here, 0, "a contour has arcs of less than a turn in the plane of X and Z (G18)");
         if (!begun && arc)
             return fail(here, 0,
-                        "the first move of a contour leads straight to where it begins, but this one is an arc");
-        if (begun && move.end[1] != at[1]) return fail(here, 0, "a contour goes along X and Z only; leave Y out");
+                        "the first move of a contour must be a straight move to its start, but this one is an arc");
+        if (begun && move.end[1] != at[1]) return fail(here, 0, "a contour is in X and Z only; leave Y out");
         const Point from = at;
         at = move.end;
         ContourSegment piece;
@@ -113,9 +113,8 @@ bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, st
                 here, 0,
                 "A is the radius of a fillet and C of a chamfer at the end of the move; write one of them, 0 or more");
         if (!begun && piece.corner > 0)
-            return fail(
-                here, 0,
-                "A and C make corners of a contour; its first move leads to where it begins, and there is none");
+            return fail(here, 0,
+                        "A and C make corners of a contour; its first move leads to its start, which has none");
         if (begun && (arc || length(piece.to - piece.from) > shortest)) contour.push_back(piece);
         begun = true;
     }

@@ -32,7 +32,7 @@ bool Scanner::word_of_language(char letter, std::size_t column, const Number& pl
     if (std::fabs(value) > largest_number) {
         return fail_at(
             column, GrblStatus::bad_number,
-            fmt::format("{} comes out as {:.6g}; the largest number is 1000000000", word_at(text_, column), value));
+            fmt::format("{} evaluates to {:.6g}; the largest number is 1000000000", word_at(text_, column), value));
     }
     Number number;
     number.value = value;
@@ -52,7 +52,7 @@ bool Scanner::assignment() {
         return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
     if (at_ == end_ || *at_ != '=') {
         return fail_at(column, GrblStatus::expected_letter,
-                       "a parameter alone does nothing; write a letter before it (X#1) or give it a value (#1 = 2)");
+                       "a parameter alone has no effect; write a letter before it (X#1) or give it a value (#1 = 2)");
     }
     ++at_;
     if (!reader.value(at_, found.value)) return fail_at(reader.fault_at(), GrblStatus::bad_number, reader.fault());
@@ -60,7 +60,7 @@ bool Scanner::assignment() {
     if (name.number > 0 ? MachineParameters::is_read_only(name.number) : MachineParameters::is_read_only(name.name)) {
         return fail_at(
             column, GrblStatus::unsupported,
-            fmt::format("{} tells of the machine and cannot be set; offsets are set by G10 and G92, reference points "
+            fmt::format("{} is a read-only value of the machine; offsets are set by G10 and G92, reference points "
                         "by G28.1 and G30.1",
                         name.number > 0 ? fmt::format("#{}", name.number) : fmt::format("#<{}>", name.name)));
     }
@@ -73,7 +73,7 @@ bool Scanner::flow(std::size_t column) {
     if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 ||
         !block_.assignments.empty()) {
         return fail_at(column, GrblStatus::unsupported,
-                       "an O word stands first on its line; put what is before it on a line of its own");
+                       "an O word must be first on its line; put the words before it on a separate line");
     }
     block_.flow = true;
     block_.flow_column = static_cast<std::uint16_t>(column);

@@ -71,7 +71,7 @@ TEST(CApi, AccessesThatTheBusDoesNotHaveAreRefused) {
     }
     EXPECT_THAT(mr_last_error(), HasSubstr("0xffffffff"));
     EXPECT_EQ(mr_read16(r, "c2", 0, &word), MR_BAD_CALL);
-    EXPECT_THAT(mr_last_error(), HasSubstr("no card 'c2'"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("Unknown card 'c2'"));
     EXPECT_THAT(mr_last_error(), HasSubstr("c1"));
     EXPECT_EQ(byte, 1);
     EXPECT_EQ(word, 2);

@@ -113,7 +113,7 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
         world.pass(1'500'000'000);
         const std::uint64_t hash = world.hash();
         EXPECT_EQ(mr_trace_stop(world), MR_IO);
-        EXPECT_THAT(mr_last_error(), HasSubstr("What was recorded is lost"));
+        EXPECT_THAT(mr_last_error(), HasSubstr("The recording is lost"));
         EXPECT_EQ(world.hash(), hash);
     }
     world.pass(100'000'000);
@@ -141,7 +141,7 @@ TEST(CHdf5, AnEndThatHasNoRoomIsToldAndTheFileDoesNotTakeItsName) {
             const FullDisk disk(std::filesystem::file_size(part) + beyond);
             EXPECT_EQ(mr_trace_stop(world), MR_IO);
         }
-        EXPECT_THAT(mr_last_error(), HasSubstr("did not take its name"));
+        EXPECT_THAT(mr_last_error(), HasSubstr("was not renamed"));
         EXPECT_EQ(world.hash(), hash);
         EXPECT_FALSE(std::filesystem::exists(h5));
         const auto cut_off = trace::RecordingReader::open(part);
@@ -166,7 +166,7 @@ TEST(CHdf5, ARackThatIsClosedTellsWhatBecameOfItsRecording) {
         mr_rack_close(rack);
     }
     EXPECT_NE(mr_last_error(), before);
-    EXPECT_THAT(mr_last_error(), HasSubstr("did not take its name"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("was not renamed"));
     EXPECT_FALSE(std::filesystem::exists(h5));
     std::filesystem::remove(h5 + ".new");
 }

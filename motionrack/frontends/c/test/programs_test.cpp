@@ -248,7 +248,7 @@ TEST(CPrograms, AServoGoesOnFromWhereItStands) {
     EXPECT_EQ(mr_write8(world, "board", command, 'A'), MR_OK) << "here is 0, says the host";
     world.pass(10'000'000);
     run(world, "G21 G90\nG1 X210 F6000\nM2\n", MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("somebody wrote to the card's counter"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("another program wrote to the card's counter"));
     EXPECT_STREQ(mr_report(world), "") << "nothing was moved";
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     EXPECT_EQ(run(world, "G21 G90\nG1 X210 F6000\nM2\n").ok, 1) << mr_last_error();

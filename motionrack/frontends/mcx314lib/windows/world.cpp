@@ -60,7 +60,7 @@ Result<std::vector<std::string>> read_cards(std::string_view text, std::string_v
         const std::string name(card_in(line));
         if (name.empty())
             return wrong(
-                fmt::format("The library for Windows takes cards alone, card.NAME = \"mcx314\", a line each, not "
+                fmt::format("The library for Windows accepts only cards, card.NAME = \"mcx314\", a line each, not "
                             "{}. Nothing was opened. Leave that out, or run the rack on Linux.",
                             in_quotes(line)),
                 file, number);
@@ -72,7 +72,7 @@ Result<std::vector<std::string>> read_cards(std::string_view text, std::string_v
         names.push_back(name);
     }
     if (names.empty())
-        return wrong("There is no card. Nothing was opened. Write card.c1 = \"mcx314\", for one.", file, 1);
+        return wrong("The file has no card. Nothing was opened. Add one, such as card.c1 = \"mcx314\".", file, 1);
     return names;
 }
 
@@ -148,7 +148,7 @@ Result<void> ChipsAlone::advance(std::uint64_t ns) {
     if (ns > max_ns || kernel_.now() > latest - time)
         return fail(
             ErrorKind::refused,
-            fmt::format("{} ns are more than one call may run, or the time ends: it is {:.0f} s. Nothing was run. "
+            fmt::format("{} ns exceed the limit of a call, or the end of time: it is {:.0f} s. Nothing was run. "
                         "Open the card again.",
                         ns, to_seconds(kernel_.now())));
     const Instant until = kernel_.now() + time;
@@ -169,7 +169,7 @@ Result<void> ChipsAlone::set_wire(std::string_view name, double value) {
         driven.empty() ? sim::WireId::none : kernel_.find_wire(fmt::format("{}.{}", driven.front()->name(), pin));
     if (wire == sim::WireId::none)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("There is no wire {}; inputs are CARD.PIN, as {}.xlmtp, and estop. "
+                    fmt::format("Unknown wire {}; inputs are CARD.PIN, such as {}.xlmtp, and estop. "
                                 "Nothing was done.",
                                 in_quotes(name), cards_.front()->name()));
     if (kernel_.lazy(wire) || pin == "int_n" || pin.find("out") != std::string_view::npos)

@@ -54,9 +54,9 @@ TEST(Rtc5simCards, CommandsGoToTheirCard) {
 TEST(Rtc5simCards, ACardThatIsNotThereIsRefused) {
     const Session session;
     EXPECT_EQ(select_rtc(2), 0u);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("select_rtc: there is no card 2"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("select_rtc: unknown card 2"));
     n_jump_abs(0, 1, 2);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("jump_abs: there is no card 0"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("jump_abs: unknown card 0"));
     EXPECT_EQ(n_get_last_error(9), UINT{RTC5_ACCESS_DENIED});
     EXPECT_EQ(n_load_program_file(9, nullptr), 11u);
     EXPECT_EQ(get_error(), 0u);
@@ -96,7 +96,7 @@ TEST(Rtc5simTime, AQuestionTakesWhatIsSaid) {
     EXPECT_EQ(rtc5sim_now_us(), 1000) << "a command takes none";
     EXPECT_EQ(rtc5sim_question_us(15), -1);
     EXPECT_THAT(rtc5sim_last_error(),
-                HasSubstr("the time is 15 us, but it is 0 to 1000000000 us, a multiple of 10 us"));
+                HasSubstr("the time is 15 us; it must be 0 to 1000000000 us, a multiple of 10 us"));
     EXPECT_EQ(rtc5sim_advance_us(-10), -1);
     EXPECT_EQ(rtc5sim_advance_us(std::numeric_limits<std::int64_t>::max() / 10 * 10), -1);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("the end of time"));
@@ -121,17 +121,17 @@ TEST(Rtc5simErrors, WhatIsRefusedIsSaidAndKeptInTheBits) {
     EXPECT_EQ(get_last_error(), 0u);
     set_mark_speed(std::numeric_limits<double>::quiet_NaN());
     EXPECT_STREQ(rtc5sim_last_error(),
-                 "set_mark_speed: Speed is nan, which is no number; the command was not put into the list");
+                 "set_mark_speed: Speed is nan, which is not a number; the command was not added to the list");
     EXPECT_EQ(get_last_error(), UINT{RTC5_PARAM_ERROR});
     EXPECT_EQ(get_input_pointer(), before + 1);
     EXPECT_EQ(get_last_error(), 0u);
     set_mark_speed_ctrl(std::numeric_limits<double>::infinity());
-    EXPECT_STREQ(rtc5sim_last_error(), "set_mark_speed_ctrl: Speed is inf, which is no number; nothing was changed");
+    EXPECT_STREQ(rtc5sim_last_error(), "set_mark_speed_ctrl: Speed is inf, which is not a number; nothing was changed");
     set_ext_start_delay(3'000'000'000L, 0);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("set_ext_start_delay: Delay is 3000000000, outside"));
     simulate_encoder(4);
     get_status(nullptr, nullptr);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_status: The first place for the answer is a null pointer"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_status: The first address of the answer is a null pointer"));
     set_fly_tracking_error(65'536, 0);
     read_mcbsp(4);
     set_offset(5, 0, 0, 0);
@@ -236,7 +236,7 @@ TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsTold) {
     EXPECT_STREQ(rtc5sim_table_note(1, 1), "");
     EXPECT_EQ(load(310, rtc5::ct5_bytes - 3, rtc5::ct5_bytes - 1), 0u) << rtc5sim_last_error();
     EXPECT_THAT(rtc5sim_table_note(1, 1),
-                HasSubstr("some.ct5 is of an older program, whose checksum is not known; it was not checked."));
+                HasSubstr("some.ct5 is from an older program, whose checksum is unknown; it was not checked."));
     EXPECT_EQ(get_last_error(), 0u);
     for (const std::size_t turned : {std::size_t{5}, std::size_t{41}, std::size_t{64}, std::size_t{900'000}})
         for (const std::int32_t program : {403, 310}) {
@@ -255,7 +255,7 @@ TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsTold) {
     EXPECT_EQ(load_correction_file(nullptr, 1, 2), 0u);
     EXPECT_STREQ(rtc5sim_table_note(1, 1), "");
     EXPECT_STREQ(rtc5sim_table_note(1, 5), "");
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("rtc5sim_table_note: there is no table 5; 1 to 4"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("rtc5sim_table_note: table 5 must be 1 to 4"));
 }
 
 TEST_F(Rtc5simFiles, ATableWithoutAFileIsOneToOneUpToTheEdge) {

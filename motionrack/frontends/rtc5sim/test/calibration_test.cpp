@@ -92,7 +92,7 @@ TEST(Rtc5simCalibration, ReadingBeforeAnythingWasPutThereSaysWhatMustComeFirst) 
     EXPECT_EQ(read_mcbsp(0), 0);
     EXPECT_EQ(get_last_error(), UINT{RTC5_REJECTED});
     EXPECT_STREQ(rtc5sim_last_error(),
-                 "read_mcbsp: nothing was ever put into location 0, so there is nothing to read; first give "
+                 "read_mcbsp: location 0 is empty; first use "
                  "set_fly_x_pos, set_fly_y_pos or set_fly_rot_pos in a list (with any scale), or set_mcbsp_in, "
                  "set_multi_mcbsp_in or get_mcbsp");
     for (const UINT location : {1u, 2u, 3u}) {
@@ -115,10 +115,9 @@ TEST(Rtc5simCalibration, WithoutASenderThereIsNoWordAndThatIsSaid) {
     EXPECT_EQ(read_mcbsp(0), 0);
     EXPECT_EQ(get_last_error(), UINT{RTC5_REJECTED});
     EXPECT_STREQ(rtc5sim_last_error(),
-                 "read_mcbsp: no word has come over McBSP yet, so there is nothing to read; let the sender send one "
-                 "first");
+                 "read_mcbsp: no word was received over McBSP yet; let the sender send one first");
     EXPECT_EQ(get_mcbsp(), 0);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_mcbsp: no word has come over McBSP yet"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_mcbsp: no word was received over McBSP yet"));
     EXPECT_EQ(get_last_error(), UINT{RTC5_REJECTED});
     rtc5sim_question_us(0);
     rtc5sim_receive(1, 0);

@@ -43,7 +43,7 @@ TEST(Rtc5simHostile, NumbersThatAreNoneAreNotPutIntoTheList) {
     for (const auto call : calls)
         for (const double v : {nan, infinite, -infinite}) {
             call(v);
-            refused(RTC5_PARAM_ERROR, "which is no number; the command was not put into the list");
+            refused(RTC5_PARAM_ERROR, "which is not a number; the command was not added to the list");
         }
     EXPECT_EQ(get_input_pointer(), before);
 }
@@ -114,7 +114,7 @@ TEST(Rtc5simHostile, ListsAreOpenedAndStartedOnlyWhereTheyAre) {
         refused(RTC5_PARAM_ERROR, "load_list: the list position 1048576 is outside 0 to 1048575");
     set_start_list_pos(2, 0xFFFFFFFF), refused(RTC5_PARAM_ERROR, "set_start_list_pos: the list position 4294967295");
     execute_list_pos(1, 1 << 20), refused(RTC5_PARAM_ERROR, "execute_list_pos: the list position 1048576");
-    load_sub(1024), refused(RTC5_PARAM_ERROR, "load_sub: there is no subroutine 1024");
+    load_sub(1024), refused(RTC5_PARAM_ERROR, "load_sub: subroutine 1024 must be 0 to 1023");
     config_list(2'000'000, 1), refused(RTC5_PARAM_ERROR, "do not fit a memory of 1048576");
     config_list(0, 10), refused(RTC5_PARAM_ERROR, "config_list: lists of 0 and 10");
     sub_call(1024), list_call(1 << 20), refused(RTC5_PARAM_ERROR, "list_call: Pos is 1048576");

@@ -191,13 +191,13 @@ TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
     Client writer = tcp();
     writer.hear(banner);
     Client other = tcp();
-    EXPECT_THAT(other.hear("]\r\n"), StartsWith("[MSG:Another sender writes here."));
+    EXPECT_THAT(other.hear("]\r\n"), StartsWith("[MSG:Another sender has control."));
     other.say("G1 X50 F60\n$X\n");
     EXPECT_THAT(other.ask("?", ">\r\n"), HasSubstr("<Idle|MPos:0.000"));
     EXPECT_THAT(writer.hear(">\r\n"), HasSubstr("<Idle|MPos:0.000"));
     writer.say("G4 P100000\n");
     EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
-    EXPECT_THAT(other.ask("\x18", "machine]\r\n"), HasSubstr("[MSG:The reset of one who looks on"));
+    EXPECT_THAT(other.ask("\x18", "machine]\r\n"), HasSubstr("[MSG:The reset of an observer"));
     EXPECT_THAT(writer.ask("?", ">\r\n"), HasSubstr("<Run|"));
     other.say("!");
     EXPECT_THAT(writer.until("Hold"), HasSubstr("<Hold"));
@@ -254,7 +254,7 @@ TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
     sender.hear("]\r\n");
     EXPECT_EQ(sender.ask("$I\n", "\r\nok\r\n").substr(0, banner.size()), banner);
     EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
-    EXPECT_THAT(silent.hear("heard]\r\n"), StartsWith("[MSG:Another sender writes here."));
+    EXPECT_THAT(silent.hear("accepted]\r\n"), StartsWith("[MSG:Another sender has control."));
 }
 
 TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {
@@ -320,7 +320,7 @@ TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMo
     EXPECT_THAT(second.until("Run"), StartsWith("<Run|"));
     EXPECT_THAT(second.ask("G1 X1 F600\n", "error:9\r\n"), AllOf(StartsWith("[MSG:"), HasSubstr("sender 127.0.0.1:")));
     EXPECT_THAT(second.ask("\x18", "ends it]\r\n"),
-                AllOf(HasSubstr(banner), HasSubstr("[MSG:Only this connection was reset, for sender 127.0.0.1:")));
+                AllOf(HasSubstr(banner), HasSubstr("[MSG:Only this connection was reset, because sender 127.0.0.1:")));
     EXPECT_THAT(first.ask("?", ">\r\n"), HasSubstr("<Run|"));
 }
 
@@ -367,7 +367,7 @@ TEST_F(SenderPorts, LeaveTheLinkToTheProgramThatHasIt) {
     same.link = settings_.link;
     const auto opened = GrblPorts::open(same, *machine, lease_);
     ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, HasSubstr("another program that runs has the link"));
+    EXPECT_THAT(opened.error().message, HasSubstr("another running program has the link"));
     EXPECT_EQ(std::filesystem::read_symlink(settings_.link), leads_to);
 }
 

@@ -134,8 +134,8 @@ TEST(AHostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
                             {version + name + "AAAAAAAAAAAAAAAAAAAAAAAA\r\n\r\n", 400, "16 bytes in base64"},
                             {version + name + "AAAAAAAAAAAAA*AAAAAAAA==\r\n\r\n", 400, "16 bytes in base64"},
                             {version + name + std::string(100, 'A') + "\r\n\r\n", 400, "16 bytes in base64"},
-                            {version + key + "Content-Length: 2\r\n\r\n{}", 400, "bytes behind the handshake"},
-                            {version + key + "\r\n\x81\x80rack", 400, "bytes behind the handshake"}}) {
+                            {version + key + "Content-Length: 2\r\n\r\n{}", 400, "Bytes follow the handshake"},
+                            {version + key + "\r\n\x81\x80rack", 400, "Bytes follow the handshake"}}) {
         WebClient client = running.client();
         client.send(head + one.fields);
         const WebAnswer answer = client.answer();

@@ -47,7 +47,7 @@ TEST_F(AServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
     client.send("GET / HTTP/1.1\r\nHost localhost\r\n\r\n");
     const WebAnswer broken = client.answer();
     EXPECT_EQ(broken.status, 400);
-    EXPECT_THAT(broken.message(), HasSubstr("no HTTP/1.1 request")) << "the body is that of the broken request";
+    EXPECT_THAT(broken.message(), HasSubstr("not an HTTP/1.1 request")) << "the body is that of the broken request";
     EXPECT_EQ(client.receive().kind, -1) << "nothing comes behind it";
 }
 
@@ -269,13 +269,13 @@ TEST(AServersAddress, IsLoopbackUnlessThereIsTls) {
         Running running([](ServerSettings& settings) { settings.address = "0.0.0.0"; });
         FAIL() << "it was served";
     } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("with TLS only"));
+        EXPECT_THAT(error.what(), HasSubstr("requires TLS"));
     }
     try {
         Running running([](ServerSettings& settings) { settings.address = "localhorst"; });
         FAIL() << "it was served";
     } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("is no IPv4 or IPv6 address"));
+        EXPECT_THAT(error.what(), HasSubstr("is not an IPv4 or IPv6 address"));
     }
 }
 
@@ -285,7 +285,7 @@ TEST(AServersPort, ThatIsTakenIsToldWithWhatToDo) {
         Running second([&](ServerSettings& settings) { settings.port = running.port(); });
         FAIL() << "it was served";
     } catch (const std::runtime_error& error) {
-        EXPECT_THAT(error.what(), HasSubstr("taken by another program"));
+        EXPECT_THAT(error.what(), HasSubstr("used by another program"));
     }
 }
 

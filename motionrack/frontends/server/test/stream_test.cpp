@@ -67,8 +67,8 @@ TEST(AStream, RefusesWithASentenceAndGoesOn) {
         client.send_frame(1, text);
         return error_of(client.receive_until([](const json& message) { return message.contains("error"); }));
     };
-    EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
-    EXPECT_THAT(refused("[]"), HasSubstr("is no JSON object"));
+    EXPECT_THAT(refused("{"), HasSubstr("is not valid JSON"));
+    EXPECT_THAT(refused("[]"), HasSubstr("is not a JSON object"));
     EXPECT_THAT(refused(std::string(1000, '[')), HasSubstr("nested deeper"));
     EXPECT_THAT(refused("{\"id\":1}"), HasSubstr("one of token, subscribe, command, query"));
     EXPECT_THAT(refused("{\"id\":{},\"command\":\"enable\"}"), HasSubstr("id of a message"));
@@ -115,7 +115,7 @@ TEST(AStream, HasOneMasterAtATime) {
     EXPECT_THAT(error_of(bert.exchange({{"command", "take_control"}})), HasSubstr("anna has it"));
     ASSERT_TRUE(anna.exchange({{"command", "start_program"}, {"name", "job"}, {"text", job()}}).value("done", false));
     EXPECT_THAT(error_of(bert.exchange({{"command", "take_control"}, {"force", true}})),
-                HasSubstr("does not stand still"));
+                HasSubstr("has it and the machine moves"));
     EXPECT_TRUE(bert.exchange({{"command", "hold"}}).value("done", false)) << "everybody who operates may hold";
     anna.receive_until([](const json& message) { return state_is(message, "hold"); });
     EXPECT_TRUE(anna.exchange({{"command", "stop"}}).value("done", false));
