@@ -7,6 +7,12 @@
 
 namespace motionrack::live {
 
+namespace {
+
+constexpr std::uint16_t empty_slot = 0xFFFF;  ///< of a bus on which no card answers
+
+}  // namespace
+
 Result<std::unique_ptr<CardPort>> CardPort::open(const PortSpec& spec, const CardMap& map,
                                                  std::unique_ptr<Clock> clock) {
     std::uint32_t last = 0;
@@ -25,18 +31,22 @@ Result<std::unique_ptr<CardPort>> CardPort::open(const PortSpec& spec, const Car
         MOTIONRACK_TRY(line, InterruptLine::open(spec.interrupt));
     }
     if (!clock) clock = std::make_unique<MonotonicClock>();
-    return std::unique_ptr<CardPort>(new CardPort(std::move(words), std::move(line), std::move(clock), spec, last));
+    return std::unique_ptr<CardPort>(
+        new CardPort(std::move(words), std::move(line), std::move(clock), spec, map, last));
 }
 
 CardPort::CardPort(std::unique_ptr<WordAccess> words, std::optional<InterruptLine> line, std::unique_ptr<Clock> clock,
-                   const PortSpec& spec, std::uint32_t last)
+                   const PortSpec& spec, const CardMap& map, std::uint32_t last)
     : words_(std::move(words)),
       line_(std::move(line)),
       clock_(std::move(clock)),
       path_(spec.path),
       gap_(spec.gap),
       stride_(spec.stride),
-      last_(last) {}
+      last_(last) {
+    for (const RegisterInfo& reg : map.registers)
+        if (reg.access == Access::read && reg.bank.empty()) quiet_.push_back(reg.offset);
+}
 
 bool CardPort::begin_access(std::uint32_t offset) {
     MOTIONRACK_ASSERT(offset % 2 == 0 && offset <= last_);
@@ -61,11 +71,30 @@ void CardPort::write(std::uint32_t offset, std::uint16_t value) {
     end_access(words_->write(std::uint64_t{offset} / 2 * stride_, value), offset, "written");
 }
 
-std::uint16_t CardPort::read(std::uint32_t offset) {
-    std::uint16_t value = 0xFFFF;
+std::uint16_t CardPort::read_word(std::uint32_t offset) {
+    std::uint16_t value = empty_slot;
     if (!begin_access(offset)) return value;
     end_access(words_->read(std::uint64_t{offset} / 2 * stride_, value), offset, "read");
     return value;
+}
+
+std::uint16_t CardPort::read(std::uint32_t offset) {
+    const std::uint16_t value = read_word(offset);
+    if (value == empty_slot && !trouble_) (void)check_answers();  // -1 of a card, or a slot without one
+    return value;
+}
+
+Result<void> CardPort::check_answers() {
+    for (const std::uint32_t offset : quiet_)
+        if (!trouble_ && read_word(offset) != empty_slot) return {};
+    if (!trouble_ && !quiet_.empty())
+        trouble_ = Error{ErrorKind::io,
+                         fmt::format("Every register reads FFFFh: no card answers at {}. No access is made from here "
+                                     "on; its axes may still drive, and their positions are not trusted. Check the "
+                                     "region, offset and stride, and whether the card is in its slot and has power.",
+                                     path_)};
+    if (trouble_) return tl::unexpected<Error>(*trouble_);
+    return {};
 }
 
 bool CardPort::wait(Duration timeout) {

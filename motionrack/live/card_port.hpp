@@ -20,6 +20,7 @@
 #include <motionrack/live/port_spec.hpp>
 #include <motionrack/live/word_access.hpp>
 #include <optional>
+#include <vector>
 
 namespace motionrack::live {
 
@@ -33,8 +34,11 @@ class CardPort final : public RegisterPort, public Interrupt {
 
     /// One access, at least PortSpec::gap after the previous one. `offset`: of a register in the card's map.
     void write(std::uint32_t offset, std::uint16_t value) override;
-    /// Returns FFFFh, as from an empty slot, if the computer refused an access; see trouble().
+    /// Returns FFFFh, as from an empty slot, if the computer refused an access; see trouble(). Where the card gives
+    /// FFFFh, reads its other registers until one differs; if none does, no card answers, and that is trouble().
     std::uint16_t read(std::uint32_t offset) override;
+    /// Reads the registers that reading does not change until one is not FFFFh. Errors: io if none is, or as trouble().
+    Result<void> check_answers();
 
     /// Waits for the UIO node to count an interrupt. Without a node it waits for the whole `timeout` and returns false.
     bool wait(Duration timeout) override;
@@ -46,15 +50,16 @@ class CardPort final : public RegisterPort, public Interrupt {
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
     /// True if this program receives the card's interrupts.
     bool has_interrupt() const { return line_.has_value(); }
-    /// The first access that the computer refused; no further access is made after it.
+    /// The first access that the computer refused or no card answered; no further access is made after it.
     const std::optional<Error>& trouble() const { return trouble_; }
 
   private:
     CardPort(std::unique_ptr<WordAccess> words, std::optional<InterruptLine> line, std::unique_ptr<Clock> clock,
-             const PortSpec& spec, std::uint32_t last);
+             const PortSpec& spec, const CardMap& map, std::uint32_t last);
     /// Waits for the gap; returns false after a refused access.
     bool begin_access(std::uint32_t offset);
     void end_access(int error, std::uint32_t offset, const char* what);
+    std::uint16_t read_word(std::uint32_t offset);
 
     std::unique_ptr<WordAccess> words_;
     std::optional<InterruptLine> line_;
@@ -62,7 +67,8 @@ class CardPort final : public RegisterPort, public Interrupt {
     std::string path_;
     Duration gap_;
     std::uint32_t stride_;
-    std::uint32_t last_;  ///< offset of the last register
+    std::uint32_t last_;                ///< offset of the last register
+    std::vector<std::uint32_t> quiet_;  ///< offsets of the registers that reading does not change
     std::optional<Instant> accessed_;
     std::optional<Error> trouble_;
     const std::atomic<bool>* stop_ = nullptr;

@@ -35,11 +35,6 @@ bool is_reading(const RegisterInfo& reg) {
 
 }  // namespace
 
-bool RegisterView::answered() const {
-    return std::any_of(registers.begin(), registers.end(),
-                       [](const RegisterSnapshot& seen) { return seen.word != 0xFFFF; });
-}
-
 RegisterView view_mcx314(RegisterPort& port, bool clearing) {
     RegisterView view;
     const std::span<const RegisterInfo> registers = mcx314::card_map().registers;

@@ -27,8 +27,6 @@ struct ValueSnapshot {
 struct RegisterView {
     std::vector<RegisterSnapshot> registers;
     std::vector<ValueSnapshot> values;
-    /// Returns false if every word is FFFFh, as in an empty slot.
-    bool answered() const;
 };
 
 /// Reads an MCX314: all RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis)

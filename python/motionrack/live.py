@@ -52,7 +52,7 @@ class LiveCard(MappedCard):
     _place: str
 
     def __init__(self, place: str, type: str = "mcx314") -> None:
-        """Opens the card at ``place``; no register is touched, and nothing of the card is reset.
+        """Opens the card at ``place``; its status is read, nothing is written, and nothing of the card is reset.
 
         ``place``: ``"uio:/dev/uio0"``, ``"memory:PATH"`` (a file that can be mapped: a PCI memory region),
         ``"port:PATH"`` (a file with two bytes an access: a PCI I/O region, ``/dev/port``), then ``,offset=N`` bytes

@@ -29,7 +29,9 @@ const CardMap& map_of(const std::string& type) {
 }
 
 std::unique_ptr<live::CardPort> port_at(const std::string& place, const CardMap& map) {
-    return value_of(live::CardPort::open(value_of(live::read_port_spec(place)), map));
+    std::unique_ptr<live::CardPort> port = value_of(live::CardPort::open(value_of(live::read_port_spec(place)), map));
+    value_of(port->check_answers());
+    return port;
 }
 
 }  // namespace

@@ -180,6 +180,13 @@ class Opening(OnAFile):
         with self.assertRaisesRegex(InvalidInput, "Unknown card type rtc6"):
             LiveCard(self.place, "rtc6")
 
+    def test_a_place_where_no_card_answers_is_refused(self) -> None:
+        self.path.write_bytes(b"\xff" * 16)
+        with self.assertRaisesRegex(FileTrouble, f"Every register reads FFFFh: no card answers at {self.path}"):
+            LiveCard(self.place)
+        self.path.write_bytes(bytes(16))
+        LiveCard(self.place).close()
+
     def test_library_and_driver_are_not_for_one_card_at_a_time(self) -> None:
         with LiveCard(self.place) as card:
             card.library.SetV(1, 1)
@@ -242,6 +249,18 @@ class RegistersByHand(OnAFile):
             card.close()
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)
+
+
+    def test_a_card_that_answers_no_more_is_raised_and_its_position_is_none(self) -> None:
+        card = LiveCard(self.place)
+        card.library.SetV(1, 1)
+        self.path.write_bytes(b"\xff" * 16)
+        with self.assertRaisesRegex(FileTrouble, "no card answers.*their positions are not trusted"):
+            card.RR6.read()
+        for act in (lambda: card.library.ReadLPS(1), lambda: card.library.moving(1), card.quick_stop, card.close):
+            with self.assertRaisesRegex(FileTrouble, "no card answers"):
+                act()
+        self.assertEqual(self.path.read_bytes(), b"\xff" * 16, "nothing was written after it")
 
 
 class Stops(OnAFile):

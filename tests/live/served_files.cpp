@@ -24,12 +24,14 @@ struct Served {
     std::uint32_t count = 0, seen = 0;
     bool open = false;
     std::uint32_t refusals = 0;  // remaining number
+    std::uint32_t absent = 0;
 
     bool refuses(const char* path) {
         if (refusals == 0 || std::strcmp(path, "/port") != 0) return false;
         --refusals;
         return true;
     }
+    bool empty_slot(const char* path) const { return absent != 0 && std::strcmp(path, "/port") == 0; }
     void look() {
         if (!open || !card.interrupt()) return;
         ++count;
@@ -48,6 +50,10 @@ bool is_port(const char* path) {
     return is(path, "/port") || is(path, "/look");
 }
 
+bool is_number(const char* path) {
+    return is(path, "/refuse") || is(path, "/absent");
+}
+
 int attributes(const char* path, struct stat* out, fuse_file_info*) {
     *out = {};
     out->st_uid = ::getuid();
@@ -55,7 +61,7 @@ int attributes(const char* path, struct stat* out, fuse_file_info*) {
         out->st_mode = S_IFDIR | 0700;
     else if (is_port(path))
         out->st_mode = S_IFREG | 0600, out->st_size = registers_end;
-    else if (is(path, "/uio0") || is(path, "/refuse"))
+    else if (is(path, "/uio0") || is_number(path))
         out->st_mode = S_IFREG | 0600;
     else
         return -ENOENT;
@@ -64,7 +70,7 @@ int attributes(const char* path, struct stat* out, fuse_file_info*) {
 }
 
 int open_file(const char* path, fuse_file_info* info) {
-    if (!is_port(path) && !is(path, "/uio0") && !is(path, "/refuse")) return -ENOENT;
+    if (!is_port(path) && !is(path, "/uio0") && !is_number(path)) return -ENOENT;
     info->direct_io = 1;  // no page cache: every read reaches the card
     info->nonseekable = is(path, "/uio0");
     return 0;
@@ -86,6 +92,7 @@ int read_file(const char* path, char* out, std::size_t bytes, off_t at, fuse_fil
     }
     if (!is_port(path) || !is_access(bytes, at)) return -EINVAL;
     if (files.refuses(path)) return -ENODEV;
+    if (files.empty_slot(path)) return std::memset(out, 0xFF, bytes), static_cast<int>(bytes);
     const std::uint16_t value =
         files.card.read(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes));
     std::memcpy(out, &value, bytes);
@@ -101,13 +108,15 @@ int write_file(const char* path, const char* from, std::size_t bytes, off_t at, 
         files.open = opens == 1;
         return static_cast<int>(bytes);
     }
-    if (is(path, "/refuse")) {
-        if (bytes != sizeof files.refusals) return -EINVAL;
-        std::memcpy(&files.refusals, from, bytes);
+    if (is_number(path)) {
+        std::uint32_t& number = is(path, "/refuse") ? files.refusals : files.absent;
+        if (bytes != sizeof number) return -EINVAL;
+        std::memcpy(&number, from, bytes);
         return static_cast<int>(bytes);
     }
     if (!is_port(path) || !is_access(bytes, at)) return -EINVAL;
     if (files.refuses(path)) return -ENODEV;
+    if (files.empty_slot(path)) return static_cast<int>(bytes);
     std::uint16_t value = 0;
     std::memcpy(&value, from, bytes);
     files.card.write(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes), value);

@@ -7,6 +7,7 @@
 //  FOLDER/look    like FOLDER/port, for a test that accesses the card beside the driving program
 //  FOLDER/refuse  write a number of 4 bytes: that many next accesses to FOLDER/port fail (ENODEV), like those of a
 //                 removed card
+//  FOLDER/absent  write a number of 4 bytes: 1: FOLDER/port is an empty slot, which reads FFh and takes nothing
 #pragma once
 
 #include <memory>

@@ -58,6 +58,7 @@ Result<int> Bench::open_live(const char* text, const char* card) {
                                 in_quotes(card)));
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
     MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
+    MOTIONRACK_CHECK(port->check_answers());
     return keep(std::make_unique<Chip>(std::move(port)));
 }
 

@@ -225,8 +225,8 @@ MCX314_API void RESET(void);
  * is then a world of its own with a time of its own; NULL: the rack of the selected chip. `card`: its name; NULL: the
  * rack's first mcx314 card that is not open. Or a real card: `rack` is uio:PATH, memory:PATH or port:PATH, and after it
  * ,offset=N ,stride=N ,width=8 ,map=N ,interrupt=PATH ,gap_ns=N as it needs them; `card` is NULL then, and time is the
- * computer's; refused where a program of motionrack has it open already (Linux). Returns the chip's handle, 1 or
- * greater, or -1. */
+ * computer's; refused where a program of motionrack has it open already (Linux), or no card answers (all reads FFFFh).
+ * A card that answers no more makes each later call an error. Returns the chip's handle, 1 or greater, or -1. */
 MCX314_API int mcx314_open(const char* rack, const char* card);
 
 /* The functions that follow work on this chip. */

@@ -14,6 +14,7 @@
 namespace motionrack::live {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 /// Four registers of a sample card.
@@ -170,6 +171,47 @@ TEST(LivePort, AnAccessThatTheComputerRefusesIsToldAndIsTheLast) {
     (*port)->write(0, 0x2222);
     EXPECT_EQ((*port)->read(0), 0xFFFF);
     EXPECT_EQ(bytes_of(path), std::string(4, '\x11'));
+}
+
+TEST(LivePort, ACardOfWhichEveryRegisterReadsAllOnesDoesNotAnswer) {
+    for (const char* kind : {"memory:", "port:"})
+        for (const char* width : {"", ",width=8"}) {
+            const Folder folder;
+            const std::string path = folder.file("card", std::string(8, '\x11'));
+            const auto port = open(kind + path + width);
+            ASSERT_TRUE(port);
+            (*port)->write(4, 0xFFFF);
+            EXPECT_EQ((*port)->read(4), 0xFFFF);
+            EXPECT_FALSE((*port)->trouble()) << "the other register is not all ones: -1 is a position as any other";
+            (*port)->write(6, 0xFFFF);
+            EXPECT_EQ((*port)->read(6), 0xFFFF);
+            ASSERT_TRUE((*port)->trouble());
+            EXPECT_EQ((*port)->trouble()->kind, ErrorKind::io);
+            EXPECT_THAT((*port)->trouble()->message,
+                        AllOf(HasSubstr("no card answers at " + path), HasSubstr("not trusted")));
+            (*port)->write(0, 0x2222);
+            EXPECT_EQ(bytes_of(path), std::string(4, '\x11') + std::string(4, '\xFF')) << "nothing is written after it";
+        }
+}
+
+TEST(LivePort, AskedWhetherItsCardAnswersReadsNoRegisterThatReadingChanges) {
+    static constexpr RegisterInfo clearing[] = {
+        {"A", 0, 16, Access::write, false, "", "", {}},
+        {"B", 2, 16, Access::read_clears, false, "", "", {}},
+        {"C", 4, 16, Access::read, false, "", "", {}},
+    };
+    static constexpr CardMap card{"clearing", "Three registers", clearing, {}, {}, {}};
+    const Folder folder;
+    const std::string path = folder.file("card", std::string(4, '\x11') + std::string(2, '\xFF'));
+    const auto absent = open("port:" + path, card);
+    ASSERT_TRUE(absent);
+    const Result<void> answers = (*absent)->check_answers();
+    ASSERT_FALSE(answers) << "C alone tells: B is not read";
+    EXPECT_THAT(answers.error().message, HasSubstr("no card answers at " + path));
+    const std::string other = folder.file("other", std::string(6, '\x11'));
+    const auto there = open("port:" + other, card);
+    ASSERT_TRUE(there);
+    EXPECT_TRUE((*there)->check_answers());
 }
 
 TEST(LivePort, FindsAUioMapByItsFolderInSys) {

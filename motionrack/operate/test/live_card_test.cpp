@@ -188,6 +188,38 @@ TEST(ARealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
                                           HasSubstr("press the emergency stop")));
 }
 
+/// A slot from which the card is taken at 0.2 s. A file keeps what is written, as a slot does not, so it is filled anew
+/// before the next service.
+void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& function, const Arguments& arguments) {
+    CardFile file("/dev/zero");
+    file.points_to(file.memory('\0'));
+    Real o(file);
+    o.call(0.02, "ReadLPS", {{"axis", 1}});
+    o.call(call_at, function, arguments);
+    o.at(0.2, [&](Machine&) { file.memory('\xFF'); });
+    o.at(1.1, [&](Machine& m) {
+        EXPECT_FALSE(m.service().on());
+        ASSERT_EQ(o.alarms().size(), 1U);
+        EXPECT_TRUE(o.alarms()[0].active && o.alarms()[0].stays);
+        EXPECT_THAT(o.alarms()[0].text,
+                    AllOf(HasSubstr("no card answers"), HasSubstr("their positions are not trusted"),
+                          HasSubstr("was not written, or not obeyed"), HasSubstr("press the emergency stop")));
+        file.memory('\xFF');
+    });
+    o.call(1.2, "ReadLPS", {{"axis", 1}});
+    o.run(1.4);
+    EXPECT_THAT(o.said, ElementsAre("0 pulses", HasSubstr("no card answers"), HasSubstr("no card answers")))
+        << "-1 is not its position";
+}
+
+TEST(ARealCard, WhoseRegistersAllReadOnesWhileItStandsIsAnAlarmThatStays) {
+    expect_the_alarm_of_an_empty_slot(0.4, "moving", {{"axis", 1}});
+}
+
+TEST(ARealCard, WhoseRegistersAllReadOnesWhileAFunctionWaitsIsAnAlarmThatStays) {
+    expect_the_alarm_of_an_empty_slot(0.05, "wait", {{"axis", 1}, {"milliseconds", 60'000}});
+}
+
 TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
     struct Bad {
         const char* name;
@@ -225,7 +257,7 @@ TEST(ARealCard, StandsForACardThatMovesNoAxis) {
         return made ? std::string() : made.error().message;
     };
     EXPECT_THAT(refused({"m=port:/dev/zero"}), HasSubstr("Card m moves X, Y of the machine"));
-    EXPECT_THAT(refused({"glass=port:/dev/zero"}), HasSubstr("Card glass is an ioflex02"));
+    EXPECT_THAT(refused({"glass=port:/dev/zero"}), HasSubstr("Card glass is of type ioflex02"));
     EXPECT_THAT(refused({"none=port:/dev/zero"}), HasSubstr("the cards of this rack are: m, bench, glass"));
     EXPECT_THAT(refused({"bench=port:/dev/zero", "bench=port:/dev/null"}), HasSubstr("Card bench has two addresses"));
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");

@@ -56,7 +56,6 @@ TEST_F(RegisterViews, ShowCountersOfEachAxis) {
     EXPECT_EQ(seen.values[0].value, -30);
     EXPECT_EQ(seen.values[4].axis, "Y");
     EXPECT_EQ(seen.values[4].value, 0);
-    EXPECT_TRUE(seen.answered());
     EXPECT_THAT(view_text(seen, false), HasSubstr("LP   X  -30 "));
 }
 
@@ -78,8 +77,7 @@ TEST_F(RegisterViews, AreReadByProgramsAsJson) {
 
 TEST_F(RegisterViews, WriteNothingButNopsAndReadCommands) {
     Empty slot;
-    const RegisterView seen = view_mcx314(slot, false);
-    EXPECT_FALSE(seen.answered());
+    (void)view_mcx314(slot, false);
     for (const auto& [offset, value] : slot.writes) {
         EXPECT_EQ(offset, mcx314::reg::WR0);
         const unsigned code = value & 0xFFu;

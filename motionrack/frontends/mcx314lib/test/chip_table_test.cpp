@@ -1,10 +1,13 @@
 // Chips, errors, time, homing, manual operation, contours and bit patterns over the C library; exported names.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
 #include <tests/source_root.hpp>
 #include <thread>
@@ -75,6 +78,47 @@ TEST(Mcx314libChips, TwoChipsOfARackHaveOneTime) {
     EXPECT_EQ(mcx314_now_us(), now);
     EXPECT_EQ(mcx314_wait(x, 10'000), 0);
     EXPECT_EQ(static_cast<int>(ReadLPS(x)), 5000);
+}
+
+/// A file in the place of a real card: a word has what was written last.
+class FileAsCard {
+  public:
+    ~FileAsCard() { std::filesystem::remove(path_); }
+    void fill(char byte) const { std::ofstream(path_, std::ios::binary) << std::string(16, byte); }
+    std::string place() const { return "port:" + path_.string(); }
+
+  private:
+    std::filesystem::path path_ =
+        std::filesystem::temp_directory_path() / ("motionrack_mcx314lib_card_" + std::to_string(::getpid()));
+};
+
+TEST(Mcx314libChips, ARealCardThatDoesNotAnswerIsNotOpened) {
+    const FileAsCard file;
+    file.fill('\xFF');
+    mcx314_clear_error();
+    EXPECT_EQ(mcx314_open(file.place().c_str(), nullptr), -1);
+    EXPECT_THAT(mcx314_last_error(), HasSubstr("Every register reads FFFFh: no card answers at "));
+}
+
+TEST(Mcx314libChips, ARealCardThatAnswersNoMoreIsAnErrorOfEachCall) {
+    const FileAsCard file;
+    file.fill('\0');
+    const int handle = mcx314_open(file.place().c_str(), nullptr);
+    ASSERT_GT(handle, 0) << mcx314_last_error();
+    mcx314_clear_error();
+    SetRange(800'000);
+    EXPECT_STREQ(mcx314_last_error(), "");
+    file.fill('\xFF');
+    EXPECT_EQ(mcx314_moving(x), -1);
+    const std::string gone = mcx314_last_error();
+    EXPECT_THAT(gone, HasSubstr("no card answers at "));
+    EXPECT_THAT(gone, HasSubstr("their positions are not trusted"));
+    mcx314_clear_error();
+    EXPECT_EQ(ReadLPS(x), 0u) << "not the -1 of an empty slot";
+    EXPECT_THAT(mcx314_last_error(), HasSubstr("ReadLPS: Every register reads FFFFh"));
+    EXPECT_EQ(mcx314_wait(x, 1000), -1);
+    EXPECT_THAT(mcx314_last_error(), HasSubstr("mcx314_wait: Every register reads FFFFh"));
+    EXPECT_EQ(mcx314_close(handle), 0);
 }
 
 TEST(Mcx314libChips, ChipsOfTwoRacksHaveTimesOfTheirOwn) {
