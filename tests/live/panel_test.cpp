@@ -33,6 +33,7 @@ class CardSeen {
         const std::size_t at = place.find(':') + 1;
         files_ = fs::path(place.substr(at, place.find(',') - at)).parent_path();
         refuse(0);
+        remove(false);
     }
     unsigned drives() const {
         std::uint16_t word = 0xFFFF;
@@ -42,15 +43,18 @@ class CardSeen {
         return word & 0xFU;
     }
     /// Makes the next `accesses` accesses of the program fail.
-    void refuse(std::uint32_t accesses) const {
-        const int file = ::open((files_ / "refuse").c_str(), O_WRONLY | O_CLOEXEC);
-        EXPECT_EQ(::write(file, &accesses, sizeof accesses), 4);
-        ::close(file);
-    }
+    void refuse(std::uint32_t accesses) const { put("refuse", accesses); }
+    /// Leaves an empty slot to the program, in which the card still drives.
+    void remove(bool away) const { put("absent", away ? 1 : 0); }
 
     const std::string place;
 
   private:
+    void put(const char* name, std::uint32_t number) const {
+        const int file = ::open((files_ / name).c_str(), O_WRONLY | O_CLOEXEC);
+        EXPECT_EQ(::write(file, &number, sizeof number), 4) << name;
+        ::close(file);
+    }
     fs::path files_;
 };
 
@@ -121,7 +125,8 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     const json shown = served->get("card?name=bench");
     EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;
     EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
-    good("contour_begin", {{"SV", 100}, {"V", 200}, {"A", 0}, {"D", 0}},
+    // A busy computer lets this program wait. So that its second line is not too late, the first one takes 10 s.
+    good("contour_begin", {{"SV", 5}, {"V", 5}, {"A", 0}, {"D", 0}},
          "The contour is open; add its lines and arcs.");
     good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
          "The line was accepted.");
@@ -217,6 +222,25 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
     const json refused = served->post("call", {{"card", "bench"}, {"function", "RESET"}});
     EXPECT_THAT(refused["error"]["message"].get<std::string>(), HasSubstr("No such device"));
     card.refuse(0);
+    good("ReadLPS", {{"axis", 1}}, "0 pulses");
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_FALSE(alarm(*served)["active"]);
+}
+
+TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
+    drive_x();
+    card.remove(true);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
+                AllOf(HasSubstr("no card answers"), HasSubstr("positions are not trusted"),
+                      HasSubstr("was not written"), HasSubstr("press the emergency stop that cuts the motors' power")));
+    const json refused =
+        served->post("call", {{"card", "bench"}, {"function", "ReadLPS"}, {"arguments", {{"axis", 1}}}});
+    EXPECT_THAT(refused["error"]["message"].get<std::string>(), HasSubstr("no card answers"));
+    EXPECT_TRUE(alarm(*served)["active"]);
+    card.remove(false);
     good("ReadLPS", {{"axis", 1}}, "0 pulses");
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
     EXPECT_EQ(card.drives(), 0U);
