@@ -135,7 +135,7 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     const json ended = served->post("call", {{"card", "bench"}, {"function", "contour_end"}});
     EXPECT_TRUE(ended.contains("done")) << ended;
     good("ReadLPS", {{"axis", 1}}, "1500 pulses");
-    good("ReadLPS", {{"axis", 2}}, "300 pulses");
+    good("ReadLPS", {{"axis", 2}}, "100 pulses");
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
     EXPECT_TRUE(alarm(*served).is_null());
 }
