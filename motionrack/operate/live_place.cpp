@@ -35,7 +35,8 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
         if (kind->library == nullptr || kind->view == nullptr)
             return fail(
                 ErrorKind::refused,
-                fmt::format("Card {} is an {}: a real one is not supported. Nothing was opened. A real mcx314 is.",
+                fmt::format("Card {} is of type {}: a real one cannot be driven. Nothing was opened. A real mcx314 "
+                            "can.",
                             name, card->type));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)

@@ -22,7 +22,7 @@ Result<Card*> card_for_access(Rack& rack, std::string_view name, int bits, std::
     if (widths.empty())
         return fail(
             ErrorKind::refused,
-            fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
+            fmt::format("Card {} is of type {}: it has no registers on a bus. Nothing was done; use its own commands.",
                         card->name(), card->map().name));
     if (std::find(widths.begin(), widths.end(), bits) == widths.end())
         return fail(ErrorKind::refused,

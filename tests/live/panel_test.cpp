@@ -125,12 +125,13 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     const json shown = served->get("card?name=bench");
     EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;
     EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
-    // A busy computer lets this program wait. So that its second line is not too late, the first one takes 10 s.
-    good("contour_begin", {{"SV", 5}, {"V", 5}, {"A", 0}, {"D", 0}},
+    // A busy computer lets this program wait. So that its second line is not too late, the first one takes 4 s;
+    // both take less than the 10 s after which control is lost.
+    good("contour_begin", {{"SV", 12}, {"V", 12}, {"A", 0}, {"D", 0}},
          "The contour is open; add its lines and arcs.");
     good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
          "The line was accepted.");
-    good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 300}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
+    good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 100}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
          "The line was accepted.");
     const json ended = served->post("call", {{"card", "bench"}, {"function", "contour_end"}});
     EXPECT_TRUE(ended.contains("done")) << ended;
