@@ -115,6 +115,23 @@ test('the IOFLEX02 shows four positions and is calibrated', async () => {
   assert.equal(await rows.count(), 4);
   await rows.first().getByRole('button', { name: 'cRes, axis 0' }).click();
   await until(async () => (await rows.first().locator('td').first().innerText()) === '0', 'position 0');
+  const lamp = (axis, shows) =>
+    rows
+      .nth(axis)
+      .getByRole('img', { name: `Axis ${axis} calibrated: ${shows}` })
+      .waitFor();
+  const four = tab.page.getByRole('group', { name: 'Commands of all axes' });
+  const writeCmd = four.getByRole('button', { name: 'WriteCmd' });
+  await four.getByLabel('Cmd2').selectOption('cResNm: zero at the index');
+  await four.getByLabel('Cmd3').selectOption('cResNmSig: zero at index and signal');
+  await writeCmd.click();
+  for (const axis of [2, 3]) await lamp(axis, 'off');
+  await rows.nth(2).getByRole('button', { name: 'cRes, axis 2' }).click();
+  await lamp(2, 'on');
+  await lamp(3, 'off');
+  for (const axis of [2, 3]) await four.getByLabel(`Cmd${axis}`).selectOption('cNop: no calibration');
+  await writeCmd.click();
+  await lamp(3, 'on');
   const output = tab.page.getByRole('button', { name: /^Output 9, low/ });
   await output.click();
   await tab.page.getByRole('button', { name: /^Output 9, high/ }).waitFor();

@@ -1,12 +1,14 @@
 // Panel of the IOFLEX02: positions and velocities of its four axes, calibration commands, time, inputs and outputs,
 // encoder faults.
+import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { commandFor } from '../link/commands';
 import type { CardInfo } from '../link/rack';
 import { fixed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
-import { Button, Led, Panel } from '../parts/ui';
+import { Button, Led, Panel, Select } from '../parts/ui';
+import { wordOfAll, wordOfOne } from './calibration';
 import { Console, mayAccess } from './console';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
@@ -20,6 +22,7 @@ const HEADS = [
   'Illegal transitions',
   'Calibrate',
 ];
+const NO_COMMAND = { code: 0, name: 'cNop', text: 'no calibration' };
 const COMMANDS = [
   { code: 1, name: 'cRes', text: 'zero now' },
   { code: 2, name: 'cResNm', text: 'zero at the index' },
@@ -54,13 +57,40 @@ function write(card: CardInfo, register: string, value: number): void {
   void commandFor('write_register', { card: card.name, bits: 16, address: card.bus.base + found.offset, value });
 }
 
+/** The four commands of WriteCmd. */
+function AllAxes({ card }: { card: CardInfo }): JSX.Element {
+  const codes = useSignal(AXES.map(() => NO_COMMAND.code));
+  const options = [NO_COMMAND, ...COMMANDS].map((one) => ({
+    value: String(one.code),
+    text: `${one.name}: ${one.text}`,
+  }));
+  return (
+    <div class="commands" role="group" aria-label="Commands of all axes">
+      {AXES.map((axis) => (
+        <Select
+          key={axis}
+          label={`Cmd${axis}`}
+          value={String(codes.value[axis])}
+          options={options}
+          onChange={(code) => (codes.value = codes.value.map((was, at) => (at === axis ? Number(code) : was)))}
+        />
+      ))}
+      <Button
+        why={mayAccess(card)}
+        label="WriteCmd: give each axis its command, all at one instant"
+        onClick={() => write(card, 'CMD', wordOfAll(codes.value))}>
+        WriteCmd
+      </Button>
+    </div>
+  );
+}
+
 function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }): JSX.Element {
   const why = mayAccess(card);
   const answer = seen.now;
   const calibrated = valueOf(answer, `${axis}.CALIBRATED`);
   const illegal = valueOf(answer, `${axis}.ILLEGAL_TRANSITIONS`);
-  // KEEP: the other axes receive no command.
-  const send = (code: number): void => write(card, 'CMD', (code << (2 * axis)) | (0xf00 & ~(0x100 << axis)));
+  const send = (code: number): void => write(card, 'CMD', wordOfOne(axis, code));
   return (
     <tr>
       <th scope="row">{axis}</th>
@@ -157,6 +187,7 @@ export function Flex({ card }: { card: CardInfo }): JSX.Element {
             </tbody>
           </table>
         </div>
+        <AllAxes card={card} />
       </Panel>
       <Panel title="Outputs of X5">
         <Outputs card={card} answer={data.value} />
