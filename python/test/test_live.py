@@ -250,7 +250,6 @@ class RegistersByHand(OnAFile):
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)
 
-
     def test_a_card_that_answers_no_more_is_raised_and_its_position_is_none(self) -> None:
         card = LiveCard(self.place)
         card.library.SetV(1, 1)
