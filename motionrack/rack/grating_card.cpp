@@ -79,7 +79,7 @@ class GratingCard final : public Member {
     Duration edge_unit() const override {
         const gb::Timing& t = card_.settings().timing;
         Duration unit = nanoseconds(10);
-        for (const Duration time : {t.t1, t.t2, t.t3, t.clock, t.clock / 2, card_.settings().offset})
+        for (const Duration time : {t.t1, t.t2, t.t3, t.clock, card_.settings().period, card_.settings().offset})
             while (time % unit != Duration{0}) unit /= 10;
         return unit;
     }
