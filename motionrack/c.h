@@ -303,11 +303,11 @@ typedef struct mr_run_result {
  * says that the machine stands, or where mr_home found it, and on from there by the pulses that the card has sent
  * since, by whatever command (of a servo by what its motor has turned). What a host wrote into the card's counters
  * does not count. G-code modes and offsets are reset, and an mcx314 is initialised again: the
- * host's register values and outputs are lost, and EP begins at 0. An axis whose position an earlier program or mr_home has lost
- * keeps programs from beginning until it is homed. `options` and `result` may be NULL; `result` and mr_report are of
- * this program alone. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; an axis moves, or its
- * position was lost; a host wrote to the counter of a databoard4002; a call-back called): nothing moved. MR_MACHINE,
- * MR_STOPPED: it moved. MR_INTERNAL. */
+ * host's register values and outputs are lost, and EP begins at 0. An axis whose position an earlier program or mr_home
+ * has lost keeps programs from beginning until it is homed. `options` and `result` may be NULL; `result` and mr_report
+ * are of this program alone. MR_BAD_CALL, MR_BAD_INPUT, MR_IO and MR_REFUSED (the rack has no axes; an axis moves, or
+ * its position was lost; a host wrote to the counter of a databoard4002; a call-back called): nothing moved.
+ * MR_MACHINE, MR_STOPPED: it moved. MR_INTERNAL. */
 MR_API int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_options* options,
                           mr_run_result* result);
 

@@ -20,10 +20,9 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
     MOTIONRACK_TRY(const rack::Card* found, rack::card_named(rack, card));
     const std::span<const FunctionInfo> functions = found->library_functions();
     if (!functions.empty()) return functions;
-    return fail(
-        ErrorKind::refused,
-        fmt::format("Card {} is of type {}: it has no function library for a service. Nothing was done.", card,
-                    found->map().name));
+    return fail(ErrorKind::refused,
+                fmt::format("Card {} is of type {}: it has no function library for a service. Nothing was done.", card,
+                            found->map().name));
 }
 
 std::string Service::axes_of(const std::string& card) const {

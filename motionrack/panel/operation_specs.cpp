@@ -58,8 +58,7 @@ constexpr std::array jog_by_fields = {one_axis, number("distance", -far, far, "m
 constexpr std::array set_position_fields = {
     one_axis, number("position", -far, far, "mm or degrees", "position of the axis, machine coordinates")};
 constexpr std::array touch_off_fields = {
-    one_axis,
-    number("value", -far, far, "mm or degrees", "current position in work coordinates (G10 L20)")};
+    one_axis, number("value", -far, far, "mm or degrees", "current position in work coordinates (G10 L20)")};
 constexpr std::array start_program_fields = {text("name", 200, "name of the program, for display"),
                                              text("text", max_text_bytes, "the program, G-code")};
 constexpr std::array mdi_fields = {text("text", 1024, "one line of G-code")};
@@ -134,12 +133,12 @@ constexpr std::array command_rows = {
                   "Takes the control lease, which ends 10 s after the last message of its session."},
     OperationSpec{"release_control", Role::operate, false, {}, "Gives the control lease back."},
     OperationSpec{"renew_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
-    OperationSpec{
-        "stop",
-        Role::none,
-        false,
-        {},
-        "Stops all motion and lasers, and discards programs and lines; a reset ends it. It ends the control of another user. Never refused."},
+    OperationSpec{"stop",
+                  Role::none,
+                  false,
+                  {},
+                  "Stops all motion and lasers, and discards programs and lines; a reset ends it. It ends the control "
+                  "of another user. Never refused."},
     OperationSpec{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
     OperationSpec{"home", Role::operate, true, home_fields, "Homes axes."},
     OperationSpec{"jog", Role::operate, true, jog_fields,
@@ -151,7 +150,8 @@ constexpr std::array command_rows = {
                   "Sets the position of an axis, which is trusted then."},
     OperationSpec{"touch_off", Role::operate, true, touch_off_fields,
                   "Touches off: moves the zero of the active work coordinates."},
-    OperationSpec{"start_program", Role::operate, true, start_program_fields, "Checks the whole program and starts it."},
+    OperationSpec{"start_program", Role::operate, true, start_program_fields,
+                  "Checks the whole program and starts it."},
     OperationSpec{"mdi", Role::operate, true, mdi_fields, "Executes one line of G-code, after the queued lines."},
     OperationSpec{"hold", Role::operate, false, {}, "Feed hold: decelerates along the path until resume."},
     OperationSpec{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single block."},
@@ -209,11 +209,10 @@ constexpr std::array query_rows = {
                   {},
                   "The parts of the rack; they do not change while it runs.",
                   "name, text, axes, cards, parts, stages, tracks, scanners, joined, wires, faults"},
-    OperationSpec{
-        "card", Role::observe, false, name_fields,
-        "Registers, fields, values and pins of a card at this moment, by peek, without side effects; of a "
-        "real card, as its service last read them.",
-        "registers, values, quantities, pins, reason (a real card shows none)"},
+    OperationSpec{"card", Role::observe, false, name_fields,
+                  "Registers, fields, values and pins of a card at this moment, by peek, without side effects; of a "
+                  "real card, as its service last read them.",
+                  "registers, values, quantities, pins, reason (a real card shows none)"},
     OperationSpec{"slopes", Role::observe, false, name_fields,
                   "The slope table of a DataBoard 4002: speed over distance.",
                   "slopes: name, points (counts, Hz); position, rate, hz, moving"},

@@ -15,7 +15,8 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
     {StopSource::emergency_stop,
      "the rack's button (the wire `estop`), or a card's own input for it, however short; with two channels "
      "(`estop_channels = 2`: `estop1`, `estop2`) the first that opens",
-     "once it is released; after a discrepancy of two channels for 500 ms (`estop_discrepancy_ms`), which is an alarm of "
+     "once it is released; after a discrepancy of two channels for 500 ms (`estop_discrepancy_ms`), which is an alarm "
+     "of "
      "its "
      "own, once both are equal"},
     {StopSource::stop_command,

@@ -143,8 +143,8 @@ Result<Rows> read_rows_csv(const std::string& path) {
     if (head.size() < 3 || head[0] != "key" || head[1] != "point")
         return fail(
             ErrorKind::refused,
-            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.",
-            {}, path);
+            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.", {},
+            path);
     if (std::find(head.begin(), head.end(), "worst_deviation_mm") != head.end())
         return fail(ErrorKind::refused,
                     fmt::format("The table has format 1, as motionrack {} writes it: its column 'worst_deviation_mm' "

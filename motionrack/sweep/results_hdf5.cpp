@@ -86,8 +86,8 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     if (!file || file->attribute_text("format") != format)
         return fail(
             ErrorKind::refused,
-            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.",
-            {}, path);
+            "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.", {},
+            path);
     if (const std::int64_t version = file->attribute_number("format_version"); version != format_version)
         return fail(
             ErrorKind::refused,

@@ -39,7 +39,7 @@ class InvalidInput(Error):
 
 
 class NoSuchName(InvalidInput, KeyError):
-    """A mapping (cards, parts, wires, signals of a trace) does not have that name; the sentence lists the known names."""
+    """A mapping (cards, parts, wires, signals of a trace) does not have that name; the sentence lists all names."""
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -122,8 +122,9 @@ class LiveCard(MappedCard):
         return self._port.stopped()
 
     def close(self) -> None:
-        """Stops all axes at once and closes the card; a second call has no effect. Refused in the middle of a call of this
-        thread. FileError where the stop could not be written; it is closed all the same."""
+        """Stops all axes at once and closes the card; a second call has no effect. Refused in the middle of a call of
+        this thread. FileError where the stop could not be written; it is closed all the same.
+        """
         self._port.close()
         _open.discard(self)
 
@@ -141,12 +142,16 @@ class LiveCard(MappedCard):
     # ---- peeking, reading, writing ----
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also during a stop. InvalidInput, FileError."""
+        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also
+        during a stop. InvalidInput, FileError.
+        """
         self._check_bits(bits)
         return self._port.read(offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. Library and driver do not know of the change. InvalidInput, Refused, Stopped, FileError."""
+        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. Library and driver do
+        not know of the change. InvalidInput, Refused, Stopped, FileError.
+        """
         self._check_bits(bits)
         self._port.write(offset, value)
 

@@ -58,7 +58,8 @@ class Rack:
         """Changes settings of a card before the rack's time begins, in the units of their keys in a rack file:
         ``change_card("host", period_us=250)``.
 
-        Each value is checked against its range, and the card alone must be valid. Unlike in a rack file, the fit to other cards is not checked: for experiments that a rack file refuses. InvalidInput, Refused.
+        Each value is checked against its range, and the card alone must be valid. Unlike in a rack file, the fit to
+        other cards is not checked: for experiments that a rack file refuses. InvalidInput, Refused.
         """
         for key, value in settings.items():
             self._world.set_card(name, key, float(value))
@@ -147,7 +148,8 @@ class Rack:
         """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``;
         of a belt or table ``speed_mm_s`` (``speed_deg_s``).
 
-        A motor in step moves to the nearest position of the same electrical phase: read the quantity for the result. InvalidInput, Refused.
+        A motor in step moves to the nearest position of the same electrical phase: read the quantity for the result.
+        InvalidInput, Refused.
         """
         self._world.set_quantity(name, float(value))
 

@@ -11,9 +11,9 @@ namespace motionrack::python {
 Result<void> RackHandle::plan_faults(const std::vector<std::string>& texts) {
     if (texts.empty()) return {};
     if (rack().started())
-        return fail(
-            ErrorKind::refused,
-            "Faults can only be planned before the rack's time begins; nothing was planned. Advance to the instant and inject it then (Rack.fault, Rack.wires), or plan it for Rack.new_instance().");
+        return fail(ErrorKind::refused,
+                    "Faults can only be planned before the rack's time begins; nothing was planned. Advance to the "
+                    "instant and inject it then (Rack.fault, Rack.wires), or plan it for Rack.new_instance().");
     rack::Rack other(config_);
     MOTIONRACK_CHECK(rack::FaultSchedule::create(other, texts));
     fault_texts_.insert(fault_texts_.end(), texts.begin(), texts.end());
@@ -53,9 +53,10 @@ Result<void> RackHandle::set_profile(const std::string& profile) {
 
 Result<void> RackHandle::set_card(const std::string& name, const std::string& key, double value) {
     if (rack().started())
-        return fail(ErrorKind::refused,
-                    "The rack's time has begun, so its cards cannot be changed; nothing was changed. Change the card of "
-                    "Rack.new_instance().");
+        return fail(
+            ErrorKind::refused,
+            "The rack's time has begun, so its cards cannot be changed; nothing was changed. Change the card of "
+            "Rack.new_instance().");
     const auto card = std::find_if(config_.cards.begin(), config_.cards.end(),
                                    [&](const rack::RackCard& each) { return each.name == name; });
     if (card == config_.cards.end())

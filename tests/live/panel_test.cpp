@@ -127,8 +127,7 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_EQ(shown["values"][0]["value"], 2000) << shown;
     // A busy computer lets this program wait. So that its second line is not too late, the first one takes 4 s;
     // both take less than the 10 s after which control is lost.
-    good("contour_begin", {{"SV", 12}, {"V", 12}, {"A", 0}, {"D", 0}},
-         "The contour is open; add its lines and arcs.");
+    good("contour_begin", {{"SV", 12}, {"V", 12}, {"A", 0}, {"D", 0}}, "The contour is open; add its lines and arcs.");
     good("contour_line", {{"axis", 3}, {"PX", -500}, {"PY", 0}, {"PZ", 0}, {"PU", 0}, {"V", 0}},
          "The line was accepted.");
     good("contour_line", {{"axis", 3}, {"PX", 0}, {"PY", 100}, {"PZ", 0}, {"PU", 0}, {"V", 0}},

@@ -158,8 +158,9 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     const std::string rack = rack_text("x_min_mm = 200\n");
     const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
-    EXPECT_EQ(set_probe_result(may),
-              std::vector<std::string>{"probe did not touch before the end of its move at X 50.0000 Y 0.0000 Z 80.0000"});
+    EXPECT_EQ(
+        set_probe_result(may),
+        std::vector<std::string>{"probe did not touch before the end of its move at X 50.0000 Y 0.0000 Z 80.0000"});
     EXPECT_EQ(may.axes[0].actual_end, 60);
     const JobOutcome must = run_probe(rack, "G21 G90\nG38.2 X50 F600\nG1 X60\n");
     ASSERT_FALSE(must.ended);
