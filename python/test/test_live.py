@@ -182,7 +182,7 @@ class Opening(OnAFile):
 
     def test_a_place_where_no_card_answers_is_refused(self) -> None:
         self.path.write_bytes(b"\xff" * 16)
-        with self.assertRaisesRegex(FileTrouble, f"Every register reads FFFFh: no card answers at {self.path}"):
+        with self.assertRaisesRegex(FileError, f"Every register reads FFFFh: no card answers at {self.path}"):
             LiveCard(self.place)
         self.path.write_bytes(bytes(16))
         LiveCard(self.place).close()
@@ -254,10 +254,10 @@ class RegistersByHand(OnAFile):
         card = LiveCard(self.place)
         card.library.SetV(1, 1)
         self.path.write_bytes(b"\xff" * 16)
-        with self.assertRaisesRegex(FileTrouble, "no card answers.*their positions are not trusted"):
+        with self.assertRaisesRegex(FileError, "no card answers.*their positions are not trusted"):
             card.RR6.read()
         for act in (lambda: card.library.ReadLPS(1), lambda: card.library.moving(1), card.quick_stop, card.close):
-            with self.assertRaisesRegex(FileTrouble, "no card answers"):
+            with self.assertRaisesRegex(FileError, "no card answers"):
                 act()
         self.assertEqual(self.path.read_bytes(), b"\xff" * 16, "nothing was written after it")
 

@@ -203,7 +203,7 @@ void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& functi
         EXPECT_TRUE(o.alarms()[0].active && o.alarms()[0].stays);
         EXPECT_THAT(o.alarms()[0].text,
                     AllOf(HasSubstr("no card answers"), HasSubstr("their positions are not trusted"),
-                          HasSubstr("was not written, or not obeyed"), HasSubstr("press the emergency stop")));
+                          HasSubstr("was not written, or had no effect"), HasSubstr("press the emergency stop")));
         file.memory('\xFF');
     });
     o.call(1.2, "ReadLPS", {{"axis", 1}});
