@@ -1018,7 +1018,7 @@ class Ioflex02:
     cResNm: int
     cResNmSig: int
     def Init(self, Addr: int) -> int:
-        """Sets the base address, looks whether one card answers there, and loads the array with the image of the rack file, or the built-in one; takes seconds of the rack's time. 0: done, else see why."""
+        """Sets the base address, looks whether one card answers there, and loads the array with the image that the rack file gives the card, or else the built-in one; takes seconds of the rack's time. 0: done, else see why."""
     @property
     def Result(self) -> int:
         """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
@@ -1222,7 +1222,7 @@ class Rtc5:
     def set_multi_mcbsp_in_list(self, Ctrl: float, P: float, Mode: float) -> None:
         """List command: McBSP words carry their type: x, y, z, laser power and parameters. Ctrl 0 to 255. P 0 to 4294967295 times 10 us. Mode -2147483648 to 2147483647."""
     def get_mcbsp_list(self) -> None:
-        """List command: stores the present McBSP word in memory location 0."""
+        """List command: stores the McBSP word in memory location 0."""
     def set_mcbsp_x_list(self, ScaleX: float) -> None:
         """List command: online positioning of X; 0 is off. ScaleX -1000000000 to 1000000000."""
     def set_mcbsp_y_list(self, ScaleY: float) -> None:

@@ -138,7 +138,7 @@ describe('STOP', () => {
 describe('what is not allowed', () => {
   test('says first that there is no connection', async () => {
     openBrowser();
-    expect((await commands()).whyNot('observe')).toBe('There is no connection to the program.');
+    expect((await commands()).whyNot('observe')).toBe('The page is not connected to the program.');
   });
 
   test.each([
