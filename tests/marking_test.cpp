@@ -62,7 +62,7 @@ TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
     std::string job = text_of(source_root / "examples/marking/long.toml");
     job.replace(job.find("velocity_mm_s = 150"), 19, "velocity_mm_s = 300");
     job.replace(job.find("ruler.svg"), 9, "examples/marking/ruler.svg");
-    refused(job, 3, "It just fits at");
+    refused(job, 3, "The limit is 226.96 mm/s");
 }
 
 TEST_F(MarkCommand, WritesPicturesOfBothKindsAndAPage) {

@@ -245,7 +245,7 @@ class RegistersByHand(OnAFile):
             card.library.SetV(1, 1)
         with self.assertRaisesRegex(FileError, "0Ch"):
             card.quick_stop()
-        with self.assertRaisesRegex(FileError, "No further access is made"):
+        with self.assertRaisesRegex(FileError, "No access is made from here on"):
             card.close()
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)

@@ -272,7 +272,7 @@ class Words(unittest.TestCase):
         self.assertEqual(self.rtc.get_mcbsp(), 0xFFFE0003 - (1 << 32))
 
     def test_read_mcbsp_says_what_must_come_first(self) -> None:
-        for location, first in ((0, "first give set_fly_x_pos, set_fly_y_pos"), (1, "set_mcbsp_in with Mode 1 or 3")):
+        for location, first in ((0, "first use set_fly_x_pos, set_fly_y_pos"), (1, "set_mcbsp_in with Mode 1 or 3")):
             with self.assertRaises(Refused) as caught:
                 self.rtc.read_mcbsp(location)
             self.assertIn(first, str(caught.exception))

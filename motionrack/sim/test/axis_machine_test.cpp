@@ -347,7 +347,7 @@ TEST(AxisMechanics, ConditionsAreSentencesWithTheirNumbers) {
         "follows at once or above its pull-out rate");
     EXPECT_NE(text(AxisCondition::lost_steps, 64, 128).find("had lost 64 pulses (128 in all)"), std::string::npos);
     EXPECT_NE(text(AxisCondition::lost_steps, -64, 0).find("had run on by 64 pulses (0 in all)"), std::string::npos);
-    EXPECT_NE(text(AxisCondition::end_of_travel, -1, -640).find("minus end of travel at -640"), std::string::npos);
+    EXPECT_NE(text(AxisCondition::end_of_travel, -1, -640).find("minus hard stop at -640"), std::string::npos);
     EXPECT_NE(text(AxisCondition::axle_held, 7, 0).find("held fast at 7 microsteps"), std::string::npos);
 }
 

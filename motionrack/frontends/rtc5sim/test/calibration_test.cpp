@@ -99,7 +99,7 @@ TEST(Rtc5simCalibration, ReadingBeforeAnythingWasPutThereSaysWhatMustComeFirst) 
         rtc5sim_clear_error();
         EXPECT_EQ(read_mcbsp(location), 0);
         EXPECT_EQ(get_last_error(), UINT{RTC5_REJECTED});
-        EXPECT_THAT(rtc5sim_last_error(), HasSubstr("first give set_mcbsp_in with Mode"));
+        EXPECT_THAT(rtc5sim_last_error(), HasSubstr("first use set_mcbsp_in with Mode"));
     }
     EXPECT_EQ(get_error(), UINT{RTC5_REJECTED});
     set_mcbsp_in(3, 0);
