@@ -15,7 +15,7 @@ test('functions are called in the service of the card, and STOP ends one that wa
   assert.equal(await button.getAttribute('aria-disabled'), 'true', 'not before the service');
   await panel(tab).getByRole('button', { name: 'Begin service' }).click();
   await state(tab, 'service');
-  await answered(tab, /nothing else drives it/);
+  await answered(tab, /only its functions drive it/);
   const home = tab.page.getByRole('region', { name: 'Moves and homing' }).getByRole('button', { name: 'Home X' });
   assert.match(await home.getAttribute('title'), /^Card motion is in service/, 'nothing else drives the machine');
   await call(tab, 'SetRange', { data: 800000 });
