@@ -65,7 +65,7 @@ function AllAxes({ card }: { card: CardInfo }): JSX.Element {
     text: `${one.name}: ${one.text}`,
   }));
   return (
-    <div class="commands" role="group" aria-label="Commands of all axes">
+    <div class="row" role="group" aria-label="Commands of all axes">
       {AXES.map((axis) => (
         <Select
           key={axis}
