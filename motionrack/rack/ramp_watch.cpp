@@ -24,6 +24,7 @@ std::int64_t RampWatch::count_of(std::size_t i, Instant now) const {
 /// Assumes that each axis has had its present rate before.
 void RampWatch::arm(Instant now) {
     state_ = {};
+    state_.watches = 1;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         const double each = rack_.axes()[watched_[i].axis].turned_by().rate(now) * to_seconds(period);
         const std::int64_t count = count_of(i, now);
@@ -56,6 +57,9 @@ void RampWatch::on_scheduled(Instant now) {
 
 /// Continues the windows over the time without a driver.
 void RampWatch::settle() {
+    if (state_.watches == 0) return;
+    state_.watches = 0;
+    kernel_.schedule(id_, never);
     const Instant now = kernel_.now();
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         const std::int64_t count = count_of(i, now);

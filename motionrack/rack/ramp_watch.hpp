@@ -31,7 +31,7 @@ class RampWatch final : public sim::Device {
     void arm(Instant now);
     /// Call when a stop comes into force.
     void begin(Instant now) { state_.since = now; }
-    /// Call between runs when all axes are at standstill.
+    /// Call between runs when all axes are at standstill. Ends the watch until arm(); a second call has no effect.
     void settle();
     /// Call in place of begin() and settle() when a card has stopped the axes by itself. Also detects velocity steps of
     /// the last `looks_back`.
@@ -53,6 +53,7 @@ class RampWatch final : public sim::Device {
         JumpLaw law;
     };
     struct State {
+        std::int64_t watches = 0;
         Instant since = never;  ///< earlier velocity steps are ignored
         std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
         /// One tick after the last velocity step of each axis; 0: none.
