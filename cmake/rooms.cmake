@@ -153,7 +153,8 @@ endif()
 # that take long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one
 # state for the whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so
 # that it pays to optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts
-# no branches of tests for them, and does not have the deep ones.
+# no branches of tests for them, and does not have the deep ones. Programs whose sources draw random numbers have the
+# label random: a new seed shows more.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
@@ -166,6 +167,13 @@ function(motionrack_test name)
   foreach(source IN LISTS T_SOURCES)
     if(source MATCHES "allocation_count")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+  foreach(source IN LISTS T_SOURCES)
+    file(STRINGS ${source} draws LIMIT_COUNT 1 REGEX "seed_from_environment|<rapidcheck|trials\\(")
+    if(draws)
+      list(APPEND T_LABELS random)
+      break()
     endif()
   endforeach()
   add_executable(test_${name} ${T_SOURCES})

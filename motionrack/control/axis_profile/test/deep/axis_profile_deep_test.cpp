@@ -1,12 +1,12 @@
 // A million profiles against the slow reference solver, a million from outside the limits, and millions against random
-// motions.
-
+// motions. MOTIONRACK_SEED=N sets the first seed, MOTIONRACK_CASES_PERCENT=N a part of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <motionrack/control/axis_profile/test/axis_profile_support.hpp>
+#include <tests/environment.hpp>
 
 namespace motionrack::control {
 namespace {
@@ -14,12 +14,20 @@ namespace {
 using namespace travel_test;
 
 constexpr int parts = 10;
-constexpr int tasks_of_a_part = 100'000;
-constexpr int motions_of_a_part = 1'000'000;  // two in five of them stay within the limits
+
+/// The number of tasks in a part.
+int tasks_of_a_part() {
+    return static_cast<int>(cases("MOTIONRACK_TASKS", 100'000));
+}
+
+/// The number of random motions in a part, of which two in five stay within the limits.
+int motions_of_a_part() {
+    return static_cast<int>(cases("MOTIONRACK_MOTIONS", 1'000'000));
+}
 
 class DeepTravels : public ::testing::TestWithParam<int> {
   protected:
-    std::uint64_t seed() const { return 1000 + static_cast<std::uint64_t>(GetParam()); }
+    std::uint64_t seed() const { return seed_from_environment(1000) + static_cast<std::uint64_t>(GetParam()); }
 };
 
 double exactness(double seconds) {
@@ -28,8 +36,9 @@ double exactness(double seconds) {
 
 TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
     Tasks tasks(seed());
+    const int count = tasks_of_a_part();
     int equal = 0;
-    for (int i = 0; i < tasks_of_a_part; ++i) {
+    for (int i = 0; i < count; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
         const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
@@ -40,13 +49,14 @@ TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
         equal += std::fabs(seconds - referee) <= exactness(seconds);
     }
     // if the reference search misses a motion it is slower, or finds none
-    EXPECT_GE(equal, tasks_of_a_part * 0.995);
+    EXPECT_GE(equal, count * 0.995);
     RecordProperty("equal", equal);
 }
 
 TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
     Tasks tasks(seed() + 1000);
-    for (int i = 0; i < motions_of_a_part; ++i) {
+    const int count = motions_of_a_part();
+    for (int i = 0; i < count; ++i) {
         Task t;
         const auto seconds = tasks.motion(t);
         if (!seconds || *seconds < 1e-3) continue;
@@ -59,7 +69,8 @@ TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
 
 TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
     Tasks tasks(seed() + 2000);
-    for (int i = 0; i < tasks_of_a_part; ++i) {
+    const int count = tasks_of_a_part();
+    for (int i = 0; i < count; ++i) {
         const Task t = tasks.outside();
         const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out) << text_of(t);
