@@ -16,5 +16,11 @@ TEST_P(ACut, ThroughTimeChangesNothing) {
         expect_the_same_however_it_is_cut(GetParam(), first + i);
 }
 
+// While an arc at constant vector speed is skipped, a motor watches another range of the axis: the bound of the skip,
+// the end of the octant, has to be found again afterwards and holds until then.
+TEST(ACutThroughAnArc, AtConstantVectorSpeedChangesNothingWhenAMotorWatchesAnotherRange) {
+    expect_the_same_however_it_is_cut(mcx314_benches().back(), 709850194);
+}
+
 }  // namespace
 }  // namespace motionrack::rack::cut

@@ -201,7 +201,7 @@ std::int64_t Chip::pulses_of(const Generator& gen, std::int64_t added) const {
     if (range[1] == range[0] || state_.path.command.count != 2) return 1 + quick_div(phase - gen.range_now, range[0]);
     std::int64_t low = 1 + quick_div(phase - gen.range_now, std::max(range[0], range[1]));
     std::int64_t high = 2 + quick_div(phase - gen.range_now, std::min(range[0], range[1]));
-    if (gen.special_known) high = std::min(high, gen.next_special - gen.n + 1);
+    high = std::min(high, gen.next_special - gen.n + 1);  // as planned: beyond it, an arc has another octant
     low = std::max<std::int64_t>(1, std::min(low, high - 1));
     while (low + 1 < high) {
         const std::int64_t middle = low + (high - low) / 2;
