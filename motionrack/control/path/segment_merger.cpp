@@ -93,6 +93,18 @@ bool SegmentMerger::is_left_out(const Geometry& path) const {
     return linear < half_pulse_.linear * left_out_share && rotary < half_pulse_.rotary * left_out_share;
 }
 
+/// Returns true if the skipped moves before an arc make it a turn longer or shorter: its start is then beyond its end.
+bool SegmentMerger::turns_otherwise(const Move& move) const {
+    if (move.kind != MoveKind::arc) return false;
+    const Geometry own = geometry_of(move, skipped_move_.end), joined = geometry_of(move, position_);
+    return std::fabs(own.length - joined.length) > pi * joined.radius;
+}
+
+/// Returns true if only the skipped moves before it make a rotary move one of XYZ, whose feed would be theirs.
+bool SegmentMerger::is_rotary_alone(const Move& move, const Geometry& path) const {
+    return path.shape == PathShape::line && geometry_of(move, skipped_move_.end).shape == PathShape::rotary;
+}
+
 /// Computes length and tangents of a line from `start` to `end`.
 void SegmentMerger::make_line(MergedSegment& span) const {
     Point change;
@@ -228,6 +240,7 @@ void SegmentMerger::push(const Move& move) {
         rest(move.seconds, move.line);
         return;
     }
+    if (any_left_out_ && turns_otherwise(move)) add_left_out();
     Geometry path = shape_of(move);
     if (is_left_out(path)) {
         any_left_out_ = true;
@@ -237,10 +250,11 @@ void SegmentMerger::push(const Move& move) {
     }
     MergedSegment span = span_of(move, path);
     bool rests = stops_between(path, span);
-    if (rests && any_left_out_) {
+    if (any_left_out_ && (rests || is_rotary_alone(move, path))) {
         add_left_out();
         path = shape_of(move);
         span = span_of(move, path);
+        rests = rests || stops_between(path, span);
     }
     any_left_out_ = stop_left_out_ = false;
     if (rests || !merge(move, span)) {
@@ -318,6 +332,13 @@ void SegmentMerger::add_left_out() {
     position_ = move.end;
     last_move_ = move;
     last_ = span_of(move, path);
+    if (!rotary && move.kind != MoveKind::rapid && move.feed_mode == FeedMode::units_per_second) {
+        // Some of the skipped moves may be rotary, with this feed as their own.
+        double turned = 0;
+        for (int i = 3; i < axis_count; ++i) turned = std::max(turned, std::fabs(path.end[i] - path.start[i]));
+        if (turned > path.length) last_.feed *= path.length / turned;
+        last_.speed = std::min(last_.speed, last_.feed);
+    }
     open_ = true;
     inner_count_ = 0;
 }

@@ -80,6 +80,8 @@ class SegmentMerger {
     Tolerance room_to_merge(const Tolerance& tolerance) const;
     Geometry shape_of(const Move& move) const;
     bool is_left_out(const Geometry& path) const;
+    bool turns_otherwise(const Move& move) const;
+    bool is_rotary_alone(const Move& move, const Geometry& path) const;
     MergedSegment span_of(const Move& move, const Geometry& path) const;
     void make_line(MergedSegment& span) const;
     bool stops_between(const Geometry& path, const MergedSegment& span) const;

@@ -16,6 +16,58 @@ TEST(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     }
 }
 
+/// The move of X is far below a pulse, so that the next move makes it, too. The feed of that one is degrees per second,
+/// although X moves a little.
+TEST(ARideOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
+    for (const bool moves_before : {false, true}) {
+        ride_test::WildProgram program;
+        for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
+        Move move;
+        move.kind = MoveKind::feed;
+        move.path = PathControl::continuous;
+        move.tolerance_mm = 0.01;
+        move.feed = 1;
+        const auto go = [&](int axis, double to) {
+            move.end[static_cast<std::size_t>(axis)] = to;
+            move.line = static_cast<std::int32_t>(program.moves.size() + 1);
+            program.moves.push_back(move);
+        };
+        if (moves_before) go(0, 5);
+        go(0, move.end[0] + 1e-5);
+        go(3, 0.02);
+        go(1, 5);
+        EXPECT_EQ(ride_test::fault_of(program).text, "");
+    }
+}
+
+/// The arc is shorter than the move before it, which is far below a pulse and leads beyond the end of the arc: together
+/// they are nearly nothing, and no full circle.
+TEST(ARideOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelowAPulseBeforeIt) {
+    ride_test::WildProgram program;
+    for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
+    program.start = {0, -5, 0, 0, 0, 0};
+    Move to_the_arc;
+    to_the_arc.kind = MoveKind::feed;
+    to_the_arc.path = PathControl::continuous;
+    to_the_arc.tolerance_mm = 0.01;
+    to_the_arc.feed = 1;
+    to_the_arc.line = 1;
+    Move back = to_the_arc;
+    back.end = {0, -1e-6, 0, 0, 0, 0};
+    back.line = 2;
+    Move arc = back;
+    arc.kind = MoveKind::arc;
+    arc.first = 0, arc.second = 1, arc.turns = 1;
+    arc.centre_first = -10;
+    arc.end = {0, -9e-7, 0, 0, 0, 0};
+    arc.line = 3;
+    program.moves = {to_the_arc, back, arc};
+    double length = 0;
+    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(program.moves, program.limits, program.start))
+        for (const CubicSegment& piece : kept.curve) length += piece.length;
+    EXPECT_NEAR(length, 5, 0.02);
+}
+
 /// A step of the reference may be longer than a whole ramp; then it is too slow by this step at each end.
 TEST(ARideOfAnything, IsNeverQuickerThanWithAnyJerk) {
     for (std::uint64_t seed = 100'001; seed <= 100'020; ++seed) {
