@@ -295,16 +295,19 @@ std::array<double, 3> Monitor::place_at(Instant at) const {
     return {near.position[0], near.position[1], near.position[2]};
 }
 
-/// Several planned moves may follow on one programmed move, or on several merged ones.
+/// Several planned moves may follow on one programmed move, or on several merged ones. A planned move may end beyond
+/// the start of the next programmed one by nearly its own length.
 void Monitor::begin_programmed(const control::PlannedMove& block) {
     const std::int64_t index = block.move.index;
     if (seen_.part.first < 0 || index != seen_.current_programmed) {
         seen_.part.first = seen_.current_programmed < 0 ? index : std::min(index, seen_.current_programmed);
-        seen_.before_mm = seen_.current_mm;
+        seen_.part.furthest = std::max(index, seen_.current_programmed);
+        seen_.before_mm = seen_.last_mm;
         seen_.current_mm = 0;
         seen_.current_programmed = index;
         seen_.program.drop_before(seen_.part.first);
     }
+    seen_.last_mm = block.length;
     seen_.current_mm += block.length;
 }
 

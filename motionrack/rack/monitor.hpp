@@ -172,9 +172,10 @@ class Monitor final : public sim::Device {
         std::deque<control::MoveStart> starts;
         std::int64_t current = -1;
         ProgrammedPath program;
-        ProgramPart part{-1, 0, 0};            ///< moves on which the machine may be
+        ProgramPart part{-1, 0, -1, 0};        ///< moves on which the machine may be
         std::int64_t current_programmed = -1;  ///< move at which the current planned move begins
-        double before_mm = 0, current_mm = 0;  ///< length covered by planned moves on the previous move and on this one
+        /// Lengths of the last planned move that began before that move, and of those that begin on it.
+        double before_mm = 0, last_mm = 0, current_mm = 0;
         ExecutedMove open_block;
         bool block_open = false;
         std::vector<ExecutedMove> blocks;

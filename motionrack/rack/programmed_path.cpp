@@ -50,11 +50,12 @@ ProgrammedPath::Moves::const_iterator ProgrammedPath::skip(const Moves::const_it
 ProgramDistance ProgrammedPath::distance(const ProgramPart& part, double x, double y, double z) const {
     double nearest = std::numeric_limits<double>::infinity(), min_beside = nearest;
     ProgramDistance out;
-    const auto first = std::lower_bound(moves_.begin(), moves_.end(), part.first,
-                                        [](const Programmed& one, std::int64_t index) { return one.index < index; });
-    const double reach = first == moves_.end() ? part.reach_mm : part.reach_mm + first->begins_mm + first->length_mm;
+    const auto reached = std::lower_bound(moves_.begin(), moves_.end(), std::max(part.first, part.furthest),
+                                          [](const Programmed& one, std::int64_t index) { return one.index < index; });
+    const double reach =
+        reached == moves_.end() ? part.reach_mm : part.reach_mm + reached->begins_mm + reached->length_mm;
     for (auto move = begin_of(part.first); move != moves_.end();) {
-        if (move > first && (move->index > part.last || move->begins_mm > reach)) break;
+        if (move > reached && (move->index > part.last || move->begins_mm > reach)) break;
         const double dx = x - move->path.start[0], dy = y - move->path.start[1], dz = z - move->path.start[2];
         const double from_start = std::sqrt(dx * dx + dy * dy + dz * dz);
         // Path points before this length is used up are farther away than `enough`.

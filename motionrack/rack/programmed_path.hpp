@@ -22,7 +22,8 @@ struct ProgramDistance {
 /// Moves of the program on which the machine must be.
 struct ProgramPart {
     std::int64_t first = 0, last = 0;  ///< indices; part of the path before the first counts, too
-    double reach_mm = 0;               ///< limit along the path after the end of the first move
+    std::int64_t furthest = 0;         ///< move that the machine has certainly reached
+    double reach_mm = 0;               ///< limit along the path after the end of that move
 };
 
 class ProgrammedPath {

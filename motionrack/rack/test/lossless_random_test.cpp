@@ -18,6 +18,12 @@ TEST(LosslessAtRandom, NoAxisJumpsWhereAPieceHasFewPulses) {
     for (const std::uint64_t seed : {732885138, 732887488}) drive_one(seed);
 }
 
+// A segment of the chip that is longer than one merged line ends on the next: the moves after that count from the one
+// that the machine has reached.
+TEST(LosslessAtRandom, TheMachineIsOnItsPathWhereSegmentsAreLongerThanMergedLines) {
+    drive_one(900001341);
+}
+
 // The motion of an axis in one chord differs from the previous one.
 TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
     drive_one(864005568);

@@ -40,7 +40,7 @@ class Written {
 };
 
 ProgramPart part_of(std::int64_t first, std::int64_t last = 1'000'000, double reach_mm = 1e6) {
-    return {first, last, reach_mm};
+    return {first, last, first, reach_mm};
 }
 
 TEST(AProgrammedPath, KnowsHowFarACornerWasCut) {
