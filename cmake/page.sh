@@ -23,7 +23,7 @@ page_packages() {
 # why_npm_failed LOG: the sentence for npm's trouble.
 why_npm_failed() {
     local log=$1 unreached
-    unreached=$(sed -nE 's/^npm (ERR!|error) request to .* failed, reason: (.*)/\2/p' "$log" | head -n 1)
+    unreached=$(sed -nE 's/^npm (ERR!|error) (.* )?request to .* failed, reason: (.*)/\3/p' "$log" | head -n 1)
     if [ -n "$unreached" ]; then
         say "the packages of the operator panel's page could not be fetched from the network ($unreached);" \
             "the page was not built. Bring the network up (behind a proxy: set https_proxy), then run $0 again."
