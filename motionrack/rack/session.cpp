@@ -171,18 +171,11 @@ std::uint64_t Session::condition_count() const {
     return kernel.dropped_conditions() + kernel.conditions().size();
 }
 
-std::vector<Session::Told> Session::conditions(std::uint64_t since) {
-    const sim::Kernel& kernel = rack_.kernel();
-    std::vector<Told> out;
-    std::uint64_t number = std::max(since, kernel.dropped_conditions());
-    for (const sim::Condition& one : kernel.conditions(since)) {
-        const std::string device = one.device == sim::no_device ? "rack" : kernel.device_name(one.device);
-        out.push_back({++number, one.at, device, one.code, rack_.describe(one)});
-    }
-    return out;
+std::vector<ReportedCondition> Session::conditions(std::uint64_t since) {
+    return reported_conditions(rack_, since);
 }
 
-void Session::on_condition(std::function<void(const Told&)> call) {
+void Session::on_condition(std::function<void(const ReportedCondition&)> call) {
     if (!on_condition_) told_ = condition_count();
     on_condition_ = std::move(call);
 }
@@ -192,9 +185,9 @@ void Session::tell_conditions() {
     if (!on_condition_ || telling_) return;
     const RaisedFlag telling(telling_);
     while (on_condition_) {
-        const std::vector<Told> news = conditions(told_);
+        const std::vector<ReportedCondition> news = conditions(told_);
         if (news.empty()) break;
-        for (const Told& one : news) {
+        for (const ReportedCondition& one : news) {
             told_ = one.number;
             const auto call = on_condition_;  // it may replace or remove itself
             if (call) call(one);

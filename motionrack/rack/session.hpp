@@ -17,6 +17,7 @@
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/reported_condition.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
 #include <motionrack/rack/wire_access.hpp>
 #include <string>
@@ -107,19 +108,11 @@ class Session {
     /// states have equal hashes.
     std::uint64_t state_hash() { return rack_.kernel().state_hash(); }
 
-    /// A reported event as a sentence.
-    struct Told {
-        std::uint64_t number = 0;  ///< starts at 1
-        Instant at{};
-        std::string device;  ///< name of the card or other source
-        int code = 0;        ///< condition code of this kind of device
-        std::string sentence;
-    };
     /// Returns the conditions with numbers above `since`, oldest first; the kernel stores the most recent ones.
-    std::vector<Told> conditions(std::uint64_t since);
+    std::vector<ReportedCondition> conditions(std::uint64_t since);
     /// Calls `call` with each later condition, once and in order, between runs of the kernel. Time is that of the event
     /// that reported it; during a program or homing it may be up to 50 ms later. Empty: ends the calls.
-    void on_condition(std::function<void(const Told&)> call);
+    void on_condition(std::function<void(const ReportedCondition&)> call);
     /// Errors: refused within a call-back (of on_condition, or of a program's progress) of a function that advances
     /// time.
     Result<void> check_free() const {
@@ -163,7 +156,7 @@ class Session {
     std::string program_;       // text of the last program
     std::atomic<bool> stop_{false};
     std::function<bool(const JobProgress&)> progress_;
-    std::function<void(const Told&)> on_condition_;
+    std::function<void(const ReportedCondition&)> on_condition_;
     std::uint64_t told_ = 0;  // conditions reported
     bool telling_ = false;    // the call-back is running
     bool driving_ = false;    // a program or homing is running

@@ -17,6 +17,7 @@ from . import _core
 from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Mcx314Library, Rtc5, SlopeTable, SpeedMeter, SpeedScale
 from ._version import __version__
 from .cards import Card, Cards, Channel
+from .condition import Condition
 from .errors import InvalidInput, Error, FileError, MachineFault, NoSuchName, Refused, Stopped, Timeout
 from .live import LiveCard
 from .machine import Alarm, AxisStatus, Machine, Status
@@ -45,6 +46,7 @@ __all__ = [
     "Card",
     "Cards",
     "Channel",
+    "Condition",
     "Databoard4002",
     "Error",
     "ExecutedMove",

@@ -9,6 +9,7 @@ from types import TracebackType
 from . import _core
 from ._time import seconds_of, ticks_of
 from .cards import Cards
+from .condition import Condition
 from .errors import InvalidInput, FileError, Refused, Timeout
 from .outcome import Homing, Outcome, homing_of, outcome_of
 from .parts import Parts, Wires
@@ -154,9 +155,12 @@ class Rack:
         self._world.set_quantity(name, float(value))
 
     @property
-    def conditions(self) -> list[tuple[float, str]]:
-        """Conditions of the machine and cards so far (a lost step, a command ignored): s, and a sentence."""
-        return [(seconds_of(ticks), text) for ticks, text in self._world.conditions()]
+    def conditions(self) -> list[Condition]:
+        """Conditions of the machine and cards so far (a lost step, a command ignored), oldest first: the last 4096."""
+        return [
+            Condition(number, seconds_of(ticks), source, code, text)
+            for number, ticks, source, code, text in self._world.conditions()
+        ]
 
     def bus_conflicts(self) -> int:
         """Number of conflicts of two cards on a line of the grating bus so far.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/reported_condition.hpp>
 #include <motionrack/rack/template.hpp>
 #include <python/src/bindings.hpp>
 #include <python/src/rack_lock.hpp>
@@ -80,9 +81,8 @@ py::dict faults_of(RackHandle& world) {
 
 py::list conditions_of(RackHandle& world) {
     py::list out;
-    rack::Rack& rack = world.running();
-    for (const sim::Condition& condition : rack.kernel().conditions())
-        out.append(py::make_tuple(condition.at.count(), rack.describe(condition)));
+    for (const rack::ReportedCondition& one : rack::reported_conditions(world.running()))
+        out.append(py::make_tuple(one.number, one.at.count(), one.source, one.code, one.sentence));
     return out;
 }
 

@@ -258,7 +258,10 @@ class Machine(unittest.TestCase):
         driver.wait(1)
         self.assertEqual(rack.parts["X"].position_mm, 0)
         self.assertEqual(driver.ReadLPS(0), 6400)
-        self.assertTrue(any("X" in text for _, text in rack.conditions))
+        conditions = rack.conditions
+        self.assertTrue(any("X" in one.text for one in conditions))
+        self.assertEqual([one.number for one in conditions], list(range(1, len(conditions) + 1)))
+        self.assertEqual({one.source for one in conditions}, {"X"})
         for target, fault in (("X", "no.such"), ("Q", "motor.stall")):
             with self.assertRaises(InvalidInput):
                 rack.fault(target, fault)

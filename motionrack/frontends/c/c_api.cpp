@@ -12,6 +12,7 @@ using namespace motionrack::c;
 using motionrack::Error;
 using motionrack::ErrorKind;
 using motionrack::Result;
+using motionrack::rack::ReportedCondition;
 using motionrack::rack::Session;
 
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
@@ -146,8 +147,8 @@ int mr_conditions(mr_rack* rack, uint64_t since,
                                const char* sentence),
                   void* user) {
     return guarded({{rack, no_rack}, {reinterpret_cast<const void*>(tell), no_tell}}, [&]() -> Result<void> {
-        for (const Session::Told& one : rack->session->conditions(since))
-            tell(user, one.number, one.at.count(), one.device.c_str(), one.code, one.sentence.c_str());
+        for (const ReportedCondition& one : rack->session->conditions(since))
+            tell(user, one.number, one.at.count(), one.source.c_str(), one.code, one.sentence.c_str());
         return {};
     });
 }
@@ -157,10 +158,10 @@ int mr_on_condition(mr_rack* rack,
                                  const char* sentence),
                     void* user) {
     return guarded({{rack, no_rack}}, [&]() -> Result<void> {
-        std::function<void(const Session::Told&)> told;
+        std::function<void(const ReportedCondition&)> told;
         if (call != nullptr)
-            told = [call, user](const Session::Told& one) {
-                call(user, one.number, one.at.count(), one.device.c_str(), one.code, one.sentence.c_str());
+            told = [call, user](const ReportedCondition& one) {
+                call(user, one.number, one.at.count(), one.source.c_str(), one.code, one.sentence.c_str());
             };
         rack->session->on_condition(std::move(told));
         return {};

@@ -105,7 +105,7 @@ struct World {
     /// Runs are broken at each of them and continue.
     void hear_conditions() {
         hears = true;
-        session->on_condition([](const Session::Told&) {});
+        session->on_condition([](const ReportedCondition&) {});
     }
     void become_its_copy() {
         session = std::move(*session->copy());
