@@ -11,7 +11,7 @@ import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
 const MODES = [
   { value: 'paused', text: 'Pause' },
   ...[0.1, 0.5, 1, 2, 10].map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })),
-  { value: 'unthrottled', text: 'Free' },
+  { value: 'unthrottled', text: 'Unthrottled' },
 ];
 
 export function Clock(): JSX.Element {
