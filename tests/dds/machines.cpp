@@ -194,7 +194,7 @@ bool Child::read_line() {
             rest_.erase(0, end + 1);
             said_ += line + "\n";
             last_ = nlohmann::json::parse(line, nullptr, false);
-            if (last_.is_object() && last_.contains("event")) events_.insert(last_["event"].get<std::string>());
+            if (last_.is_object() && last_.contains("event")) events_[last_["event"].get<std::string>()] = last_;
             return true;
         }
         pollfd waiting{output_, POLLIN, 0};
@@ -211,6 +211,14 @@ bool Child::wait_for(const Condition& condition) {
     while (std::chrono::steady_clock::now() < limit && read_line())
         if (last_.is_object() && condition(last_)) return true;
     return false;
+}
+
+bool Child::wait_for_event(const std::string& kind) {
+    if (told(kind)) {
+        last_ = events_[kind];
+        return true;
+    }
+    return wait_for([&](const nlohmann::json& line) { return line.value("event", "") == kind; });
 }
 
 int Child::finish() {

@@ -11,8 +11,8 @@
 #include <sys/types.h>
 
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +34,8 @@ class Child {
     /// minute.
     using Condition = std::function<bool(const nlohmann::json&)>;
     bool wait_for(const Condition& condition);
+    /// As wait_for, until an event of this kind; true at once if its line was read before. It is the last line then.
+    bool wait_for_event(const std::string& kind);
     /// Reads to its end; the exit code, or -1 if a signal ended it.
     int finish();
     void send(int signal);
@@ -49,7 +51,7 @@ class Child {
     int output_;
     std::string rest_, said_;
     nlohmann::json last_;
-    std::set<std::string> events_;
+    std::map<std::string, nlohmann::json> events_;  ///< the last line of each kind
 };
 
 class Machines {

@@ -55,7 +55,7 @@ int publish_good(const std::string& bus, Duration period, std::uint32_t scales, 
     Counting source(period, scales, offset);
     dds::PublishingSettings settings;
     settings.pace = period;
-    settings.report = [](const dds::Event& event) {
+    settings.report = [](const dds::BusEvent& event) {
         print({{"event", name_of(event.kind)},
                {"source", event.source.id_text()},
                {"other", event.other.id_text()},
@@ -69,7 +69,7 @@ int publish_good(const std::string& bus, Duration period, std::uint32_t scales, 
 }
 
 /// A good sample, but for what the kind says.
-dds::Sample bad_sample(const dds::Source& source, std::uint32_t number) {
+dds::Sample bad_sample(const dds::PublisherIdentity& source, std::uint32_t number) {
     dds::Sample sample;
     sample.source = source;
     sample.period = sample.pace = milliseconds(2).count();
@@ -105,7 +105,7 @@ int publish_bad(const std::string& bus) {
     const dds::Qos qos = dds::qos_of(bus, false);
     const dds::Entity writer(dds_create_writer(participant->get(), topic.get(), qos.get(), nullptr));
     if (writer.get() < 0) return wrong("no writer");
-    const dds::Source source = dds::new_source();
+    const dds::PublisherIdentity source = dds::new_source();
     dds::WireBuffer buffer;
     for (std::uint32_t number = 0;; ++number) {
         buffer.put(bad_sample(source, number));

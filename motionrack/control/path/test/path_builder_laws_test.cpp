@@ -31,8 +31,9 @@ struct Case {
     std::vector<PathElement> items;
 };
 
+/// Returns true if at least `everyday` programs were checked: what is true of most sets of so many may be expected.
 template <class Check>
-void for_programs(std::uint64_t everyday, Check check) {
+bool for_programs(std::uint64_t everyday, Check check) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
@@ -40,13 +41,14 @@ void for_programs(std::uint64_t everyday, Check check) {
         Case one = {seed, maker.program(1 + maker.one_of(12)), {}};
         one.items = curve_of(one.moves);
         check(one);
-        if (::testing::Test::HasFailure()) return;
+        if (::testing::Test::HasFailure()) return false;
     }
+    return count >= everyday;
 }
 
 template <class Check>
-void for_random_programs(Check check) {
-    for_programs(1000, check);
+bool for_random_programs(Check check) {
+    return for_programs(1000, check);
 }
 
 TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
@@ -171,7 +173,7 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
 
 TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
     double worst = 0;
-    for_random_programs([&worst](const Case& one) {
+    const bool many = for_random_programs([&worst](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CubicSegment& piece : pieces_of(one.items)) {
             for (int k = 0; k < 4; ++k) {
@@ -193,7 +195,9 @@ TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
         }
     });
     RecordProperty("worst", std::to_string(worst));
-    EXPECT_GT(worst, 0.5);
+    if (many) {
+        EXPECT_GT(worst, 0.5);
+    }
 }
 
 /// Returns the smallest share of the tolerances, XYZ and ABC together, within which a point lies on a line.
@@ -219,7 +223,7 @@ double part_of_tolerances(const Geometry& line, const Point& at, double toleranc
 
 TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
     double worst = 0;
-    for_programs(300, [&worst](const Case& one) {
+    const bool many = for_programs(300, [&worst](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CubicSegment& piece : pieces_of(one.items)) {
             double best = std::numeric_limits<double>::infinity();
@@ -241,7 +245,9 @@ TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
             ASSERT_LE(best, 1 + 1e-6) << "line " << piece.line << " u " << piece.begin;
         }
     });
-    EXPECT_GT(worst, 0.5);
+    if (many) {
+        EXPECT_GT(worst, 0.5);
+    }
 }
 
 }  // namespace
