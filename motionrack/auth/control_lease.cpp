@@ -26,7 +26,7 @@ Result<void> ControlLease::take(std::string_view user, std::string_view session,
                                     name()));
     }
     const Moment now = clock_();
-    held_ = Held{std::string(user), std::string(session), now, now, false};
+    held_ = LeaseHolder{std::string(user), std::string(session), now, now, false};
     return {};
 }
 

@@ -54,7 +54,7 @@ class ControlLease {
     std::optional<Holder> holder() const;
 
   private:
-    struct Held {
+    struct LeaseHolder {
         std::string user, session;
         Moment since, last_sign;
         bool left = false;
@@ -67,7 +67,7 @@ class ControlLease {
     std::function<Moment()> clock_;
     Moment made_;
     mutable std::mutex lock_;
-    std::optional<Held> held_;
+    std::optional<LeaseHolder> held_;
 };
 
 }  // namespace motionrack::auth

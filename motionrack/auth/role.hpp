@@ -15,7 +15,7 @@ enum class Role : std::uint8_t {
     maintain  ///< injects faults, writes registers, invites users
 };
 
-inline constexpr std::array<std::string_view, 4> role_names = {"nobody", "observe", "operate", "maintain"};
+inline constexpr std::array<std::string_view, 4> role_names = {"none", "observe", "operate", "maintain"};
 constexpr std::string_view name_of(Role role) {
     return role_names[static_cast<std::size_t>(role)];
 }

@@ -72,7 +72,7 @@ export function hasRole(needed: Role): boolean {
   return ROLES.indexOf(state.role.value) >= ROLES.indexOf(needed);
 }
 
-const standing = (): string => (state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`);
+const standing = (): string => (state.role.value === 'none' ? 'are not paired' : `have the role ${state.role.value}`);
 
 /** Reason why an action is not allowed now; empty: allowed. Reads signals, so that components update. */
 export function whyNot(needed: Role, control = false): string {

@@ -1,7 +1,7 @@
 // Messages of the program according to the panel's contract: greeting, status, events, errors.
 
-export type Role = 'nobody' | 'observe' | 'operate' | 'maintain';
-export const ROLES: readonly Role[] = ['nobody', 'observe', 'operate', 'maintain'];
+export type Role = 'none' | 'observe' | 'operate' | 'maintain';
+export const ROLES: readonly Role[] = ['none', 'observe', 'operate', 'maintain'];
 
 export interface Hello {
   version: string;

@@ -142,7 +142,7 @@ describe('what is not allowed', () => {
   });
 
   test.each([
-    ['nobody', [false, false, false]],
+    ['none', [false, false, false]],
     ['observe', [true, false, false]],
     ['operate', [true, true, false]],
     ['maintain', [true, true, true]],
@@ -158,7 +158,7 @@ describe('what is not allowed', () => {
   });
 
   test('asks a browser that is not paired to pair', async () => {
-    await connected({ role: 'nobody' });
+    await connected({ role: 'none' });
     expect((await commands()).whyNot('observe')).toMatch(/you are not paired\. Pair this browser/);
   });
 

@@ -220,7 +220,7 @@ describe('who this browser is', () => {
     (await link()).connect();
     const program = new Program(browser.socket);
     program.answers.token = { role: 'operate', user: 'carl' };
-    program.greet({ role: 'nobody', user: '' });
+    program.greet({ role: 'none', user: '' });
     await settled();
     const { role, user } = await state();
     expect(program.asked('token')).toEqual([{ token: 'T1' }]);

@@ -158,7 +158,7 @@ TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     EXPECT_TRUE(try_open());
     for (const std::string& wrong : std::vector<std::string>{
              "{", "[]", "{\"users\":1}", "{\"users\":[1]}", user(""),
-             user(name + ",\"role\":\"nobody\"," + token + "," + expires),
+             user(name + ",\"role\":\"none\"," + token + "," + expires),
              user("\"name\":1," + role + "," + token + "," + expires),
              user(name + "," + role + ",\"token_sha256\":\"aa\"," + expires), user(name + "," + role + "," + token),
              user(name + "," + role + "," + token + ",\"expires\":-1"),
