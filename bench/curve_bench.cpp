@@ -115,7 +115,7 @@ void ride(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
         OfflineTrajectory ride(machine(), Point{},
-                               [&](const PathSection& stretch) { cells += static_cast<double>(stretch.feed.size()); });
+                               [&](const PathSection& section) { cells += static_cast<double>(section.feed.size()); });
         for (const Move& move : moves) ride.push(move);
         ride.flush();
     }
@@ -131,20 +131,20 @@ BENCHMARK_CAPTURE(ride, long_lines, long_lines());
 BENCHMARK_CAPTURE(ride, arcs_of_1_mm, arcs(1));
 
 /// Block by block with a limited window, executed when it is full; in the slowest blocks thousands are planned.
-void rider(benchmark::State& state, const std::vector<Move>& moves) {
+void generator(benchmark::State& state, const std::vector<Move>& moves) {
     using Clock = std::chrono::steady_clock;
     std::vector<double> seconds;
-    TrajectoryGenerator rider(machine(), Point{});
+    TrajectoryGenerator generator(machine(), Point{});
     std::size_t i = 0;
     for (auto _ : state) {
         const Clock::time_point begin = Clock::now();
-        while (!rider.has_room() && rider.next(false) == NextMotion::motion)
-            rider.advance(std::min(0.05, rider.left()));
-        rider.push({moves[i]});
+        while (!generator.has_room() && generator.next(false) == NextMotion::motion)
+            generator.advance(std::min(0.05, generator.left()));
+        generator.push({moves[i]});
         seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
         if (++i < moves.size()) continue;
         state.PauseTiming();
-        rider = TrajectoryGenerator(machine(), Point{});
+        generator = TrajectoryGenerator(machine(), Point{});
         i = 0;
         state.ResumeTiming();
     }
@@ -154,10 +154,10 @@ void rider(benchmark::State& state, const std::vector<Move>& moves) {
     state.counters["peak_us"] = 1e6 * seconds.back();
 }
 
-BENCHMARK_CAPTURE(rider, chords_of_0_1_mm, chords(0.1, 0));
-BENCHMARK_CAPTURE(rider, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
-BENCHMARK_CAPTURE(rider, long_lines, long_lines());
-BENCHMARK_CAPTURE(rider, arcs_of_1_mm, arcs(1));
+BENCHMARK_CAPTURE(generator, chords_of_0_1_mm, chords(0.1, 0));
+BENCHMARK_CAPTURE(generator, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
+BENCHMARK_CAPTURE(generator, long_lines, long_lines());
+BENCHMARK_CAPTURE(generator, arcs_of_1_mm, arcs(1));
 
 }  // namespace
 }  // namespace motionrack::control

@@ -81,12 +81,12 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
 }
 
 /// Applies the log to the card, up to `until`.
-void act_out(Rack& rack, const std::vector<sim::Input>& inputs, Instant from, Instant until) {
-    std::vector<sim::Input> part;
-    for (const sim::Input& input : inputs)
+void act_out(Rack& rack, const std::vector<sim::LoggedInput>& inputs, Instant from, Instant until) {
+    std::vector<sim::LoggedInput> part;
+    for (const sim::LoggedInput& input : inputs)
         if (input.at > from && input.at <= until) part.push_back(input);
     sim::RegisterDevice& card = *rack.cards().front()->registers();
-    sim::replay(rack.kernel(), part, until, [&card](const sim::Input& input) {
+    sim::replay(rack.kernel(), part, until, [&card](const sim::LoggedInput& input) {
         if (input.kind == sim::InputKind::register_write) card.write(input.offset, input.value);
         if (input.kind == sim::InputKind::register_read) card.read(input.offset);
     });
@@ -97,7 +97,7 @@ TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
         settings_of("G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG2 X30 Y20 I6 J0 Z75\nG0 X0 Y0\nM2\n");
     Running original(router(), settings);
     ASSERT_TRUE(original.job.run().ended);
-    const std::vector<sim::Input> inputs = original.rack.input_log().inputs();
+    const std::vector<sim::LoggedInput> inputs = original.rack.input_log().inputs();
     const Instant end = original.rack.kernel().now(), middle{end.count() / 2};
     const std::uint64_t history = original.rack.kernel().trace_hash();
 

@@ -111,7 +111,7 @@ TEST(Journey, WhatCameFromOutsideReplaysToTheSameHistory) {
     replayed.start();
     sim::RegisterDevice& card = *replayed.cards().front()->registers();
     sim::replay(replayed.kernel(), recorded.input_log().inputs(), recorded.kernel().now(),
-                [&card](const sim::Input& input) {
+                [&card](const sim::LoggedInput& input) {
                     if (input.kind == sim::InputKind::register_write) card.write(input.offset, input.value);
                     if (input.kind == sim::InputKind::register_read) card.read(input.offset);
                 });

@@ -125,7 +125,7 @@ TEST_F(ARecordedRun, HasThePulsesOfTheWavesTickForTick) {
     ASSERT_TRUE(changes) << changes.error().text();
     const std::size_t wire = names.number("X.X_step");
     std::vector<std::int64_t> edges;
-    for (trace::Change change; *(*changes)->next(change);)
+    for (trace::SignalChange change; *(*changes)->next(change);)
         if (change.signal == wire && change.value == "1") edges.push_back(change.at_ps / 100);
     std::vector<std::int64_t> steps;
     for (const auto& [when, direction] : read<std::int64_t>(*reader, "X.steps")) steps.push_back(when);

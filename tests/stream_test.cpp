@@ -50,7 +50,7 @@ struct Watched {
 
     double max_deviation() const {
         double worst = 0;
-        for (const Sample& sample : monitor.samples()) {
+        for (const MonitorSample& sample : monitor.samples()) {
             double nearest = 1e9;
             for (const control::Geometry& path : programmed)
                 nearest = std::min(
@@ -242,11 +242,11 @@ TEST_P(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
 
 /// Executes a program in the complete language; returns its duration, s.
 double seconds_of(Watched& w, const std::string& program) {
-    control::gcode::ProgramFlow walk(program, w.stream->fresh_settings(), "part.ngc");
+    control::gcode::ProgramFlow program_flow(program, w.stream->fresh_settings(), "part.ngc");
     const double begun = w.seconds();
     for (bool more = true; more || w.stream->has_work();) {
-        for (std::string_view line; more && w.stream->has_room() && (more = walk.next(line));) {
-            const auto read = w.stream->line(line, walk.number(), walk);
+        for (std::string_view line; more && w.stream->has_room() && (more = program_flow.next(line));) {
+            const auto read = w.stream->line(line, program_flow.number(), program_flow);
             EXPECT_TRUE(read) << read.error().text();
         }
         const Result<ExecutionState> state = w.stream->drive(more);

@@ -183,7 +183,7 @@ Result<void> ProgramExecutor::run(std::string_view text, const std::string& file
     Result<void> outcome;
     while (outcome) {
         auto step = reader.next();
-        run.lines = reader.walk().highest_line();
+        run.lines = reader.program_flow().highest_line();
         if (!step) {
             outcome = tl::unexpected<Error>(step.error());
             break;

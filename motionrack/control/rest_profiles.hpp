@@ -85,7 +85,7 @@ class SCurveProfile {
 
   private:
     /// A cubic in the time since the zero of the phase.
-    struct Phase {
+    struct CubicPhase {
         double zero = 0;
         double position = 0;
         double speed = 0;
@@ -99,7 +99,7 @@ class SCurveProfile {
     double peak_ = 0;
     double peak_accel_ = 0;
     std::array<double, 3> ends_ = {};  ///< end times of phases 0, 1, 2
-    std::array<Phase, 3> phases_ = {};
+    std::array<CubicPhase, 3> phases_ = {};
 };
 
 /// Returns the cube root of x >= 0, to a relative error of 7e-16 and with the same bits on every platform.
@@ -125,7 +125,7 @@ inline ProfileSample SCurveProfile::sample(double t) const {
     const bool first_half = t <= left;
     const double u = first_half ? t : left;
     if (u >= ends_[2]) return {0.5 * distance_ + peak_ * (t - 0.5 * duration_), peak_, 0, 0};
-    const Phase& p = phases_[static_cast<std::size_t>((u >= ends_[0]) + (u >= ends_[1]))];
+    const CubicPhase& p = phases_[static_cast<std::size_t>((u >= ends_[0]) + (u >= ends_[1]))];
     const double s = u - p.zero;
     const double position = p.position + s * (p.speed + s * (p.half_accel + s * p.sixth_jerk));
     const double speed = p.speed + s * (2 * p.half_accel + 3 * p.sixth_jerk * s);

@@ -44,14 +44,15 @@ gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t nu
     return {};
 }
 
-gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk) {
+gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number,
+                                          gcode::ProgramFlow& program_flow) {
     text_ = text;
     gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
     if (!read) {
-        walk.line_rejected(text_, read.error());
+        program_flow.line_rejected(text_, read.error());
         return read;
     }
-    if (gcode::Outcome<void> taken = walk.line_accepted(interpreter_); !taken) return taken;
+    if (gcode::Outcome<void> taken = program_flow.line_accepted(interpreter_); !taken) return taken;
     unpulled_ = true;
     pull_steps();
     return {};
@@ -124,7 +125,7 @@ void StreamExecutor::add_piece() {
     const double each = cutting_->path.length / cutting_->pieces;
     const double from = each * cutting_->done++;
     const bool last = cutting_->done == cutting_->pieces;
-    Entry piece{cutting_->step, {}, read_to_};
+    QueueEntry piece{cutting_->step, {}, read_to_};
     piece.last = last;
     piece.by_hand = cutting_->by_hand;
     Move& move = piece.step.move;
@@ -147,7 +148,7 @@ void StreamExecutor::hold() {
 void StreamExecutor::resume() {
     if (state_ != ExecutionState::feed_hold && state_ != ExecutionState::paused) return;
     state_ = ExecutionState::running;
-    if (ride_) ride_->rider().resume();
+    if (ride_) ride_->generator().resume();
 }
 
 void StreamExecutor::stop() {
@@ -198,7 +199,7 @@ Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
 
 Result<void> StreamExecutor::fill_planner() {
     for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
-        const Entry& entry = entries_[planned_];
+        const QueueEntry& entry = entries_[planned_];
         if (!entry.is_move()) {
             planner_.keep_apart();  // an event must keep its position between the moves
             continue;
@@ -210,7 +211,7 @@ Result<void> StreamExecutor::fill_planner() {
     return {};
 }
 
-bool StreamExecutor::stops_before(const Entry& entry) const {
+bool StreamExecutor::stops_before(const QueueEntry& entry) const {
     if (single_block_ && entry.step.line != entries_.front().step.line) return true;
     return entry.is_probe() || gcode::needs_standstill(entry.step);
 }
@@ -254,10 +255,10 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     take_move_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
-    if (ride_) pop_driven(ride_->rider().first_pending_move());
+    if (ride_) pop_driven(ride_->generator().first_pending_move());
     while (handed_ > 0) pop();
     if (single_block_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
-    if (ride_ && wish_ == Wish::hold && !has_work()) ride_->rider().resume();
+    if (ride_ && wish_ == Wish::hold && !has_work()) ride_->generator().resume();
     return stand();
 }
 
@@ -359,7 +360,7 @@ void StreamExecutor::take_move_starts() {
 
 /// Removes the first entry.
 void StreamExecutor::pop() {
-    Entry& front = entries_.front();
+    QueueEntry& front = entries_.front();
     if (front.is_move()) {
         moves_ -= front.last;
     } else {

@@ -76,8 +76,8 @@ class StreamExecutor {
     }
     /// Checks a line and queues its moves. Requires has_room(). On an error the line has no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
-    /// As above, for a line of a whole program whose control flow `walk` tracks, in the complete language.
-    gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::ProgramFlow& walk);
+    /// As above, for a line of a whole program whose control flow `program_flow` tracks, in the complete language.
+    gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::ProgramFlow& program_flow);
     /// Ends the program: queues the moves that wait for a following line (see gcode::Interpreter::finish). Requires
     /// has_room().
     gcode::Outcome<void> program_over();
@@ -139,7 +139,7 @@ class StreamExecutor {
   private:
     enum class Wish : std::uint8_t { none, hold, stop };
     /// A slice of a move, or an event.
-    struct Entry {
+    struct QueueEntry {
         gcode::CanonCall step;
         std::string text;
         Point start = {};
@@ -168,7 +168,7 @@ class StreamExecutor {
     void begin_cut(const gcode::CanonCall& step, bool by_hand);
     void add_piece();
     Result<void> fill_planner();
-    bool stops_before(const Entry& entry) const;
+    bool stops_before(const QueueEntry& entry) const;
     bool time_left();
     Result<ExecutionState> submit(const PlannedMove& planned);
     Result<ExecutionState> finish_path();
@@ -199,10 +199,10 @@ class StreamExecutor {
     /// Submitted moves from the executing one on: their numbers in the interpolator (ride_), or how many of entries_
     /// each covers.
     std::deque<std::int64_t> blocks_;
-    std::int64_t first_block_ = 0;  ///< number of the first of blocks_, as the axes count
-    bool ride_ends_ = true;         ///< the interpolator was flushed
-    Instant last_push_{};           ///< instant of the last push to the interpolator
-    std::deque<Entry> entries_;     ///< front: executing
+    std::int64_t first_block_ = 0;    ///< number of the first of blocks_, as the axes count
+    bool ride_ends_ = true;           ///< the interpolator was flushed
+    Instant last_push_{};             ///< instant of the last push to the interpolator
+    std::deque<QueueEntry> entries_;  ///< front: executing
     std::optional<Cutting> cutting_;
     std::string text_;             ///< text of the last line
     Point read_to_ = {};           ///< end of the last entry

@@ -45,7 +45,7 @@ void StreamExecutor::keep_rest_of_path() {
     }
     for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
-        Entry& entry = entries_.front();
+        QueueEntry& entry = entries_.front();
         entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
         entry.start = place;
         if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)

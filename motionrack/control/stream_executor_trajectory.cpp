@@ -27,19 +27,20 @@ TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
 Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
     if (wish_ != Wish::none) {
         if (!path_begun_) return stand();
-        ride_->rider().hold();
+        ride_->generator().hold();
     } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
         return state_;
     }
     pull_steps();
-    ride_->rider().set_overrides(feed_wanted_, rapid_wanted_);
+    ride_->generator().set_overrides(feed_wanted_, rapid_wanted_);
     if (Result<void> filled = fill_ride(); !filled) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
     if (ride_may_wait(rest_follows)) return state_ = ExecutionState::waiting;
-    const bool late = ride_->rider().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
+    const bool late =
+        ride_->generator().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
     if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
         ride_->flush();
         ride_ends_ = true;
@@ -51,7 +52,7 @@ Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
         Result<ExecutionState> finished = finish_path();
         if (!finished || !more_follows) return finished;
     } else {
-        pop_driven(ride_->rider().first_pending_move());  // dwells of zero duration
+        pop_driven(ride_->generator().first_pending_move());  // dwells of zero duration
     }
     return more_follows ? state_ = ExecutionState::waiting : stand();
 }
@@ -63,9 +64,9 @@ bool StreamExecutor::ride_may_wait(bool rest_follows) const {
 
 Result<void> StreamExecutor::fill_ride() {
     for (; ride_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
-        Entry& entry = entries_[planned_];
+        QueueEntry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
-        entry.number = ride_->rider().pushed();
+        entry.number = ride_->generator().pushed();
         MOTIONRACK_CHECK(ride_->push(entry.step.move, entry.is_overridable()));
         ride_ends_ = false;
         last_push_ = host_.now();

@@ -6,7 +6,7 @@
 namespace motionrack::dds {
 
 Result<void> load_library() {
-    const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_DDS_SONAME).trouble();
+    const std::string& trouble = LateTable<DdsLibrary>::loaded(MOTIONRACK_DDS_SONAME).trouble();
     if (trouble.empty()) return {};
     return fail(ErrorKind::io,
                 fmt::format("The library Cyclone DDS cannot be loaded: {}. No bus was opened; install it (on Debian "
@@ -14,8 +14,8 @@ Result<void> load_library() {
                             trouble));
 }
 
-const Library& library() {
-    const LateTable<Library>& loaded = LateTable<Library>::loaded(MOTIONRACK_DDS_SONAME);
+const DdsLibrary& library() {
+    const LateTable<DdsLibrary>& loaded = LateTable<DdsLibrary>::loaded(MOTIONRACK_DDS_SONAME);
     MOTIONRACK_ASSERT(loaded.trouble().empty());
     return loaded.table();
 }

@@ -18,7 +18,7 @@
 namespace motionrack::dds {
 
 /// The library functions that this module uses.
-struct Library {
+struct DdsLibrary {
 #define MOTIONRACK_DDS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_DDS_FUNCTIONS(MOTIONRACK_DDS_MEMBER)
 #undef MOTIONRACK_DDS_MEMBER
@@ -32,7 +32,7 @@ struct Library {
 /// Loads the library. Errors: io, it is not installed. A loaded library stays loaded.
 Result<void> load_library();
 /// Requires load_library().
-const Library& library();
+const DdsLibrary& library();
 
 }  // namespace motionrack::dds
 

@@ -12,7 +12,7 @@ constexpr const char* names[event_kinds] = {
     "wrong_crc", "foreign", "malformed", "wrong_words", "conflict", "conflict_over", "restart", "takeover"};
 
 /// Makes a source's text printable: it may contain arbitrary bytes from the network.
-std::string printable(const Source& source) {
+std::string printable(const PublisherIdentity& source) {
     std::string out = source.text();
     for (char& c : out)
         if (c < ' ' || c > '~') c = '?';
@@ -29,7 +29,7 @@ const char* name_of(EventKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-std::string sentence(const Event& e) {
+std::string sentence(const BusEvent& e) {
     const std::string who = printable(e.source);
     switch (e.kind) {
         case EventKind::joined:
@@ -97,7 +97,7 @@ bool EventQueue::open(EventKind kind, Instant now) const {
     return !told_[at] || now - last_[at] >= min_distance;
 }
 
-void EventQueue::put(const Event& event) {
+void EventQueue::put(const BusEvent& event) {
     const auto kind = static_cast<std::size_t>(event.kind);
     told_[kind] = true;
     last_[kind] = event.when;
@@ -105,7 +105,7 @@ void EventQueue::put(const Event& event) {
     ring_[(first_ + count_++) % ring_.size()] = event;
 }
 
-bool EventQueue::take(Event& event) {
+bool EventQueue::take(BusEvent& event) {
     if (count_ == 0) return false;
     event = ring_[first_];
     first_ = (first_ + 1) % ring_.size();

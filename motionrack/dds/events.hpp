@@ -29,17 +29,17 @@ enum class EventKind : std::uint8_t {
 inline constexpr std::size_t event_kinds = 16;
 const char* name_of(EventKind kind);
 
-struct Event {
+struct BusEvent {
     EventKind kind = EventKind::joined;
     Instant when{};
-    Source source, other;      ///< the owner of the bus, and the other source of a conflict, restart or takeover
-    std::uint64_t number = 0;  ///< value in the message: frames lost, N seen, sequence
-    std::uint64_t limit = 0;   ///< N expected, previous sequence
-    std::uint64_t total = 0;   ///< total of this kind
+    PublisherIdentity source, other;  ///< the owner of the bus, and the other source of a conflict, restart or takeover
+    std::uint64_t number = 0;         ///< value in the message: frames lost, N seen, sequence
+    std::uint64_t limit = 0;          ///< N expected, previous sequence
+    std::uint64_t total = 0;          ///< total of this kind
 };
 
 /// The event, its consequence and the remedy.
-std::string sentence(const Event& event);
+std::string sentence(const BusEvent& event);
 
 /// Stores events until they are read; at most one per second of each kind, so a thousand bad frames give one report.
 class EventQueue {
@@ -48,11 +48,11 @@ class EventQueue {
 
     /// True if an event of this kind may be put.
     bool open(EventKind kind, Instant now) const;
-    void put(const Event& event);
-    bool take(Event& event);
+    void put(const BusEvent& event);
+    bool take(BusEvent& event);
 
   private:
-    std::array<Event, 32> ring_;
+    std::array<BusEvent, 32> ring_;
     std::size_t first_ = 0, count_ = 0;
     std::array<Instant, event_kinds> last_{};
     std::array<bool, event_kinds> told_{};

@@ -34,7 +34,7 @@ bool FramePublisher::put(const Frame& frame) {
     }
     publisher_.look();
     if (settings_.report)
-        for (Event event; publisher_.next_event(event);) settings_.report(event);
+        for (BusEvent event; publisher_.next_event(event);) settings_.report(event);
     if (settings_.progress) settings_.progress(publisher_.sent(), monotonic_now() - due);
     outcome_.late = pacer_.late();
     outcome_.slips = pacer_.slips();

@@ -22,7 +22,7 @@ struct PublishingSettings {
     Duration pace = microseconds(200);                                  ///< real time between two frames
     std::uint64_t most = 0;                                             ///< frames to publish; 0: all
     const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame
-    std::function<void(const Event&)> report;                           ///< receives the events of the publisher
+    std::function<void(const BusEvent&)> report;                        ///< receives the events of the publisher
     std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once per frame
 };
 

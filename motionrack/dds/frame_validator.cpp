@@ -32,7 +32,7 @@ EventKind kind_of(Validation verdict) {
     return EventKind::malformed;
 }
 
-bool good_name(const Source& source) {
+bool good_name(const PublisherIdentity& source) {
     const std::string_view name = source.host_name();
     return !name.empty() && name.size() < source.host.size() &&
            std::all_of(name.begin(), name.end(), [](char c) { return c >= ' ' && c <= '~'; });
@@ -189,7 +189,7 @@ Validation FrameValidator::bad(Validation verdict, const Sample& sample, Instant
 }
 
 void FrameValidator::hand_bus_to(const Sample& sample, Instant now) {
-    Event event{
+    BusEvent event{
         EventKind::joined, now, sample.source, source_, sample.frame.words, static_cast<std::uint64_t>(sample.pace), 1};
     if (joined_) {
         const bool same_host = sample.source.host == source_.host;
@@ -210,7 +210,7 @@ void FrameValidator::hand_bus_to(const Sample& sample, Instant now) {
         }
 }
 
-void FrameValidator::note_other(const Source& source, Instant now) {
+void FrameValidator::note_other(const PublisherIdentity& source, Instant now) {
     const auto end = others_.begin() + static_cast<std::ptrdiff_t>(other_count_);
     auto at = std::find_if(others_.begin(), end, [&](const OtherSource& other) { return other.source == source; });
     if (at == end) {

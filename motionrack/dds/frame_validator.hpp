@@ -49,7 +49,7 @@ struct ValidatorSettings {
 
 /// A source that does not own the bus.
 struct OtherSource {
-    Source source;
+    PublisherIdentity source;
     std::uint64_t frames = 0;
     Instant heard{};
     bool in_conflict = false;
@@ -69,7 +69,7 @@ class FrameValidator {
 
     /// True if a source owns the bus; the functions below are valid only then.
     bool joined() const { return joined_; }
-    const Source& source() const { return source_; }
+    const PublisherIdentity& source() const { return source_; }
     const Frame& frame() const { return frame_; }
     Duration period() const { return Duration{period_}; }
     Duration pace() const { return Duration{pace_}; }
@@ -82,7 +82,7 @@ class FrameValidator {
     bool in_conflict() const;
 
     /// Takes the next event; returns false if there is none. If the queue overflows, the newest events are dropped.
-    bool next_event(Event& event) { return events_.take(event); }
+    bool next_event(BusEvent& event) { return events_.take(event); }
 
   private:
     Validation check(const Sample& sample) const;
@@ -90,7 +90,7 @@ class FrameValidator {
     Validation use(const Frame& frame, Instant now);
     Validation bad(Validation verdict, const Sample& sample, Instant now);
     void hand_bus_to(const Sample& sample, Instant now);
-    void note_other(const Source& source, Instant now);
+    void note_other(const PublisherIdentity& source, Instant now);
     void find_conflicts(Instant now);
     void forget_silent(Instant now);
     bool fits(const Frame& before, const Frame& after) const;
@@ -100,7 +100,7 @@ class FrameValidator {
     ValidatorSettings settings_;
     Counts counts_;
     bool joined_ = false, stale_ = true, stale_told_ = false;
-    Source source_;
+    PublisherIdentity source_;
     std::int64_t period_ = 0, pace_ = 0;
     Frame frame_;
     Instant used_at_{}, heard_at_{};

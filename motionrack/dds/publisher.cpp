@@ -71,14 +71,14 @@ class NetworkPublisher final : public Publisher {
         }
     }
 
-    bool next_event(Event& event) override { return events_.take(event); }
+    bool next_event(BusEvent& event) override { return events_.take(event); }
 
   private:
     Sample sample_;
     WireBuffer buffer_;
     EventQueue events_;
     bool in_conflict_ = false;
-    Source other_;
+    PublisherIdentity other_;
     Instant heard_{};
     std::uint64_t conflicts_ = 0;
     Entity participant_, topic_, writer_;

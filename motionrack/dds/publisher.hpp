@@ -25,16 +25,16 @@ class Publisher {
     virtual bool publish(const Frame& frame) = 0;
     /// Checks for other publishers; the `source` of a conflict event is this publisher.
     virtual void look() = 0;
-    virtual bool next_event(Event& event) = 0;
+    virtual bool next_event(BusEvent& event) = 0;
 
-    const Source& source() const { return source_; }
+    const PublisherIdentity& source() const { return source_; }
     std::uint64_t sent() const { return sent_; }
     std::uint64_t unsound() const { return unsound_; }  ///< frames not sent because they were already damaged
     std::uint64_t refused() const { return refused_; }  ///< frames refused by the network
     std::uint64_t foreign_frames() const { return foreign_frames_; }  ///< received from other publishers
 
   protected:
-    Source source_;
+    PublisherIdentity source_;
     std::uint64_t sent_ = 0, unsound_ = 0, refused_ = 0, foreign_frames_ = 0;
 };
 

@@ -20,7 +20,7 @@ class RemoteFeed {
     /// kernel, with the rack's time. A card marks its data stale two periods after its last frame, which is correct if
     /// the rack runs in real time; stale() uses this computer's clock.
     int give(Instant now, const Take& take) {
-        struct Call {
+        struct Delivery {
             const Take& take;
             Instant now;
             int given;

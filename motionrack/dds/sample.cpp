@@ -10,22 +10,22 @@
 
 namespace motionrack::dds {
 
-std::string_view Source::host_name() const {
+std::string_view PublisherIdentity::host_name() const {
     return {host.data(), static_cast<std::size_t>(std::find(host.begin(), host.end(), '\0') - host.begin())};
 }
 
-std::string Source::id_text() const {
+std::string PublisherIdentity::id_text() const {
     std::string out;
     for (const std::uint8_t byte : id) out += fmt::format("{:02x}", byte);
     return out;
 }
 
-std::string Source::text() const {
+std::string PublisherIdentity::text() const {
     return fmt::format("{}, process {}, id {}", host_name(), process, id_text());
 }
 
-Source new_source() {
-    Source out;
+PublisherIdentity new_source() {
+    PublisherIdentity out;
     std::random_device device;
     for (std::uint8_t& byte : out.id) byte = static_cast<std::uint8_t>(device());
     ::gethostname(out.host.data(), out.host.size() - 1);

@@ -18,7 +18,7 @@ namespace motionrack::dds {
 using grating_bus::Frame;
 
 /// A publisher. The random id is drawn when the publisher starts and identifies it; host and process are for readers.
-struct Source {
+struct PublisherIdentity {
     std::array<std::uint8_t, 16> id{};
     std::array<char, 64> host{};  ///< printable, padded with 0
     std::uint32_t process = 0;
@@ -28,18 +28,18 @@ struct Source {
     std::string text() const;
     /// The id as 32 hexadecimal digits.
     std::string id_text() const;
-    friend bool operator==(const Source& a, const Source& b) { return a.id == b.id; }
+    friend bool operator==(const PublisherIdentity& a, const PublisherIdentity& b) { return a.id == b.id; }
 };
 
 /// A new source: a random id, this computer's name and this process.
-Source new_source();
+PublisherIdentity new_source();
 
 inline constexpr std::uint32_t wire_format = 0x4D524702;  ///< "MRG" and the version of sample.idl
 
 /// Trivially copyable; counts and addresses beyond the frame's `words` are undefined.
 struct Sample {
     std::uint32_t format = wire_format;
-    Source source;
+    PublisherIdentity source;
     std::int64_t period = 0;  ///< bus time between two frames, ticks of 0.1 ns
     std::int64_t pace = 0;    ///< real time between two frames, ticks of 0.1 ns
     Frame frame;

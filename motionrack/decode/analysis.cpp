@@ -30,7 +30,8 @@ class ChannelRun {
     ChannelRun(const ChannelLines& lines, const ChannelSettings& settings) : lines_(lines), decoder_(settings) {}
 
     /// Samples from .. to of the block, whose first sample has the number `number`.
-    void feed(const Capture& capture, const Block& block, std::uint64_t number, std::size_t from, std::size_t to) {
+    void feed(const Capture& capture, const SampleBlock& block, std::uint64_t number, std::size_t from,
+              std::size_t to) {
         std::uint64_t known = 0;
         for (const int line : lines_.at)
             if (line >= 0) known = std::max(known, capture.facts(static_cast<std::size_t>(line)).known_from);
@@ -92,9 +93,9 @@ class Run {
 
   private:
     void choose();
-    void feed(const Block& block);
-    void tell_times(const Block& block);
-    std::int64_t ticks_of(const Block& block, std::uint64_t sample) const {
+    void feed(const SampleBlock& block);
+    void tell_times(const SampleBlock& block);
+    std::int64_t ticks_of(const SampleBlock& block, std::uint64_t sample) const {
         return block.times ? block.times[sample - number_] : static_cast<std::int64_t>(sample);
     }
     double seconds_of(std::int64_t ticks) const { return static_cast<double>(ticks) * capture_.tick_s(); }
@@ -131,7 +132,7 @@ void Run::choose() {
     line_from_s_.assign(chosen.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
-void Run::feed(const Block& block) {
+void Run::feed(const SampleBlock& block) {
     if (number_ == 0) first_ = window_begin_ = ticks_of(block, 0);
     std::size_t from = 0;
     while (from < block.samples) {
@@ -154,7 +155,7 @@ void Run::feed(const Block& block) {
 }
 
 /// Converts sample numbers of findings in the block to times while the block is valid.
-void Run::tell_times(const Block& block) {
+void Run::tell_times(const SampleBlock& block) {
     for (ChannelRun& run : runs_) {
         const auto& illegal = run.decoder().illegal_samples();
         while (run.illegal.size() < illegal.size()) {
@@ -211,7 +212,7 @@ Result<Analysis> Run::all() {
     window_ = std::max<std::int64_t>(1, std::llround(ticks));
     choose();
     Analysis out;
-    Block block;
+    SampleBlock block;
     for (;;) {
         MOTIONRACK_TRY(const bool more, capture_.next(block));
         if (!more) break;

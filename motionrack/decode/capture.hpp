@@ -31,7 +31,7 @@ struct CaptureSettings {
 
 /// Samples of the chosen lines. Planes (one per chosen line, bit i of word w is sample 64 w + i) or, from a raw file of
 /// one byte per sample, `bytes`.
-struct Block {
+struct SampleBlock {
     std::size_t samples = 0;
     std::vector<const std::uint64_t*> planes;
     const std::uint8_t* bytes = nullptr;
@@ -66,7 +66,7 @@ class Capture {
     const LineFacts& facts(std::size_t line) const { return facts_[line]; }
 
     /// Returns false at the end; the block is valid until the next call. Errors: invalid_input with its place, io.
-    virtual Result<bool> next(Block& block) = 0;
+    virtual Result<bool> next(SampleBlock& block) = 0;
     /// After the end: place at which the file is truncated, if any.
     const std::optional<Error>& cut() const { return cut_; }
 

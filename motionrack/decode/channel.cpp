@@ -33,7 +33,7 @@ void ChannelDecoder::begin(std::uint64_t a, std::uint64_t b, std::uint64_t z) {
     last_z_ = z;
 }
 
-void ChannelDecoder::bytes(const std::uint8_t* samples, std::size_t size, const Lines& lines) {
+void ChannelDecoder::bytes(const std::uint8_t* samples, std::size_t size, const LineBits& lines) {
     if (size == 0) return;
     for (const int bit : {lines.a, lines.b, lines.z}) MOTIONRACK_ASSERT(bit >= -1 && bit < 8);
     begin(level(*samples, lines.a), level(*samples, lines.b), lines.z < 0 ? 0 : level(*samples, lines.z));

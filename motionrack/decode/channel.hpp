@@ -17,7 +17,7 @@
 namespace motionrack::decode {
 
 /// Bits of a byte, 0 .. 7; z: -1 without an index line.
-struct Lines {
+struct LineBits {
     int a = 0;
     int b = 1;
     int z = -1;
@@ -41,7 +41,7 @@ class ChannelDecoder {
         : settings_(settings), kernels_(&kernels) {}
 
     /// Decodes `size` samples, one per byte.
-    void bytes(const std::uint8_t* samples, std::size_t size, const Lines& lines);
+    void bytes(const std::uint8_t* samples, std::size_t size, const LineBits& lines);
     /// Decodes `size` samples as bit planes: bit i of word w is sample 64 w + i; bits after the last one are ignored. z
     /// may be null.
     void planes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t size);

@@ -72,7 +72,7 @@ class CsvCapture final : public Capture {
     }
     Result<void> read_head(double rate_hz);
     void choose(const std::vector<std::size_t>& signals) override;
-    Result<bool> next(Block& block) override;
+    Result<bool> next(SampleBlock& block) override;
     std::uint64_t bytes_read() const override { return text_.bytes(); }
 
   private:
@@ -271,7 +271,7 @@ Result<void> CsvCapture::take(const Row& row) {
     return {};
 }
 
-Result<bool> CsvCapture::next(Block& block) {
+Result<bool> CsvCapture::next(SampleBlock& block) {
     Row row;
     while (!sampler_.full() && !cut_) {
         if (!waiting_.empty()) {

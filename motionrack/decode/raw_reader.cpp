@@ -29,7 +29,7 @@ class RawCapture final : public Capture {
         tick_s_ = 1 / settings.sample_rate_hz;
         for (int bit = 0; bit < 8 * settings.sample_bytes; ++bit) signals_.push_back(fmt::format("{}", bit));
     }
-    Result<bool> next(Block& block) override;
+    Result<bool> next(SampleBlock& block) override;
     std::uint64_t bytes_read() const override { return read_; }
 
   private:
@@ -59,7 +59,7 @@ void RawCapture::split(std::size_t samples) {
     }
 }
 
-Result<bool> RawCapture::next(Block& block) {
+Result<bool> RawCapture::next(SampleBlock& block) {
     block = {};
     // A multiple of all sample sizes, so only the last piece can end within one.
     const std::size_t wanted = block_bytes / (64 * size_) * (64 * size_);

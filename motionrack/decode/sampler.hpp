@@ -46,7 +46,7 @@ class Sampler {
         times_[size_++] = time;
     }
     /// Returns the collected samples and starts again; `timed`: with the times.
-    void hand_over(Block& block, bool timed) {
+    void hand_over(SampleBlock& block, bool timed) {
         block = {};
         block.samples = size_;
         for (const auto& plane : planes_) block.planes.push_back(plane.data());

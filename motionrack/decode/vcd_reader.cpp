@@ -35,7 +35,7 @@ class VcdCapture final : public Capture {
     }
     Result<void> read_head();
     void choose(const std::vector<std::size_t>& signals) override;
-    Result<bool> next(Block& block) override;
+    Result<bool> next(SampleBlock& block) override;
     std::uint64_t bytes_read() const override { return text_.bytes(); }
 
   private:
@@ -286,7 +286,7 @@ void VcdCapture::end() {
     if (begun_ || changed_) sampler_.take(now_);
 }
 
-Result<bool> VcdCapture::next(Block& block) {
+Result<bool> VcdCapture::next(SampleBlock& block) {
     std::string_view word;
     while (!ended_ && !sampler_.full()) {
         if (!text_.word(word)) {

@@ -166,7 +166,7 @@ int GrblSession::unlock() {
     if (!control()) return error_locked;
     if (machine_.state() == MachineState::error_stop) machine_.reset();  // after a STOP; others need the sender's reset
     alarm_ = stopped_ = false;
-    doing_ = Doing{Doing::What::unlocking};
+    doing_ = PendingLine{PendingLine::What::unlocking};
     return answer_later;
 }
 
@@ -185,7 +185,7 @@ int GrblSession::home() {
         return error_locked;
     }
     stopped_ = false;
-    doing_ = Doing{Doing::What::homing};
+    doing_ = PendingLine{PendingLine::What::homing};
     return answer_later;
 }
 

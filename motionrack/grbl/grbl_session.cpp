@@ -145,7 +145,7 @@ int GrblSession::gcode(const std::string& text) {
     }
     const bool probes = machine_.stream().probe_pending();
     if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
-    doing_ = Doing{Doing::What::moving};
+    doing_ = PendingLine{PendingLine::What::moving};
     doing_->program_ends = ends;
     return answer_later;
 }
@@ -169,7 +169,7 @@ control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::in
 int GrblSession::refused(const Problem& problem) {
     if (problem.status == GrblStatus::travel_exceeded) {
         if (!check_ && machine_.state() == MachineState::moving) machine_.cancel();
-        doing_ = Doing{Doing::What::leaving_travel};
+        doing_ = PendingLine{PendingLine::What::leaving_travel};
         return answer_later;
     }
     if (problem.status == GrblStatus::none && !problem.message.empty()) say(problem.message);
@@ -207,7 +207,7 @@ void GrblSession::lock(std::string_view why) {
     held_ = door_ = hold_seen_ = false;
     n_words_.clear();
     const bool alarms_later =
-        doing_ && (doing_->what == Doing::What::homing || doing_->what == Doing::What::leaving_travel);
+        doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
     if (!locked_before && !alarms_later) put(fmt::format("ALARM:{}\r\n", int{alarm_reset}));
     say(why);
     if (doing_ && !alarms_later) finish_answer(error_locked);
@@ -218,19 +218,19 @@ void GrblSession::lock(std::string_view why) {
 /// Returns true if the previous line is finished.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
-    if (critical_ || (state == MachineState::error_stop && doing_->what != Doing::What::homing)) return false;
+    if (critical_ || (state == MachineState::error_stop && doing_->what != PendingLine::What::homing)) return false;
     const bool stands = settled() && state != MachineState::moving && state != MachineState::hold;
     if (!stands) return false;
     switch (doing_->what) {
-        case Doing::What::moving:
+        case PendingLine::What::moving:
             if (doing_->program_ends) end_program();
             break;
-        case Doing::What::leaving_travel:
+        case PendingLine::What::leaving_travel:
             alarm(alarm_soft_limit, true);
             return false;
-        case Doing::What::homing:
+        case PendingLine::What::homing:
             return finish_homing();
-        case Doing::What::unlocking:
+        case PendingLine::What::unlocking:
             if (!std::exchange(doing_->declared, true)) {
                 (void)machine_.enable(true);
                 declare_positions();

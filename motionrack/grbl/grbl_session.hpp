@@ -76,7 +76,7 @@ class GrblSession {
 
   private:
     /// An executed line whose answer is pending.
-    struct Doing {
+    struct PendingLine {
         enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
         bool silent = false;  ///< its connection has closed
         bool program_ends = false;
@@ -153,7 +153,7 @@ class GrblSession {
     std::string build_text_, out_;
     InputParser intake_;
     std::optional<Line> line_;  ///< next line, while it has to wait
-    std::optional<Doing> doing_;
+    std::optional<PendingLine> doing_;
     std::optional<control::gcode::Interpreter> check_;  ///< check mode
     std::int32_t line_number_ = 0;
     std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< N words of lines that are not executed yet

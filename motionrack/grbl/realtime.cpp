@@ -192,7 +192,7 @@ void GrblSession::watch_machine() {
     if (state != MachineState::error_stop) {
         stop_told_ = false;
     } else if (!std::exchange(stop_told_, true) && !(stopped_ && !has_alarm(machine_)) &&
-               !(doing_ && doing_->what == Doing::What::homing)) {
+               !(doing_ && doing_->what == PendingLine::What::homing)) {
         held_ = door_ = hold_seen_ = false;
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),

@@ -47,11 +47,11 @@ class Database {
     std::string what() const { return sqlite3_errmsg(database_.get()); }
 
   private:
-    struct Close {
+    struct CloseDatabase {
         void operator()(sqlite3* one) const { sqlite3_close(one); }
     };
     explicit Database(sqlite3* database) : database_(database) {}
-    std::unique_ptr<sqlite3, Close> database_;
+    std::unique_ptr<sqlite3, CloseDatabase> database_;
 };
 
 }  // namespace motionrack::journal

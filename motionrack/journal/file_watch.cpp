@@ -14,7 +14,7 @@ void FileWatch::add(const std::string& path) {
 }
 
 Result<void> FileWatch::check() {
-    for (Watched& one : files_) {
+    for (WatchedFile& one : files_) {
         struct stat seen {};
         const auto gone = [&](const std::string& what) {
             return fail(ErrorKind::io, fmt::format("is lost: the file '{}' {}", one.path, what));

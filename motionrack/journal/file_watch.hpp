@@ -17,13 +17,13 @@ class FileWatch {
     Result<void> check();
 
   private:
-    struct Watched {
+    struct WatchedFile {
         std::string path;
         dev_t device = 0;
         ino_t inode = 0;
         off_t size = 0;  ///< largest size seen: these files only grow
     };
-    std::vector<Watched> files_;
+    std::vector<WatchedFile> files_;
 };
 
 }  // namespace motionrack::journal

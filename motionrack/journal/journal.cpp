@@ -200,7 +200,7 @@ void Journal::keep(std::string key, std::string value) {
 
 void Journal::work() {
     for (;;) {
-        std::vector<Waiting> entries;
+        std::vector<PendingEntry> entries;
         std::map<std::string, std::string> kept;
         {
             std::unique_lock<std::mutex> guard(alone_);
@@ -223,7 +223,7 @@ void Journal::work() {
             failed(stored.error().message);
         }
         if (stored && !entries.empty()) keep_quota(entries.back().entry.at);
-        for (const Waiting& one : entries)
+        for (const PendingEntry& one : entries)
             if (one.done) one.done(stored ? Result<std::int64_t>(one.entry.number) : fail(ErrorKind::io, failure()));
     }
 }
@@ -252,14 +252,14 @@ std::string Journal::failure() const {
     return failure_;
 }
 
-Result<void> Journal::store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept) {
+Result<void> Journal::store(std::vector<PendingEntry>& entries, const std::map<std::string, std::string>& kept) {
     const auto failed = [this] { return fail(ErrorKind::io, writer_->what()); };
     MOTIONRACK_CHECK(writer_->run("BEGIN IMMEDIATE"));
     Statement insert(writer_->get(),
                      "INSERT INTO entry (number, run, utc_ms, at, kind, text, data, link) VALUES (?1, ?2, ?3, ?4, ?5, "
                      "?6, ?7, ?8)");
     ChainEnd head{last_number_, last_link_};
-    for (Waiting& one : entries) {
+    for (PendingEntry& one : entries) {
         Entry& entry = one.entry;
         entry.number = ++head.number;
         head.link = link_of(head.link, entry);

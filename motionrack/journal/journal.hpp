@@ -111,7 +111,7 @@ class Journal {
     static constexpr std::size_t max_waiting = 100'000;
 
   private:
-    struct Waiting {
+    struct PendingEntry {
         Entry entry;
         Done done;
     };
@@ -124,7 +124,7 @@ class Journal {
     bool end_work();
     void failed(const std::string& what);
     void keep_quota(Instant at);
-    Result<void> store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept);
+    Result<void> store(std::vector<PendingEntry>& entries, const std::map<std::string, std::string>& kept);
 
     std::string path_;
     JournalSettings settings_;
@@ -140,7 +140,7 @@ class Journal {
     mutable std::mutex reading_;
     mutable std::mutex alone_;
     std::condition_variable news_;
-    std::vector<Waiting> waiting_;
+    std::vector<PendingEntry> waiting_;
     std::map<std::string, std::string> keeping_;
     bool quit_ = false;
     std::string failure_;

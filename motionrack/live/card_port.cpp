@@ -9,7 +9,7 @@ namespace motionrack::live {
 
 namespace {
 
-constexpr std::uint16_t empty_slot = 0xFFFF;  ///< of a bus on which no card answers
+constexpr std::uint16_t empty_slot = 0xFFFF;  ///< a bus on which no card answers reads so
 
 }  // namespace
 

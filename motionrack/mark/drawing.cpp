@@ -129,8 +129,8 @@ std::size_t segment_count(const Drawing& drawing, double tolerance_mm) {
     return out;
 }
 
-std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance_mm) {
-    std::vector<parts::Segment> out;
+std::vector<parts::DrawnSegment> segments_of(const Drawing& drawing, double tolerance_mm) {
+    std::vector<parts::DrawnSegment> out;
     for (const Stroke& stroke : drawing.strokes) {
         Spot at = stroke.from;
         for (const Element& e : stroke.elements) {
@@ -154,10 +154,10 @@ std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance
 }
 
 Box box_of(const Drawing& drawing) {
-    const std::vector<parts::Segment> segments = segments_of(drawing, default_tolerance_mm);
+    const std::vector<parts::DrawnSegment> segments = segments_of(drawing, default_tolerance_mm);
     if (segments.empty()) return {};
     Box out{segments[0].from, segments[0].from};
-    for (const parts::Segment& s : segments)
+    for (const parts::DrawnSegment& s : segments)
         for (const Spot& p : {s.from, s.to}) {
             out.low = {std::min(out.low.x, p.x), std::min(out.low.y, p.y)};
             out.high = {std::max(out.high.x, p.x), std::max(out.high.y, p.y)};

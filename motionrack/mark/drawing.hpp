@@ -78,7 +78,7 @@ class Pen {
 Drawing transformed(const Drawing& drawing, const Affine& transform, double tolerance_mm = default_tolerance_mm);
 inline constexpr double fine_tolerance_mm = 0.0002;  ///< for comparison with marks
 /// Returns the drawing as straight segments, with arcs within the tolerance.
-std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
+std::vector<parts::DrawnSegment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 /// Number of these segments.
 std::size_t segment_count(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 

@@ -214,7 +214,8 @@ bool MarkingHost::some_lost() const {
     return std::any_of(runs_.begin(), runs_.end(), [](const PartRun& run) { return run.fate == StartFate::busy; });
 }
 
-Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch) {
+Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done,
+                              const RunObserver& watch) {
     for (std::int64_t looked = card_.tick();;) {
         const auto edge = [&] { return next_edge_ < edges_.size() ? begin_ + edges_[next_edge_] : std::int64_t{-1}; };
         while (edge() == card_.tick()) waiting_.push_back(next_edge_++), card_.external_start();

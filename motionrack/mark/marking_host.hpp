@@ -16,7 +16,7 @@
 
 namespace motionrack::mark {
 
-struct Watch {
+struct RunObserver {
     std::function<void(double part)> progress;  ///< 0 .. 1
     std::function<bool()> stop;                 ///< polled; true cancels
 };
@@ -61,7 +61,7 @@ class MarkingHost final : rtc5::ListListener {
 
     /// Runs until all parts have passed and the card is idle. Calls `done` periodically with the belt tick.
     /// Errors: refused if it takes longer than max_seconds; stopped.
-    Result<void> run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch);
+    Result<void> run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const RunObserver& watch);
 
     rtc5::Engine& card() { return card_; }
     /// Tick of the card at which the belt time is 0.

@@ -31,7 +31,7 @@ const rtc5::BitInfo& info_of(const Edge& edge) {
 void OverflowLog::block(const rtc5::Samples& s) {
     const bool any_open = std::any_of(edges_.begin(), edges_.end(), [](const Open& e) { return e.open; });
     if (s.corrected_x.empty()) return any_open ? finish(s.first) : void();
-    const rtc5::Extent e = rtc5::kernels::extent(s.corrected_x.data(), s.corrected_y.data(), s.corrected_x.size());
+    const rtc5::PlanExtent e = rtc5::kernels::extent(s.corrected_x.data(), s.corrected_y.data(), s.corrected_x.size());
     const bool inside = std::all_of(edges.begin(), edges.end(), [&](const Edge& edge) {
         return edge.beyond(edge.upper ? rtc5::Point{e.max_x, e.max_y} : rtc5::Point{e.min_x, e.min_y}) <= 0;
     });

@@ -47,10 +47,10 @@ double size_of(const Box& box) {
 }
 
 /// Returns the nearest point of the drawing.
-Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
+Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
     Spot best = p;
     double least = std::numeric_limits<double>::infinity();
-    for (const parts::Segment& s : segments) {
+    for (const parts::DrawnSegment& s : segments) {
         const Spot way{s.to.x - s.from.x, s.to.y - s.from.y};
         const double length2 = way.x * way.x + way.y * way.y;
         const double t =
@@ -65,22 +65,22 @@ Spot nearest_point(std::span<const parts::Segment> segments, Spot p) {
 constexpr std::size_t max_parts = 24;  ///< per picture
 
 /// Parts side by side, or around their table.
-std::vector<Node> side_by_side(const Marked& marked, const auto& nodes_of_part) {
-    std::vector<Node> out;
+std::vector<StrokePoint> side_by_side(const Marked& marked, const auto& nodes_of_part) {
+    std::vector<StrokePoint> out;
     for (std::size_t i = 0; i < std::min(marked.parts.size(), max_parts); ++i)
-        for (const Node& node : nodes_of_part(marked.parts[i]))
+        for (const StrokePoint& node : nodes_of_part(marked.parts[i]))
             out.push_back({marked.parts[i].shown(node.at), node.first});
     return out;
 }
-std::vector<Node> marks_of(const Marked& marked, const PartMarked& part) {
+std::vector<StrokePoint> marks_of(const Marked& marked, const PartMarked& part) {
     return nodes_of(std::span(marked.points).subspan(part.first_point, part.points));
 }
-std::vector<Node> marks_of(const Marked& marked) {
+std::vector<StrokePoint> marks_of(const Marked& marked) {
     return side_by_side(marked, [&](const PartMarked& part) { return marks_of(marked, part); });
 }
-std::vector<Node> drawings_of(const Prepared& prepared, const Marked& marked) {
+std::vector<StrokePoint> drawings_of(const Prepared& prepared, const Marked& marked) {
     return side_by_side(marked, [&](const PartMarked& part) {
-        return nodes_of(std::span<const parts::Segment>(prepared.of(part.drawing).segments));
+        return nodes_of(std::span<const parts::DrawnSegment>(prepared.of(part.drawing).segments));
     });
 }
 /// Part with the maximum deviation.
@@ -98,12 +98,12 @@ std::string of_part(const Marked& marked) {
 struct Scene {
     const Prepared& prepared;
     const MarkingOutcome& out;
-    std::vector<Node> drawing;
+    std::vector<StrokePoint> drawing;
     Box box{};  ///< bounds of drawing and marks
 
     Scene(const Prepared& p, const MarkingOutcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
         if (drawing.empty()) return;
-        box = mark::box_of(std::span<const Node>(drawing));
+        box = mark::box_of(std::span<const StrokePoint>(drawing));
         const Box most = grown(box, 3 * size_of(box));
         for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
             if (m != nullptr && !m->points.empty()) box = joined(box, mark::box_of(marks_of(*m)));
@@ -171,10 +171,10 @@ Part field_of(const Scene& scene) {
                   room.mm >= 0 ? fmt::format("{} left at the {} edge", shown_length(room.mm), room.edge)
                                : fmt::format("{} too far over the {} edge", shown_length(-room.mm), room.edge)};
     const Plot plot(joined(out.field, out.on.reach), part.width, part.height, 16);
-    std::vector<Node> marks, jumps;
+    std::vector<StrokePoint> marks, jumps;
     for (std::size_t i = 1; i < out.on.course.size(); ++i) {
         const FieldSample &a = out.on.course[i - 1], &b = out.on.course[i];
-        std::vector<Node>& row = b.gate > 0 ? marks : jumps;
+        std::vector<StrokePoint>& row = b.gate > 0 ? marks : jumps;
         const bool goes_on = !row.empty() && row.back().at.x == a.at.x && row.back().at.y == a.at.y;
         if (!goes_on) row.push_back({a.at, true});
         row.push_back({b.at, false});
@@ -193,7 +193,7 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
     const double reach = std::max(d.worst_mm * 2, 2e-4);
     if (d.worst_mm <= 0 || reach > size_of(scene.box) / 8) return part;
     const PartMarked& worst = marked.parts[worst_part(marked)];
-    const std::vector<parts::Segment>& segments = scene.prepared.of(worst.drawing).segments;
+    const std::vector<parts::DrawnSegment>& segments = scene.prepared.of(worst.drawing).segments;
     const Spot on = nearest_point(segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
     part.height = 300;
     const Plot plot(grown({middle, middle}, reach), part.width, part.height);
@@ -201,7 +201,7 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
     part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y,
                               of_part(marked)),
                   fmt::format("marked at {:.5f} s", d.worst_s)};
-    part.body = plot.strokes(nodes_of(std::span<const parts::Segment>(segments)), "planned") +
+    part.body = plot.strokes(nodes_of(std::span<const parts::DrawnSegment>(segments)), "planned") +
                 plot.strokes(marks_of(marked, worst), look) + plot.line(on, d.worst_at, "off-by") +
                 plot.ring(d.worst_at) + plot.scale_bar();
     return part;

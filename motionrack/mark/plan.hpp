@@ -11,7 +11,7 @@ namespace motionrack::mark {
 
 struct PartDrawing {
     Drawing drawing;
-    std::vector<parts::Segment> segments;  ///< the drawing as straight segments
+    std::vector<parts::DrawnSegment> segments;  ///< the drawing as straight segments
 };
 
 /// Prepared input of a job for any number of runs. It is itself the drawing of the first part.

@@ -42,17 +42,17 @@ bool clip(const Box& box, Spot& a, Spot& b) {
 
 }  // namespace
 
-std::vector<Node> nodes_of(std::span<const parts::Segment> segments) {
-    std::vector<Node> out;
-    for (const parts::Segment& s : segments) {
+std::vector<StrokePoint> nodes_of(std::span<const parts::DrawnSegment> segments) {
+    std::vector<StrokePoint> out;
+    for (const parts::DrawnSegment& s : segments) {
         if (out.empty() || s.from.x != out.back().at.x || s.from.y != out.back().at.y) out.push_back({s.from, true});
         out.push_back({s.to, false});
     }
     return out;
 }
 
-std::vector<Node> nodes_of(std::span<const parts::MarkedPoint> points) {
-    std::vector<Node> out;
+std::vector<StrokePoint> nodes_of(std::span<const parts::MarkedPoint> points) {
+    std::vector<StrokePoint> out;
     out.reserve(points.size());
     for (const parts::MarkedPoint& p : points) out.push_back({p.at, p.first});
     return out;
@@ -63,9 +63,9 @@ Box joined(const Box& a, const Box& b) {
             {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
 }
 
-Box box_of(std::span<const Node> nodes) {
+Box box_of(std::span<const StrokePoint> nodes) {
     Box out{nodes[0].at, nodes[0].at};
-    for (const Node& n : nodes) out = joined(out, {n.at, n.at});
+    for (const StrokePoint& n : nodes) out = joined(out, {n.at, n.at});
     return out;
 }
 
@@ -82,10 +82,10 @@ Plot::Plot(const Box& box, int width, int height, double margin) : width_(width)
     low_ = {(box.low.x + box.high.x) / 2 - width / scale_ / 2, (box.low.y + box.high.y) / 2 - height / scale_ / 2};
 }
 
-std::vector<Node> Plot::clipped(std::span<const Node> nodes) const {
+std::vector<StrokePoint> Plot::clipped(std::span<const StrokePoint> nodes) const {
     const double wide = width_ / scale_, high = height_ / scale_;
     const Box window{{low_.x - wide / 4, low_.y - high / 4}, {low_.x + wide * 1.25, low_.y + high * 1.25}};
-    std::vector<Node> out;
+    std::vector<StrokePoint> out;
     for (std::size_t i = 1; i < nodes.size(); ++i) {
         if (nodes[i].first) continue;
         Spot a = nodes[i - 1].at, b = nodes[i].at;
@@ -97,8 +97,8 @@ std::vector<Node> Plot::clipped(std::span<const Node> nodes) const {
     return out;
 }
 
-std::string Plot::strokes(std::span<const Node> nodes, const char* look) const {
-    const std::vector<Node> seen = clipped(nodes);
+std::string Plot::strokes(std::span<const StrokePoint> nodes, const char* look) const {
+    const std::vector<StrokePoint> seen = clipped(nodes);
     std::vector<trace::PathPoint> points;
     std::vector<bool> ends;
     points.reserve(seen.size());
@@ -137,13 +137,13 @@ std::string Plot::grid() const {
 }
 
 std::string Plot::outline(const Box& box, const char* look) const {
-    const std::vector<Node> corners = {
+    const std::vector<StrokePoint> corners = {
         {box.low, true}, {{box.high.x, box.low.y}}, {box.high}, {{box.low.x, box.high.y}}, {box.low}};
     return strokes(corners, look);
 }
 
 std::string Plot::line(Spot from, Spot to, const char* look) const {
-    const std::vector<Node> ends = {{from, true}, {to}};
+    const std::vector<StrokePoint> ends = {{from, true}, {to}};
     return strokes(ends, look);
 }
 

@@ -10,16 +10,16 @@
 namespace motionrack::mark {
 
 /// Point of a row of strokes.
-struct Node {
+struct StrokePoint {
     Spot at;
     bool first = false;  ///< a stroke starts here
 };
-std::vector<Node> nodes_of(std::span<const parts::Segment> segments);
-std::vector<Node> nodes_of(std::span<const parts::MarkedPoint> points);
+std::vector<StrokePoint> nodes_of(std::span<const parts::DrawnSegment> segments);
+std::vector<StrokePoint> nodes_of(std::span<const parts::MarkedPoint> points);
 
 /// Returns the bounding box of both.
 Box joined(const Box& a, const Box& b);
-Box box_of(std::span<const Node> nodes);  ///< requires at least one
+Box box_of(std::span<const StrokePoint> nodes);  ///< requires at least one
 
 class Plot {
   public:
@@ -34,7 +34,7 @@ class Plot {
 
     /// Grid lines at steps of 1, 2 or 5, with labels in mm.
     std::string grid() const;
-    std::string strokes(std::span<const Node> nodes, const char* look) const;
+    std::string strokes(std::span<const StrokePoint> nodes, const char* look) const;
     std::string outline(const Box& box, const char* look) const;
     std::string line(Spot from, Spot to, const char* look) const;
     std::string ring(Spot at) const;
@@ -42,7 +42,7 @@ class Plot {
     std::string scale_bar() const;
 
   private:
-    std::vector<Node> clipped(std::span<const Node> nodes) const;
+    std::vector<StrokePoint> clipped(std::span<const StrokePoint> nodes) const;
 
     Spot low_;  // mm at the lower left corner
     int width_, height_;

@@ -51,12 +51,12 @@ struct Quick {
     bool fits() const { return beyond_mm <= 0 && !some_lost; }
 };
 
-Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double factor, const Watch& watch) {
+Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double factor, const RunObserver& watch) {
     MOTIONRACK_TRY(const std::unique_ptr<MarkingHost> line,
                    MarkingHost::make(job, prepared, following_of(job, factor)));
     MOTIONRACK_CHECK(line->run(nullptr, {}, watch));
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
-    const rtc5::Extent& e = line->card().extent();
+    const rtc5::PlanExtent& e = line->card().extent();
     if (!e.empty())
         out.beyond_mm = std::max({rtc5::field_least - e.min_x, rtc5::field_least - e.min_y,
                                   e.max_x - rtc5::field_greatest, e.max_y - rtc5::field_greatest}) /
@@ -70,7 +70,7 @@ constexpr double marked_at = 0.9;
 /// Maximum velocity factor at which everything fits.
 class FitSearch {
   public:
-    FitSearch(const MarkingJob& job, const Prepared& prepared, const Watch& watch)
+    FitSearch(const MarkingJob& job, const Prepared& prepared, const RunObserver& watch)
         : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, MarkingOutcome& out) {
@@ -120,12 +120,12 @@ class FitSearch {
 
     const MarkingJob& job_;
     const Prepared& prepared_;
-    const Watch& watch_;
+    const RunObserver& watch_;
     double tried_ = 0;
 };
 
 Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
-                         double expected_ticks, const std::function<void(double)>& progress, const Watch& watch) {
+                         double expected_ticks, const std::function<void(double)>& progress, const RunObserver& watch) {
     parts::StationSettings settings;
     settings.galvo = job.galvo;
     settings.lens = prepared.lens;
@@ -161,7 +161,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
                 : 0;
     out.marked_mm = station.workpiece().length_mm();
     out.energy_j = station.workpiece().energy_j();
-    const rtc5::Extent& e = card.extent();
+    const rtc5::PlanExtent& e = card.extent();
     const double k = prepared.bits_per_mm;
     out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.min_x / k, e.min_y / k}, {e.max_x / k, e.max_y / k}};
     out.course = sink.take_course();
@@ -192,7 +192,7 @@ Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const Mark
 
 }  // namespace
 
-Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const Watch& watch) {
+Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const RunObserver& watch) {
     MarkingOutcome out;
     out.notes = prepared.notes;
     out.drawing_mm = length_of(prepared.drawing);

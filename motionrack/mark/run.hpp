@@ -94,6 +94,6 @@ struct MarkingOutcome {
 };
 
 /// Errors: as MarkingHost; refused if the belt is too fast for waits.
-Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const Watch& watch = {});
+Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const RunObserver& watch = {});
 
 }  // namespace motionrack::mark

@@ -31,7 +31,7 @@ struct Reach {
 template <class Take>
 void each_point(const Stroke& stroke, const Take& take) {
     take(stroke.from);
-    for (const parts::Segment& s : segments_of({{stroke}}, default_tolerance_mm)) take(s.to);
+    for (const parts::DrawnSegment& s : segments_of({{stroke}}, default_tolerance_mm)) take(s.to);
 }
 
 Reach reach_of(const Stroke& stroke, Spot direction) {

@@ -69,8 +69,8 @@ class Gatherer {
     }
 
     Result<bool> take(std::int64_t wait_ms) {
-        MOTIONRACK_TRY(const std::vector<Answer> answers, queue_.answers(name_, wait_ms));
-        for (const Answer& answer : answers) {
+        MOTIONRACK_TRY(const std::vector<PointResult> answers, queue_.answers(name_, wait_ms));
+        for (const PointResult& answer : answers) {
             const auto point = points_.find(answer.key);
             if (point == points_.end() || results_.has(point->second)) continue;
             Result<sweep::Row> row = read_answer(answer.text);

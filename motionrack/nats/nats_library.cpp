@@ -6,7 +6,7 @@
 namespace motionrack::nats {
 
 Result<void> load_library() {
-    const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_NATS_SONAME).trouble();
+    const std::string& trouble = LateTable<NatsLibrary>::loaded(MOTIONRACK_NATS_SONAME).trouble();
     if (trouble.empty()) return {};
     return fail(ErrorKind::io,
                 fmt::format("The library of NATS cannot be loaded: {}. Nothing was queued; install it (on Debian "
@@ -14,8 +14,8 @@ Result<void> load_library() {
                             trouble));
 }
 
-const Library& library() {
-    const LateTable<Library>& loaded = LateTable<Library>::loaded(MOTIONRACK_NATS_SONAME);
+const NatsLibrary& library() {
+    const LateTable<NatsLibrary>& loaded = LateTable<NatsLibrary>::loaded(MOTIONRACK_NATS_SONAME);
     MOTIONRACK_ASSERT(loaded.trouble().empty());
     return loaded.table();
 }

@@ -23,7 +23,7 @@
 namespace motionrack::nats {
 
 /// Functions of the library that are used here.
-struct Library {
+struct NatsLibrary {
 #define MOTIONRACK_NATS_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_NATS_FUNCTIONS(MOTIONRACK_NATS_MEMBER)
 #undef MOTIONRACK_NATS_MEMBER
@@ -37,7 +37,7 @@ struct Library {
 /// Errors: io if the library is not installed. Once loaded, it stays loaded.
 Result<void> load_library();
 /// Requires load_library().
-const Library& library();
+const NatsLibrary& library();
 
 }  // namespace motionrack::nats
 

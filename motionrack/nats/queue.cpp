@@ -126,8 +126,8 @@ class JetStreamQueue final : public Queue {
         return put(points_subject(sweep, key), text, "A point cannot be queued");
     }
 
-    Result<std::vector<Answer>> answers(const std::string& sweep, std::int64_t wait_ms) override {
-        std::vector<Answer> out;
+    Result<std::vector<PointResult>> answers(const std::string& sweep, std::int64_t wait_ms) override {
+        std::vector<PointResult> out;
         if (!answers_) {
             const std::string subject = rows_subject(sweep, "*");
             jsSubOptions options;

@@ -29,7 +29,7 @@ inline constexpr std::int64_t silence_ms = 5000;
 inline constexpr std::int64_t kept_days = 7;
 
 /// Message with the result of a point.
-struct Answer {
+struct PointResult {
     std::string key, text;
 };
 
@@ -63,7 +63,7 @@ class Queue {
     virtual Result<void> offer(const std::string& sweep, const std::string& key, std::string_view text) = 0;
     /// Returns the next answers of this sweep, starting with the oldest on the server; waits at most `wait_ms` for one.
     /// Errors: io.
-    virtual Result<std::vector<Answer>> answers(const std::string& sweep, std::int64_t wait_ms) = 0;
+    virtual Result<std::vector<PointResult>> answers(const std::string& sweep, std::int64_t wait_ms) = 0;
     /// Removes the remaining data of a sweep, or of one of its points. Errors: io.
     virtual Result<void> forget(const std::string& sweep, const std::string& key = "*") = 0;
     /// Returns true if the server was unreachable since the last call. Data may be lost then, and answers() starts

@@ -173,7 +173,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
     program_ = std::move(text);
     program_name_ = std::move(name);
-    walk_.emplace(program_, stream_->fresh_settings(), program_name_);
+    program_flow_.emplace(program_, stream_->fresh_settings(), program_name_);
     over_ = false;
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
@@ -233,7 +233,7 @@ void Machine::stop(const StopOrigin& by) {
 
 void Machine::cancel(const StopOrigin& by) {
     const StopReport report = stop_report(now(), by, state_, at_work());
-    walk_.reset();
+    program_flow_.reset();
     over_ = false;
     program_runs_ = false;
     stream_->stop();

@@ -210,7 +210,7 @@ class Machine {
     std::string ordered_by_;                     ///< description of the stop command in force; empty: none
     // program, or single lines
     std::string program_, program_name_;
-    std::optional<control::gcode::ProgramFlow> walk_;
+    std::optional<control::gcode::ProgramFlow> program_flow_;
     bool over_ = false;  ///< the last line was read, but motion that waits for a next line is pending
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_block_ = false;

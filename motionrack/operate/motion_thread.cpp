@@ -152,7 +152,8 @@ void Machine::step() {
     for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running) return drive();
+    if (program_flow_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running)
+        return drive();
     if (stop_wanted_) return wait_for_standstill();
     if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
         const rack::StopLatch& latch = rack_.stop_latch();
@@ -212,12 +213,13 @@ void Machine::wait_for_standstill() {
 
 void Machine::feed_program() {
     std::string_view text;
-    while (walk_ && stream_->has_room()) {
-        if (walk_->next(text)) {
-            if (const auto read = stream_->line(text, walk_->number(), *walk_); !read) return failed(read.error());
+    while (program_flow_ && stream_->has_room()) {
+        if (program_flow_->next(text)) {
+            if (const auto read = stream_->line(text, program_flow_->number(), *program_flow_); !read)
+                return failed(read.error());
             continue;
         }
-        walk_.reset();
+        program_flow_.reset();
         over_ = true;
     }
     if (!over_ || !stream_->has_room()) return;
@@ -228,7 +230,7 @@ void Machine::feed_program() {
 void Machine::drive() {
     feed_program();
     if (state_ == MachineState::error_stop) stream_->stop();  // discards what it has, so that no step waits for it
-    const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
+    const bool more = program_flow_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
     if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a stop by a card also ends a hold
@@ -245,7 +247,7 @@ void Machine::drive() {
             host_of(rack_).pass(settings_.slice);
             break;
         case control::ExecutionState::idle:
-            if (walk_ || over_) break;
+            if (program_flow_ || over_) break;
             if (program_runs_) stream_->reset_after_program();
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
@@ -316,7 +318,7 @@ std::string Machine::at_work() const {
 
 void Machine::failed(const Error& error) {
     const std::string what = at_work();
-    walk_.reset();
+    program_flow_.reset();
     over_ = false;
     program_runs_ = false;
     const rack::StopLatch& latch = rack_.stop_latch();

@@ -78,7 +78,7 @@ Result<void> Service::end(Told ready) {
     return {};
 }
 
-Result<void> Service::call(Call call, const StopOrigin& by, const std::string& session, Answered ready) {
+Result<void> Service::call(FunctionCall call, const StopOrigin& by, const std::string& session, Answered ready) {
     MOTIONRACK_TRY(const std::span<const FunctionInfo> functions, library_of(machine_.rack_, call.card));
     MOTIONRACK_TRY(CheckedCall checked, check_call(functions, call.function, call.arguments));
     if (on() && call.card != card_)

@@ -30,7 +30,7 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
 /// Used only by the motion thread: commands record requests, step() executes them.
 class Service {
   public:
-    struct Call {
+    struct FunctionCall {
         std::string card, function;
         std::map<std::string, std::int64_t, std::less<>> arguments;
     };
@@ -52,7 +52,7 @@ class Service {
     /// Requests one function call: checked now, executed by the loop; `ready` receives the result. Refused: no service
     /// of a card that moves axes of the machine, another card's service, a running call. Errors: invalid_input,
     /// refused.
-    Result<void> call(Call call, const StopOrigin& by, const std::string& session, Answered ready);
+    Result<void> call(FunctionCall call, const StopOrigin& by, const std::string& session, Answered ready);
     /// Handles the end of the session that started the service, or its loss of control.
     void end_of(const std::string& session);
     /// Makes waiting functions return; the loop then ends the service.

@@ -135,7 +135,7 @@ Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<st
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} channels were requested; the limit is {}. Nothing was changed.", names.size(),
                                 Panel::max_channels));
-    Held held;
+    ListedSet held;
     for (const std::string& name : names) {
         const Channel* channel = find(name);
         if (channel == nullptr)
@@ -144,7 +144,7 @@ Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<st
                                     rack::in_quotes(name)));
         held.channels.push_back(channel);
     }
-    Held& known = sets_[names];
+    ListedSet& known = sets_[names];
     if (auto set = known.set.lock()) return set;
     auto set = std::make_shared<ChannelSet>(names);
     held.set = set;

@@ -60,13 +60,13 @@ class ChannelRegistry {
     void add_wires(operate::Machine& machine);
     void add_cards(rack::Rack& rack);
 
-    struct Held {
+    struct ListedSet {
         std::weak_ptr<ChannelSet> set;
         std::vector<const Channel*> channels;
     };
     const operate::Service& service_;
     std::map<std::string, Channel, std::less<>> channels_;
-    std::map<std::vector<std::string>, Held> sets_;
+    std::map<std::vector<std::string>, ListedSet> sets_;
 };
 
 }  // namespace motionrack::panel

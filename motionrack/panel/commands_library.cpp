@@ -68,7 +68,8 @@ void note_call(PanelContext& desk, const Caller& caller, const std::string& func
 }
 
 void call(PanelContext& desk, const Caller& caller, const json& fields, const Ready& ready) {
-    operate::Service::Call call{fields.at("card").get<std::string>(), fields.at("function").get<std::string>(), {}};
+    operate::Service::FunctionCall call{
+        fields.at("card").get<std::string>(), fields.at("function").get<std::string>(), {}};
     const json arguments = fields.value("arguments", json::object());
     for (const auto& [name, value] : arguments.items())
         call.arguments[name] = static_cast<std::int64_t>(value.get<double>());

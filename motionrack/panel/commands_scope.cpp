@@ -29,7 +29,7 @@ void look(PanelContext& desk, const json& fields, Ready ready) {
                 {"channels", settings.channels},
                 {"trigger", settings.trigger},
                 {"mode", settings.again ? "run" : "single"}};
-    const std::shared_ptr<const Capture> capture = desk.scope.capture();
+    const std::shared_ptr<const ScopeCapture> capture = desk.scope.capture();
     if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0)))
         return ready(std::move(out));
     desk.run_async(

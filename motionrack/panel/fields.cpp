@@ -37,7 +37,7 @@ Result<void> check_number(const OperationSpec& row, const FieldSpec& field, cons
     const double number = value.get<double>();
     if (!std::isfinite(number) || number < field.min || number > field.max)
         return wrong(row, fmt::format("{} is {}; {} is possible.", field.name, number, range_of(field)));
-    if (field.type == FieldType::integer && number != std::floor(number))
+    if (field.type == ParameterType::integer && number != std::floor(number))
         return wrong(row, fmt::format("{} is {}, but must be a whole number.", field.name, number));
     return {};
 }
@@ -70,22 +70,22 @@ Result<void> check_numbers(const OperationSpec& row, const FieldSpec& field, con
 Result<void> check_field(const OperationSpec& row, const FieldSpec& field, const json& value) {
     if (value.is_null() && field.or_null) return {};
     switch (field.type) {
-        case FieldType::number:
-        case FieldType::integer:
+        case ParameterType::number:
+        case ParameterType::integer:
             return check_number(row, field, value);
-        case FieldType::text:
+        case ParameterType::text:
             return check_text(row, field, value);
-        case FieldType::choice:
+        case ParameterType::choice:
             if (!value.is_string() || !one_of(field.words, value.get_ref<const std::string&>()))
                 return wrong(row, fmt::format("{} must be one of {}.", field.name, field.words));
             return {};
-        case FieldType::flag:
+        case ParameterType::flag:
             if (!value.is_boolean())
                 return wrong(row, fmt::format("{} must be true or false, not {}.", field.name, value.type_name()));
             return {};
-        case FieldType::numbers:
+        case ParameterType::numbers:
             return check_numbers(row, field, value);
-        case FieldType::texts:
+        case ParameterType::texts:
             if (!value.is_array())
                 return wrong(row, fmt::format("{} must be a list of texts, not {}.", field.name, value.type_name()));
             if (static_cast<double>(value.size()) > field.max)
@@ -127,16 +127,16 @@ Result<json> fields_of_texts(const OperationSpec& row, const std::vector<std::pa
     for (const auto& [name, text] : texts) {
         const auto found = std::find_if(row.fields.begin(), row.fields.end(),
                                         [&name = name](const FieldSpec& field) { return field.name == name; });
-        const FieldType type = found == row.fields.end() ? FieldType::text : found->type;
+        const ParameterType type = found == row.fields.end() ? ParameterType::text : found->type;
         double number = 0;
-        if (type == FieldType::number || type == FieldType::integer) {
+        if (type == ParameterType::number || type == ParameterType::integer) {
             const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
             if (read.ec != std::errc{} || read.ptr != text.data() + text.size())
                 return wrong(row, fmt::format("{} is {}, which is not a number.", name, rack::in_quotes(text)));
             fields[name] = number;
-        } else if (type == FieldType::flag && (text == "true" || text == "false")) {
+        } else if (type == ParameterType::flag && (text == "true" || text == "false")) {
             fields[name] = text == "true";
-        } else if (type == FieldType::texts) {
+        } else if (type == ParameterType::texts) {
             json& list = fields[name] = json::array();
             for (std::size_t at = 0; at <= text.size();) {
                 const std::size_t comma = std::min(text.find(',', at), text.size());

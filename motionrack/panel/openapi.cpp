@@ -24,29 +24,29 @@ json words_of(std::string_view words) {
 json schema_of(const FieldSpec& field) {
     json schema = {{"description", fmt::format("{}{}{}", field.text, field.unit.empty() ? "" : "; ", field.unit)}};
     switch (field.type) {
-        case FieldType::number:
-        case FieldType::integer:
-            schema["type"] = field.type == FieldType::number ? "number" : "integer";
+        case ParameterType::number:
+        case ParameterType::integer:
+            schema["type"] = field.type == ParameterType::number ? "number" : "integer";
             schema["minimum"] = field.min;
             schema["maximum"] = field.max;
             break;
-        case FieldType::text:
+        case ParameterType::text:
             schema["type"] = "string";
             schema["maxLength"] = static_cast<std::int64_t>(field.max);
             break;
-        case FieldType::choice:
+        case ParameterType::choice:
             schema["type"] = "string";
             schema["enum"] = words_of(field.words);
             break;
-        case FieldType::flag:
+        case ParameterType::flag:
             schema["type"] = "boolean";
             break;
-        case FieldType::texts:
+        case ParameterType::texts:
             schema["type"] = "array";
             schema["items"] = {{"type", "string"}};
             schema["maxItems"] = static_cast<std::int64_t>(field.max);
             break;
-        case FieldType::numbers:
+        case ParameterType::numbers:
             schema["type"] = "object";
             schema["additionalProperties"] = {{"type", "integer"}};
             schema["maxProperties"] = static_cast<std::int64_t>(field.max);
@@ -133,24 +133,24 @@ json make_openapi() {
 
 std::string kind_of(const FieldSpec& field) {
     switch (field.type) {
-        case FieldType::number:
-        case FieldType::integer:
-            return fmt::format("{} {} .. {}{}{}{}", field.type == FieldType::number ? "number" : "whole number",
+        case ParameterType::number:
+        case ParameterType::integer:
+            return fmt::format("{} {} .. {}{}{}{}", field.type == ParameterType::number ? "number" : "whole number",
                                field.min, field.max, field.unit.empty() ? "" : " ", field.unit,
                                field.or_null ? ", or null" : "");
-        case FieldType::text:
+        case ParameterType::text:
             return fmt::format("text, {} characters at most", field.max);
-        case FieldType::choice: {
+        case ParameterType::choice: {
             std::string words(field.words);
             for (std::size_t at = 0; (at = words.find('|', at)) != std::string::npos; at += 2)
                 words.replace(at, 1, ", ");
             return "one of " + words;
         }
-        case FieldType::flag:
+        case ParameterType::flag:
             return "true or false";
-        case FieldType::texts:
+        case ParameterType::texts:
             return fmt::format("list of texts, {} at most", field.max);
-        case FieldType::numbers:
+        case ParameterType::numbers:
             return fmt::format("object of whole numbers by name, {} at most", field.max);
     }
     return {};

@@ -16,28 +16,28 @@ constexpr double far = 1e6, max_text_bytes = 8 << 20;
 
 constexpr FieldSpec number(std::string_view name, double least, double greatest, std::string_view unit,
                            std::string_view text, bool required = true) {
-    return {name, FieldType::number, required, least, greatest, unit, {}, text};
+    return {name, ParameterType::number, required, least, greatest, unit, {}, text};
 }
 constexpr FieldSpec integer(std::string_view name, double least, double greatest, std::string_view text,
                             bool required = true) {
-    return {name, FieldType::integer, required, least, greatest, {}, {}, text};
+    return {name, ParameterType::integer, required, least, greatest, {}, {}, text};
 }
 constexpr FieldSpec text(std::string_view name, double longest, std::string_view about, bool required = true) {
-    return {name, FieldType::text, required, 0, longest, {}, {}, about};
+    return {name, ParameterType::text, required, 0, longest, {}, {}, about};
 }
 constexpr FieldSpec choice(std::string_view name, std::string_view words, std::string_view about,
                            bool required = true) {
-    return {name, FieldType::choice, required, 0, 0, {}, words, about};
+    return {name, ParameterType::choice, required, 0, 0, {}, words, about};
 }
 constexpr FieldSpec flag(std::string_view name, std::string_view about, bool required = true) {
-    return {name, FieldType::flag, required, 0, 0, {}, {}, about};
+    return {name, ParameterType::flag, required, 0, 0, {}, {}, about};
 }
 constexpr FieldSpec texts(std::string_view name, double most, std::string_view about, bool required = true) {
-    return {name, FieldType::texts, required, 0, most, {}, {}, about};
+    return {name, ParameterType::texts, required, 0, most, {}, {}, about};
 }
 
 constexpr FieldSpec numbers(std::string_view name, double most, std::string_view about, bool required = true) {
-    return {name, FieldType::numbers, required, 0, most, {}, {}, about};
+    return {name, ParameterType::numbers, required, 0, most, {}, {}, about};
 }
 
 constexpr FieldSpec one_axis = text("axis", 1, "letter of an axis");
@@ -73,7 +73,7 @@ constexpr std::array clock_fields = {
 constexpr std::array advance_clock_fields = {number("duration_s", 1e-10, 3600, "s", "of the rack's time")};
 constexpr std::array wire_fields = {text("name", 80, "CARD.PIN, NAME.END or estop"),
                                     FieldSpec{"value",
-                                              FieldType::number,
+                                              ParameterType::number,
                                               true,
                                               -100,
                                               4294967295.0,

@@ -12,7 +12,7 @@
 
 namespace motionrack::panel {
 
-enum class FieldType : std::uint8_t {
+enum class ParameterType : std::uint8_t {
     number,
     integer,
     text,
@@ -24,7 +24,7 @@ enum class FieldType : std::uint8_t {
 
 struct FieldSpec {
     std::string_view name;
-    FieldType type = FieldType::number;
+    ParameterType type = ParameterType::number;
     bool required = true;
     double min = 0, max = 0;  ///< limits of numbers; for texts, lists and objects limits of their length
     std::string_view unit;    ///< "mm or degrees", "s"

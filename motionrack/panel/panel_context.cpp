@@ -7,7 +7,7 @@ namespace motionrack::panel {
 
 using nlohmann::json;
 
-Reply::Call::~Call() {
+Reply::PendingCall::~PendingCall() {
     if (call) call(refused_answer(503, "machine", "The machine was shut down before the command was executed."));
 }
 

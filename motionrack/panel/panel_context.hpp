@@ -21,20 +21,20 @@ namespace motionrack::panel {
 /// Answers once; a reply that is destroyed unanswered reports that the machine is gone.
 class Reply {
   public:
-    explicit Reply(std::function<void(Answer)> call) : call_(std::make_shared<Call>(std::move(call))) {}
+    explicit Reply(std::function<void(Answer)> call) : call_(std::make_shared<PendingCall>(std::move(call))) {}
     void operator()(Answer answer) const {
         if (call_->call) std::exchange(call_->call, nullptr)(std::move(answer));
     }
 
   private:
-    struct Call {
-        explicit Call(std::function<void(Answer)> one) : call(std::move(one)) {}
-        ~Call();
-        Call(const Call&) = delete;
-        Call& operator=(const Call&) = delete;
+    struct PendingCall {
+        explicit PendingCall(std::function<void(Answer)> one) : call(std::move(one)) {}
+        ~PendingCall();
+        PendingCall(const PendingCall&) = delete;
+        PendingCall& operator=(const PendingCall&) = delete;
         std::function<void(Answer)> call;
     };
-    std::shared_ptr<Call> call_;
+    std::shared_ptr<PendingCall> call_;
 };
 
 /// Events since the start; only the most recent ones are stored.

@@ -57,7 +57,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
         return fail(ErrorKind::invalid_input,
                     "The part before the trigger must lie within the length, which must be above 0.");
     std::vector<std::string> wires;
-    std::vector<Number> numbers;
+    std::vector<NumericChannel> numbers;
     for (std::size_t i = 0; i < settings.channels.size(); ++i) {
         const Channel* channel = book_.find(settings.channels[i]);
         if (channel == nullptr)
@@ -114,7 +114,7 @@ void Scope::begin_numbers() {
     if (numbers_.empty()) return;
     rows_ = (settings_.length + slack) / settings_.period + 2;
     samples_.assign(static_cast<std::size_t>(rows_) * numbers_.size(), 0);
-    for (Number& number : numbers_) number.slow = number.channel->read();
+    for (NumericChannel& number : numbers_) number.slow = number.channel->read();
     first_sample_ = machine_.now();
     written_ = seen_ = 0;
     probing_ = true;
@@ -124,7 +124,7 @@ void Scope::begin_numbers() {
 /// Called within the kernel's run.
 void Scope::sample(Instant) {
     double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
-    for (const Number& number : numbers_)
+    for (const NumericChannel& number : numbers_)
         *row++ = number.channel->looks == ChannelReader::anytime ? number.channel->read() : number.slow;
     ++written_;
 }
@@ -177,7 +177,7 @@ void Scope::see(Instant at, std::size_t channel, double value) {
 /// Searches the samples since the last slice.
 void Scope::look_for_trigger() {
     const auto column = std::find_if(numbers_.begin(), numbers_.end(),
-                                     [this](const Number& number) { return number.place == trigger_place_; });
+                                     [this](const NumericChannel& number) { return number.place == trigger_place_; });
     for (; seen_ < written_ && state_ == ScopeState::armed && column != numbers_.end(); ++seen_) {
         if (seen_ < written_ - rows_) continue;
         const double value = sample_of(seen_, static_cast<std::size_t>(column - numbers_.begin()));
@@ -196,7 +196,7 @@ void Scope::forget_old(Instant now) {
 void Scope::slice(Instant now) {
     if (state_ != ScopeState::armed && state_ != ScopeState::triggered) return;
     if (recorder_) recorder_->drain();
-    for (Number& number : numbers_)
+    for (NumericChannel& number : numbers_)
         if (number.channel->looks != ChannelReader::anytime) number.slow = number.channel->read();
     if (state_ == ScopeState::armed) {
         look_for_trigger();
@@ -210,7 +210,7 @@ void Scope::slice(Instant now) {
 }
 
 void Scope::finish() {
-    auto capture = std::make_shared<Capture>();
+    auto capture = std::make_shared<ScopeCapture>();
     const Instant from = triggered_at_ - settings_.pre, to = from + settings_.length;
     capture->number = ++captures_;
     capture->trigger_s = to_seconds(triggered_at_);
@@ -223,7 +223,7 @@ void Scope::finish() {
         capture->traces.push_back(
             {channel->name, channel->unit, channel->looks == ChannelReader::edges, base_[i], {}, {}});
     }
-    for (const Edge& edge : edges_) {
+    for (const ScopeEdge& edge : edges_) {
         if (edge.at > to) break;
         ScopeTrace& trace = capture->traces[edge.channel];
         trace.at.push_back(to_seconds(edge.at - triggered_at_));
@@ -248,7 +248,7 @@ void Scope::finish() {
     state_ = ScopeState::done;
 }
 
-nlohmann::json to_json(const Capture& capture) {
+nlohmann::json to_json(const ScopeCapture& capture) {
     nlohmann::json traces = nlohmann::json::array();
     for (const ScopeTrace& trace : capture.traces) {
         nlohmann::json one = {

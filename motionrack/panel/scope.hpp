@@ -1,7 +1,7 @@
 // Scope of the rack: wires with every edge, numbers as periodic samples, from before a trigger until after it.
 //
 //   wires ────► WaveRecorder ──slice──► edges             ─┐
-//   numbers ──► PeriodicSampler, every period ──► samples ─┴─ trigger ──► Capture, shared, immutable
+//   numbers ──► PeriodicSampler, every period ──► samples ─┴─ trigger ──► ScopeCapture, shared, immutable
 //
 //   idle ──arm──► armed ──trigger──► triggered ──length is full──► done (single), armed again (run)
 //
@@ -43,7 +43,7 @@ struct ScopeTrace {
     std::vector<double> at, value;  ///< edges: s from the trigger
 };
 
-struct Capture {
+struct ScopeCapture {
     std::int64_t number = 0;                  ///< starts at 1
     double trigger_s = 0;                     ///< virtual time
     double from_s = 0, to_s = 0;              ///< relative to the trigger
@@ -51,7 +51,7 @@ struct Capture {
     bool full = false;                        ///< more edges than fit; the latest are left out
     std::vector<ScopeTrace> traces;           ///< in the order of the settings
 };
-nlohmann::json to_json(const Capture& capture);
+nlohmann::json to_json(const ScopeCapture& capture);
 
 class Scope {
   public:
@@ -69,16 +69,16 @@ class Scope {
     ScopeState state() const { return state_; }
     const ScopeSettings& settings() const { return settings_; }
     /// Last capture; nullptr: none.
-    std::shared_ptr<const Capture> capture() const { return capture_; }
+    std::shared_ptr<const ScopeCapture> capture() const { return capture_; }
 
   private:
     class Sink;
-    struct Edge {
+    struct ScopeEdge {
         Instant at{};
         std::size_t channel = 0;
         double value = 0;
     };
-    struct Number {
+    struct NumericChannel {
         const Channel* channel = nullptr;
         std::size_t place = 0;  ///< index in the settings' list
         double slow = 0;        ///< value at the last slice, for a channel that can be read only then
@@ -108,10 +108,10 @@ class Scope {
     // wires
     std::vector<std::size_t> places_;  ///< settings index of each recorder signal; npos: not selected
     std::vector<double> base_;         ///< levels before the oldest stored edge
-    std::deque<Edge> edges_;
+    std::deque<ScopeEdge> edges_;
     bool full_ = false;
     // numbers, in a ring of rows
-    std::vector<Number> numbers_;
+    std::vector<NumericChannel> numbers_;
     std::vector<double> samples_;
     std::int64_t rows_ = 0, written_ = 0, seen_ = 0;
     Instant first_sample_{};
@@ -120,7 +120,7 @@ class Scope {
     std::optional<double> last_value_;
     Instant armed_at_{}, triggered_at_ = never;
     std::int64_t captures_ = 0;
-    std::shared_ptr<const Capture> capture_;
+    std::shared_ptr<const ScopeCapture> capture_;
 };
 
 }  // namespace motionrack::panel

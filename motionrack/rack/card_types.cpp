@@ -21,7 +21,7 @@ template <std::size_t n>
 constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
     std::array<PinType, n> out{};
     for (std::size_t i = 0; i < n; ++i)
-        out[i] = {pins[i].name,    pins[i].direction == motionrack::PinDirection::input ? input : output,
+        out[i] = {pins[i].name,    pins[i].direction,
                   pins[i].meaning, pins[i].name.substr(0, 4) == "vout" ? 1e-6 : 0,
                   PinKind::plain,  1,
                   pins[i].same_as};
@@ -197,7 +197,7 @@ const CardType* find_card_type(std::string_view name) {
     return found != card_type_table().end() ? &*found : nullptr;
 }
 
-std::vector<Pin> pins_of(const RackCard& card) {
+std::vector<CardPinName> pins_of(const RackCard& card) {
     const CardType* type = find_card_type(card.type);
     if (type == nullptr) return {};
     CardType own = *type;
@@ -205,8 +205,8 @@ std::vector<Pin> pins_of(const RackCard& card) {
     return pins_of(own);
 }
 
-std::vector<Pin> pins_of(const CardType& type) {
-    std::vector<Pin> out;
+std::vector<CardPinName> pins_of(const CardType& type) {
+    std::vector<CardPinName> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
             out.push_back({std::string(type.channel_name(channel)).append(pin.name),

@@ -1,6 +1,7 @@
 // Card types that a rack file can name: channels, pins, settings and default wires; one row per card type.
 #pragma once
 
+#include <motionrack/base/card_map.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/stop_source.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -11,8 +12,6 @@
 #include <vector>
 
 namespace motionrack::rack {
-
-enum class PinDirection : std::uint8_t { input, output };
 
 /// Meaning of a pin's level.
 enum class PinKind : std::uint8_t {
@@ -105,7 +104,7 @@ std::span<const CardType> card_types();
 const CardType* find_card_type(std::string_view name);
 
 /// The pins of a card type by their full names: channel by channel, then the chip's own pins.
-struct Pin {
+struct CardPinName {
     std::string name;
     PinDirection direction;
     int channel;   ///< index into `channels`, -1 for the chip's own
@@ -115,8 +114,8 @@ struct Pin {
     std::string_view doc;
     std::string_view same_as;  ///< see PinType (chip pins only)
 };
-std::vector<Pin> pins_of(const CardType& type);
+std::vector<CardPinName> pins_of(const CardType& type);
 /// Returns the pins of this card; empty if its type is unknown.
-std::vector<Pin> pins_of(const RackCard& card);
+std::vector<CardPinName> pins_of(const RackCard& card);
 
 }  // namespace motionrack::rack

@@ -25,19 +25,20 @@ Result<CommandSchedule::ScheduledCommand> CommandSchedule::read(const ScheduledT
     const std::string_view action = text.action;
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
-    ScheduledCommand out{text.at, Kind::stop, 1, text.text, false};
-    const auto plain = [&](Kind kind) {
+    ScheduledCommand out{text.at, CommandKind::stop, 1, text.text, false};
+    const auto plain = [&](CommandKind kind) {
         out.kind = kind;
         return equals == std::string_view::npos;
     };
-    const auto part = [&](Kind kind, double most) {
+    const auto part = [&](CommandKind kind, double most) {
         out.kind = kind;
         out.value = equals == std::string_view::npos ? std::nan("") : number_of(action.substr(equals + 1));
         return out.value >= 0.01 && out.value <= most;
     };
-    const bool good = (name == "stop" && plain(Kind::stop)) || (name == "hold" && plain(Kind::hold)) ||
-                      (name == "resume" && plain(Kind::resume)) || (name == "feed" && part(Kind::feed, 2)) ||
-                      (name == "rapid" && part(Kind::rapid, 1));
+    const bool good = (name == "stop" && plain(CommandKind::stop)) || (name == "hold" && plain(CommandKind::hold)) ||
+                      (name == "resume" && plain(CommandKind::resume)) ||
+                      (name == "feed" && part(CommandKind::feed, 2)) ||
+                      (name == "rapid" && part(CommandKind::rapid, 1));
     if (good) return out;
     return fail(
         ErrorKind::invalid_input,
@@ -51,7 +52,7 @@ Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack,
     std::unique_ptr<CommandSchedule> plan(new CommandSchedule(rack));
     for (const ScheduledText& text : commands) {
         MOTIONRACK_TRY(ScheduledCommand command, read(text));
-        plan->needs_stream_ = plan->needs_stream_ || command.kind != Kind::stop;
+        plan->needs_stream_ = plan->needs_stream_ || command.kind != CommandKind::stop;
         plan->commands_.push_back(std::move(command));
     }
     std::stable_sort(plan->commands_.begin(), plan->commands_.end(),
@@ -64,8 +65,8 @@ Result<std::unique_ptr<CommandSchedule>> CommandSchedule::create(Rack& rack,
 Result<void> CommandSchedule::check_holds() const {
     const ScheduledCommand* holds = nullptr;
     for (const ScheduledCommand& command : commands_) {
-        if (command.kind == Kind::hold) holds = &command;
-        if (command.kind == Kind::resume || command.kind == Kind::stop) holds = nullptr;
+        if (command.kind == CommandKind::hold) holds = &command;
+        if (command.kind == CommandKind::resume || command.kind == CommandKind::stop) holds = nullptr;
     }
     if (holds == nullptr) return {};
     return fail(ErrorKind::refused,
@@ -92,7 +93,7 @@ void CommandSchedule::on_scheduled(Instant now) {
 
 std::optional<Instant> CommandSchedule::ask_stop() {
     if (std::exchange(asked_, true) || stop_flag_) return std::nullopt;
-    ScheduledCommand command{rack_.kernel().now() + asked_ahead, Kind::stop, 1, "stop", false};
+    ScheduledCommand command{rack_.kernel().now() + asked_ahead, CommandKind::stop, 1, "stop", false};
     const auto after = std::upper_bound(commands_.begin(), commands_.end(), command.at,
                                         [](Instant at, const ScheduledCommand& one) { return at < one.at; });
     commands_.insert(after, command);
@@ -114,26 +115,27 @@ void CommandSchedule::halt() {
 }
 
 void CommandSchedule::apply(const ScheduledCommand& command) {
-    if (command.kind == Kind::stop) {
+    if (command.kind == CommandKind::stop) {
         stop_flag_ = true;
         rack_.stop_latch().stop();
     }
-    if (command.kind == Kind::hold || command.kind == Kind::resume) holds_ = command.kind == Kind::hold;
+    if (command.kind == CommandKind::hold || command.kind == CommandKind::resume)
+        holds_ = command.kind == CommandKind::hold;
     if (stream_ == nullptr) return;
     switch (command.kind) {
-        case Kind::stop:
+        case CommandKind::stop:
             stream_->stop();
             break;
-        case Kind::hold:
+        case CommandKind::hold:
             stream_->hold();
             break;
-        case Kind::resume:
+        case CommandKind::resume:
             stream_->resume();
             break;
-        case Kind::feed:
+        case CommandKind::feed:
             stream_->set_overrides(feed_ = command.value, rapid_);
             break;
-        case Kind::rapid:
+        case CommandKind::rapid:
             stream_->set_overrides(feed_, rapid_ = command.value);
             break;
     }

@@ -54,10 +54,10 @@ class CommandSchedule final : public sim::Device {
     void on_scheduled(Instant now) override;
 
   private:
-    enum class Kind : std::uint8_t { stop, hold, resume, feed, rapid };
+    enum class CommandKind : std::uint8_t { stop, hold, resume, feed, rapid };
     struct ScheduledCommand {
         Instant at{};
-        Kind kind = Kind::stop;
+        CommandKind kind = CommandKind::stop;
         double value = 1;
         std::string text;
         bool done = false;

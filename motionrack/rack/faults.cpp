@@ -157,7 +157,7 @@ Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view t
     const Instant now = rack.kernel().now();
     const sim::DeviceId device = device_of(found);
     const auto names = names_of(found);
-    sim::Input input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
+    sim::LoggedInput input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
     input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
     rack.input_log().add(input);
     const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)

@@ -101,7 +101,7 @@ void FollowingWatch::end() {
 double FollowingWatch::error(std::size_t i, Instant now) {
     const Watched& watched = watched_[i];
     const RunningAxis& running = rack_.axes()[watched.axis];
-    AxisState& own = state_.axes[i];
+    ErrorState& own = state_.axes[i];
     const bool held = std::any_of(watched.lines.begin(), watched.lines.end(),
                                   [&](sim::WireId line) { return line != sim::WireId::none && kernel_.forced(line); });
     const std::int64_t counted = held ? own.counted : running.machine->encoder().count(now);
@@ -118,7 +118,7 @@ double FollowingWatch::error(std::size_t i, Instant now) {
 /// Advances the servo model to `now`, after `turned` further counts.
 void FollowingWatch::follow_servo(std::size_t i, std::int64_t turned, Instant now) {
     const Watched& watched = watched_[i];
-    AxisState& own = state_.axes[i];
+    ErrorState& own = state_.axes[i];
     const double seconds = to_seconds(now - own.looked), volts = kernel_.level(watched.volts) * 1e-6;
     own.looked = now;
     own.speed = speed_after(*watched.servo, own.speed, volts, seconds);
@@ -134,7 +134,7 @@ void FollowingWatch::on_scheduled(Instant now) {
 void FollowingWatch::look(Instant now) {
     for (std::size_t i = 0; state_.on != 0 && i < watched_.size(); ++i) {
         const Watched& watched = watched_[i];
-        AxisState& own = state_.axes[i];
+        ErrorState& own = state_.axes[i];
         const double off = std::fabs(error(i, now));
         if (watched.warning > 0 && off > watched.warning) {
             if (own.worst == 0) own.warned_at = now;
@@ -152,7 +152,7 @@ void FollowingWatch::look(Instant now) {
 std::vector<FollowingWatch::Warning> FollowingWatch::take_warnings() {
     std::vector<Warning> out;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
-        AxisState& own = state_.axes[i];
+        ErrorState& own = state_.axes[i];
         if (own.worst == 0 || own.excess != 0 || std::exchange(own.told, 1) != 0) continue;
         const RackAxis& axis = rack_.axes()[watched_[i].axis].config;
         out.push_back({watched_[i].axis, own.warned_at,

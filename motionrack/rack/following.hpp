@@ -68,7 +68,7 @@ class FollowingWatch final : public sim::Device {
         const parts::DcMotorSettings* servo = nullptr;                           ///< nullptr: an axis with pulses
         sim::WireId volts = sim::WireId::none;                                   ///< output of a servo's card, uV
     };
-    struct AxisState {
+    struct ErrorState {
         double origin = 0;         ///< error at the start of supervision
         std::int64_t counted = 0;  ///< at the card's inputs
         double worst = 0;          ///< error above the warning limit; 0: below
@@ -80,7 +80,7 @@ class FollowingWatch final : public sim::Device {
     };
     struct State {
         std::int64_t on = 0;
-        std::array<AxisState, control::axis_count> axes{};
+        std::array<ErrorState, control::axis_count> axes{};
     };
 
     void add(std::size_t axis);

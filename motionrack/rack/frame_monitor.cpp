@@ -9,19 +9,19 @@ namespace gb = grating_bus;
 FrameMonitor::FrameMonitor(Rack& rack) : rack_(rack), bus_(*grating_bus_of(rack)) {
     MOTIONRACK_ASSERT(!rack.started());
     for (gb::Card* card : bus_.cards()) {
-        Watched& watched = cards_.emplace_back();
+        WatchedCard& watched = cards_.emplace_back();
         watched.card = card;
         watched.name = rack.kernel().device_name(card->id());
         card->add_listener(*this);
     }
 }
 
-FrameMonitor::Watched& FrameMonitor::watched(const gb::Card& card) {
-    return *std::find_if(cards_.begin(), cards_.end(), [&](const Watched& one) { return one.card == &card; });
+FrameMonitor::WatchedCard& FrameMonitor::watched(const gb::Card& card) {
+    return *std::find_if(cards_.begin(), cards_.end(), [&](const WatchedCard& one) { return one.card == &card; });
 }
 
 void FrameMonitor::began(const gb::Card& card, Instant now) {
-    Watched& own = watched(card);
+    WatchedCard& own = watched(card);
     if (bus_.decoders().empty()) return;
     const gb::Decoder& decoder = *bus_.decoders()[0];
     for (int n = 0; n < decoder.settings().scales; ++n) own.truth[static_cast<std::size_t>(n)] = decoder.count(n, now);
@@ -29,7 +29,7 @@ void FrameMonitor::began(const gb::Card& card, Instant now) {
 
 /// Returns true if a count of the frame differs from that of its scale at the start of the frame. A host's frame
 /// contains its configured scales, a slave's the addressed ones.
-bool FrameMonitor::untrue(const Watched& own, const gb::Frame& frame) {
+bool FrameMonitor::untrue(const WatchedCard& own, const gb::Frame& frame) {
     for (std::uint32_t k = 0; k < frame.words; ++k) {
         const int address =
             own.card->is_host() ? own.card->settings().address(static_cast<int>(k)) : int{frame.addresses[k]};
@@ -40,7 +40,7 @@ bool FrameMonitor::untrue(const Watched& own, const gb::Frame& frame) {
 
 void FrameMonitor::published(const gb::Card& card, const gb::Frame& frame, Instant) {
     ++published_;
-    Watched& own = watched(card);
+    WatchedCard& own = watched(card);
     ++own.frames;
     if (card.is_remote()) return;  // scales of another crate, and its time
     own.untrue += untrue(own, frame);
@@ -54,7 +54,7 @@ void FrameMonitor::published(const gb::Card& card, const gb::Frame& frame, Insta
 std::vector<FrameRow> FrameMonitor::rows() const {
     std::vector<FrameRow> out;
     const Instant now = rack_.kernel().now();
-    for (const Watched& own : cards_) {
+    for (const WatchedCard& own : cards_) {
         FrameRow& row = out.emplace_back();
         row.card = own.name;
         row.role = own.card->is_host() ? "host" : own.card->is_remote() ? "remote" : "slave";

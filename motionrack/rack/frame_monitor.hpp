@@ -38,20 +38,20 @@ class FrameMonitor final : private grating_bus::FrameListener {
     std::uint64_t published() const { return published_; }
 
   private:
-    struct Watched {
+    struct WatchedCard {
         const grating_bus::Card* card = nullptr;
         std::string name;
         std::uint64_t frames = 0, untrue = 0, unlike = 0;
         std::array<std::uint32_t, grating_bus::max_scales> truth{};  ///< counts of all scales when the frame began
     };
-    Watched& watched(const grating_bus::Card& card);
-    static bool untrue(const Watched& own, const grating_bus::Frame& frame);
+    WatchedCard& watched(const grating_bus::Card& card);
+    static bool untrue(const WatchedCard& own, const grating_bus::Frame& frame);
     void began(const grating_bus::Card& card, Instant now) override;
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
 
     Rack& rack_;
     grating_bus::Bus& bus_;
-    std::vector<Watched> cards_;
+    std::vector<WatchedCard> cards_;
     grating_bus::Frame first_;  ///< first frame of the present period
     std::uint64_t published_ = 0;
 };

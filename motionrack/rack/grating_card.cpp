@@ -77,7 +77,7 @@ class GratingCard final : public Member {
     const CardMap& map() const override { return gb::card_map(); }
     /// All edges of a frame follow its start by a sum of these times.
     Duration edge_unit() const override {
-        const gb::Timing& t = card_.settings().timing;
+        const gb::BusTiming& t = card_.settings().timing;
         Duration unit = nanoseconds(10);
         for (const Duration time : {t.t1, t.t2, t.t3, t.clock, card_.settings().period, card_.settings().offset})
             while (time % unit != Duration{0}) unit /= 10;

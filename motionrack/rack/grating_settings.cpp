@@ -67,7 +67,7 @@ gb::CardSettings grating_settings(const RackCard& card, bool first) {
     const GratingBusSettings& s = card.grating_bus;
     gb::CardSettings out;
     const bool host = s.role == GratingRole::host || (s.role == GratingRole::first_is_host && first);
-    out.role = s.role == GratingRole::remote ? gb::Role::remote : host ? gb::Role::host : gb::Role::slave;
+    out.role = s.role == GratingRole::remote ? gb::CardRole::remote : host ? gb::CardRole::host : gb::CardRole::slave;
     out.scales = static_cast<int>(s.scales);
     out.first = static_cast<int>(s.first);
     if (!s.addresses.empty()) {
@@ -94,7 +94,7 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
     const gb::CardSettings own = settings_among(card, before);
     if (const Result<void> good = gb::check(own); !good)
         return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
-    if (own.role == gb::Role::remote) return std::nullopt;
+    if (own.role == gb::CardRole::remote) return std::nullopt;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const RackCard& other = before[i];
         if (is_decoder(other))

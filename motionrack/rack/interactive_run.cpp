@@ -56,37 +56,37 @@ class Feeder {
   public:
     Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file,
            control::ProgramResult& run)
-        : walk_(text, settings, file), run_(run) {}
+        : program_flow_(text, settings, file), run_(run) {}
 
     void feed(control::StreamExecutor& stream) {
         std::string_view text;
         while (more_ && stream.has_room()) {
-            if (!walk_.next(text)) {
+            if (!program_flow_.next(text)) {
                 more_ = false;
                 if (auto over = stream.program_over(); !over) {
                     problem_ = over.error();
-                    problem_->file = walk_.file();
+                    problem_->file = program_flow_.file();
                 }
                 break;
             }
-            if (auto read = stream.line(text, walk_.number(), walk_); !read) {
+            if (auto read = stream.line(text, program_flow_.number(), program_flow_); !read) {
                 problem_ = read.error();
                 more_ = false;
                 return;
             }
-            run_.lines = walk_.highest_line();
+            run_.lines = program_flow_.highest_line();
             const control::gcode::Block& block = stream.interpreter().block();
             if (block.has_m(control::gcode::m_stop))
                 run_.ended =
                     run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
         }
-        if (!more_ && !problem_ && walk_.has_faults()) problem_ = walk_.take_fault();
+        if (!more_ && !problem_ && program_flow_.has_faults()) problem_ = program_flow_.take_fault();
     }
     bool more() const { return more_; }
     Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    control::gcode::ProgramFlow walk_;
+    control::gcode::ProgramFlow program_flow_;
     control::ProgramResult& run_;
     bool more_ = true;
     std::optional<Error> problem_;

@@ -35,7 +35,8 @@ struct JobSettings {
     CommandSchedule* commands = nullptr;                    ///< planned commands and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
     std::function<void()> on_slice = {};                    ///< called between runs: recorders drain here
-    std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< called with every sample, between runs
+    std::function<void(const MonitorSample&, double deviation_mm)> on_sample =
+        {};  ///< called with every sample, between runs
 };
 
 /// Result of one axis.

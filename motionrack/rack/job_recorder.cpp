@@ -159,7 +159,7 @@ void JobRecorder::on_scheduled(Instant now) {
     rack_.kernel().schedule(id_, now + counter_period);
 }
 
-void JobRecorder::sample(const Sample& sample, double deviation_mm) {
+void JobRecorder::sample(const MonitorSample& sample, double deviation_mm) {
     for (std::size_t i = 0; i < sampled_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axis_indexes_[i]);
         sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.speed[axis], sample.accel[axis],
@@ -169,7 +169,7 @@ void JobRecorder::sample(const Sample& sample, double deviation_mm) {
 }
 
 void JobRecorder::drain() {
-    for (const Event& event : buffer_) writer_.event(event.signal, event.at, event.value);
+    for (const JobEvent& event : buffer_) writer_.event(event.signal, event.at, event.value);
     buffer_.clear();
     const Instant now = rack_.kernel().now();
     if (now < next_flush_ && writer_.events() - flushed_events_ < max_unflushed) return;

@@ -24,7 +24,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     /// Call after the rack has started.
     void begin();
     // ---- between runs
-    void sample(const Sample& sample, double deviation_mm);
+    void sample(const MonitorSample& sample, double deviation_mm);
     /// Records an external input that takes effect at its instant.
     void input(const trace::RecordedInput& input) { writer_.input(input); }
     /// Writes the buffered events.
@@ -37,7 +37,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     void wire_changed(sim::WireId wire, int level, Instant now) override;
 
   private:
-    struct Event {
+    struct JobEvent {
         Instant at{};
         std::int64_t value = 0;
         std::uint32_t signal = 0;
@@ -70,7 +70,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<std::pair<EdgeFanout*, std::unique_ptr<Observer>>> ears_;
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<Counter> counters_;
-    std::vector<Event> buffer_;
+    std::vector<JobEvent> buffer_;
     std::vector<int> axis_indexes_;  // axis indexes of the head, 0 .. 5
     std::vector<trace::AxisSample> sampled_;
     bool listening_ = false;

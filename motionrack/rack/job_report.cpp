@@ -53,7 +53,7 @@ class LineIndex {
 };
 
 void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome) {
-    const std::vector<Sample>& samples = job.monitor().samples();
+    const std::vector<MonitorSample>& samples = job.monitor().samples();
     for (const AxisOutcome& axis : outcome.axes) {
         trace::ReportAxis out;
         const auto i = static_cast<std::size_t>(axis.index);
@@ -120,9 +120,9 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     if (!rack.config().point_to_point())
         data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
-    const std::vector<Sample>& samples = job.monitor().samples();
+    const std::vector<MonitorSample>& samples = job.monitor().samples();
     const Instant began = samples.empty() ? Instant{0} : samples.front().at;
-    for (const Sample& sample : samples) {
+    for (const MonitorSample& sample : samples) {
         data.seconds.push_back(to_seconds(sample.at - began));
         data.driven.push_back({sample.position[0], sample.position[1], sample.position[2]});
     }

@@ -14,7 +14,7 @@ constexpr double max_rounding = 2;
 constexpr double accel_reserve = 1.03;
 }  // namespace
 
-void Monitor::Observer::rate_changed(double before, double rate, Instant now) {
+void Monitor::RateObserver::rate_changed(double before, double rate, Instant now) {
     speed.changed(before, rate, now);
     const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending) {
@@ -54,7 +54,7 @@ void Monitor::Observer::rate_changed(double before, double rate, Instant now) {
     }
 }
 
-void Monitor::Observer::settle() {
+void Monitor::RateObserver::settle() {
     if (!pending) return;
     jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)) - rounding);
     good = present;
@@ -62,7 +62,7 @@ void Monitor::Observer::settle() {
     ++jumps;
 }
 
-void Monitor::Observer::restart(const TopSpeed& fresh, double rate, Instant now) {
+void Monitor::RateObserver::restart(const TopSpeed& fresh, double rate, Instant now) {
     speed = fresh;
     good = follower = present = rate;
     away = rounding = explained = jump = 0;
@@ -199,7 +199,7 @@ void Monitor::work_off(const RawSample& raw) {
         }
     }
     find_programmed();
-    Sample sample;
+    MonitorSample sample;
     sample.at = raw.at;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
@@ -223,7 +223,7 @@ void Monitor::work_off(const RawSample& raw) {
     if (on_sample_) on_sample_(sample, off);
 }
 
-void Monitor::accelerations(const RawSample& raw, Sample& sample) {
+void Monitor::accelerations(const RawSample& raw, MonitorSample& sample) {
     std::move_backward(seen_.last.begin(), seen_.last.end() - 1, seen_.last.end());
     seen_.last[0] = raw;
     if (++seen_.last_count < 5) return;
@@ -247,7 +247,7 @@ void Monitor::accelerations(const RawSample& raw, Sample& sample) {
     }
 }
 
-Breach Monitor::breach_here(const Sample& sample) const {
+Breach Monitor::breach_here(const MonitorSample& sample) const {
     Breach out;
     out.at = sample.at;
     out.line = seen_.open_block.line;
@@ -255,7 +255,7 @@ Breach Monitor::breach_here(const Sample& sample) const {
     return out;
 }
 
-void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
+void Monitor::look_for_jumps(const RawSample& raw, const MonitorSample& sample) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const JumpWatch::Jump jump = seen_.jump_watches[i].look(raw.commanded[i]);
         if (jump.hz <= 0) continue;
@@ -271,7 +271,7 @@ void Monitor::look_for_jumps(const RawSample& raw, const Sample& sample) {
 }
 
 /// A motor that does not follow is reported elsewhere; here the pulses must not leave the path.
-void Monitor::look_at_deviation(const Sample& sample, const ProgramDistance& off) {
+void Monitor::look_at_deviation(const MonitorSample& sample, const ProgramDistance& off) {
     const bool was_beside = seen_.beside;
     seen_.beside = false;
     if (allowed_mm_ <= 0 || off.judged_mm <= off.tolerance_mm + allowed_mm_) return;
@@ -287,11 +287,11 @@ void Monitor::look_at_deviation(const Sample& sample, const ProgramDistance& off
 }
 
 std::array<double, 3> Monitor::place_at(Instant at) const {
-    const std::vector<Sample>& kept = samples();
+    const std::vector<MonitorSample>& kept = samples();
     if (kept.empty()) return {};
     const auto after =
-        std::lower_bound(kept.begin(), kept.end(), at, [](const Sample& one, Instant t) { return one.at < t; });
-    const Sample& near = after == kept.end() ? kept.back() : *after;
+        std::lower_bound(kept.begin(), kept.end(), at, [](const MonitorSample& one, Instant t) { return one.at < t; });
+    const MonitorSample& near = after == kept.end() ? kept.back() : *after;
     return {near.position[0], near.position[1], near.position[2]};
 }
 

@@ -36,7 +36,7 @@ struct WatchedAxis {
     double start_hz = 0;          ///< velocity step limit of the axis, pulses/s
 };
 
-struct Sample {
+struct MonitorSample {
     Instant at{};
     std::array<double, control::axis_count> position = {};   ///< true position, mm or degrees
     std::array<double, control::axis_count> commanded = {};  ///< commanded position by the pulses, mm or degrees
@@ -99,9 +99,9 @@ class Monitor final : public sim::Device {
     void drain();
 
     /// Calls `call` with every sample and its deviation in mm, between runs; no sample is left out.
-    void on_sample(std::function<void(const Sample&, double deviation)> call) { on_sample_ = std::move(call); }
+    void on_sample(std::function<void(const MonitorSample&, double deviation)> call) { on_sample_ = std::move(call); }
 
-    const std::vector<Sample>& samples() const { return seen_.kept.samples(); }
+    const std::vector<MonitorSample>& samples() const { return seen_.kept.samples(); }
     const std::vector<double>& deviations() const { return seen_.kept.deviations(); }  ///< mm, one per sample
     const AxisStatistics& statistics(int index) const { return seen_.statistics[static_cast<std::size_t>(index)]; }
     const PathDeviation& worst() const { return seen_.worst; }
@@ -121,9 +121,9 @@ class Monitor final : public sim::Device {
 
   private:
     /// Listens to the changes of one axis' pulse rate.
-    class Observer final : public sim::PositionListener {
+    class RateObserver final : public sim::PositionListener {
       public:
-        Observer(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
+        RateObserver(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
         /// Restarts at this rate now, independent of earlier motion.
@@ -165,7 +165,7 @@ class Monitor final : public sim::Device {
         std::int64_t ring_lost = 0;
         std::array<RawSample, 5> last = {};  // newest first, for accelerations
         int last_count = 0;
-        trace::DecimatingBuffer<Sample> kept;
+        trace::DecimatingBuffer<MonitorSample> kept;
         std::int64_t taken = 0;
         std::array<AxisStatistics, control::axis_count> statistics = {};
         std::deque<Planned> planned;
@@ -188,10 +188,10 @@ class Monitor final : public sim::Device {
 
     void take(Instant now);
     void work_off(const RawSample& raw);
-    void accelerations(const RawSample& raw, Sample& sample);
-    void look_for_jumps(const RawSample& raw, const Sample& sample);
-    void look_at_deviation(const Sample& sample, const ProgramDistance& off);
-    Breach breach_here(const Sample& sample) const;
+    void accelerations(const RawSample& raw, MonitorSample& sample);
+    void look_for_jumps(const RawSample& raw, const MonitorSample& sample);
+    void look_at_deviation(const MonitorSample& sample, const ProgramDistance& off);
+    Breach breach_here(const MonitorSample& sample) const;
     ProgramDistance deviation_at(const std::array<double, control::axis_count>& position) const;
     void begin_programmed(const control::PlannedMove& block);
     void find_programmed();
@@ -200,13 +200,13 @@ class Monitor final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     std::vector<WatchedAxis> axes_;
-    std::vector<Observer> ears_;
+    std::vector<RateObserver> ears_;
     Duration period_;
     std::size_t max_samples_;
     std::vector<RawSample> ring_;
     Seen seen_;
     bool running_ = false;
-    std::function<void(const Sample&, double)> on_sample_;
+    std::function<void(const MonitorSample&, double)> on_sample_;
     double allowed_mm_ = 0;
 };
 

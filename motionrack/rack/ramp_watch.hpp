@@ -48,7 +48,7 @@ class RampWatch final : public sim::Device {
     static constexpr Duration period = milliseconds(1), looks_back = whole_seconds(2);
     static constexpr std::size_t counts_kept = 2 * (JumpLaw::max_window / period) + 1;
     /// An axis moved by pulses, with a velocity step limit.
-    struct Watched {
+    struct SteppedAxis {
         std::size_t axis = 0;  ///< index in Rack::axes()
         JumpLaw law;
     };
@@ -66,7 +66,7 @@ class RampWatch final : public sim::Device {
     Rack& rack_;
     sim::Kernel& kernel_;
     sim::DeviceId id_;
-    std::vector<Watched> watched_;  ///< same order as state_.counts
+    std::vector<SteppedAxis> watched_;  ///< same order as state_.counts
     State state_;
 };
 

@@ -115,7 +115,9 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked,
     settings.progress = std::move(progress);
     settings.on_slice = [this, stop_asked] { between_runs(stop_asked); };
     if (recorder_)
-        settings.on_sample = [this](const Sample& sample, double deviation) { recorder_->sample(sample, deviation); };
+        settings.on_sample = [this](const MonitorSample& sample, double deviation) {
+            recorder_->sample(sample, deviation);
+        };
     job_ = std::make_unique<Job>(rack_, settings);
     rack_.start();
     if (waves_) waves_->begin();

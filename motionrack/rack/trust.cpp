@@ -18,7 +18,7 @@ TrustWatch::TrustWatch(Rack& rack) : rack_(rack), watched_(rack.axes().size()) {
 }
 
 void TrustWatch::begin(std::size_t axis, const Mark& from) {
-    Watched& one = watched_[axis];
+    TrustMark& one = watched_[axis];
     one.from = from;
     one.counted_wrongly = counted_wrongly(axis);
     one.lost = one.told_counts = false;
@@ -65,7 +65,7 @@ void TrustWatch::look_for_lost(std::size_t axis, const sim::Condition& condition
 }
 
 void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
-    Watched& one = watched_[axis];
+    TrustMark& one = watched_[axis];
     const Instant now = rack_.kernel().now();
     const char letter = rack_.axes()[axis].config.letter;
     if (!knows_itself(axis))

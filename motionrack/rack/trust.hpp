@@ -50,7 +50,7 @@ class TrustWatch {
     bool knows_itself(std::size_t axis);
 
   private:
-    struct Watched {
+    struct TrustMark {
         Mark from{Instant{-1}};
         std::int64_t counted_wrongly = 0;  ///< count error at the start
         bool counted = false;              ///< the card counts the encoder separately from the pulses
@@ -67,7 +67,7 @@ class TrustWatch {
     void compare(std::size_t axis, std::vector<TrustFinding>& out);
 
     Rack& rack_;
-    std::vector<Watched> watched_;
+    std::vector<TrustMark> watched_;
     std::uint64_t seen_ = 0;           ///< conditions evaluated
     std::vector<TrustFinding> early_;  ///< findings for the next look
 };

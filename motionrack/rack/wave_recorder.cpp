@@ -91,7 +91,7 @@ class WaveRecorder::LineEar final : public sim::EdgeListener {
     std::size_t a_, b_;
 };
 
-std::int64_t WaveRecorder::Counter::value() const {
+std::int64_t WaveRecorder::RecordedCounter::value() const {
     return card->counter({{}, channel, encoder});
 }
 
@@ -183,7 +183,7 @@ void WaveRecorder::choose_axes() {
             heard_.emplace_back(axis.pulse_ears.get(), steps_.back().get());
         }
         if (lines) {
-            const parts::Lines now = machine.encoder_lines(rack_.kernel().now());
+            const parts::QuadratureLevels now = machine.encoder_lines(rack_.kernel().now());
             const std::size_t a = add({name, "enc_a", false, 1, now.a != 0}),
                               b = add({name, "enc_b", false, 1, now.b != 0});
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
@@ -223,7 +223,7 @@ void WaveRecorder::choose_counters() {
     for (const auto& card : rack_.cards())
         for (const CardCounter& each : card->counters()) {
             if (!wanted(card->name() + "." + each.name)) continue;
-            Counter counter{card.get(), each.channel, each.encoder, 0};
+            RecordedCounter counter{card.get(), each.channel, each.encoder, 0};
             counter.signal = add({card->name(), each.name, true, 1, counter.value()});
             counters_.push_back(counter);
         }
@@ -256,7 +256,7 @@ void WaveRecorder::on_scheduled(Instant now) {
 }
 
 void WaveRecorder::look_at_cards(Instant now) {
-    for (const Counter& counter : counters_) push(now, counter.signal, counter.value());
+    for (const RecordedCounter& counter : counters_) push(now, counter.signal, counter.value());
 }
 
 void WaveRecorder::drain() {
@@ -270,10 +270,11 @@ void WaveRecorder::drain_settled() {
 void WaveRecorder::write_before(Instant end) {
     const Instant now = rack_.kernel().now();
     for (const auto& ear : steps_) ear->settle(now);
-    std::stable_sort(buffer_.begin(), buffer_.end(),
-                     [](const Event& a, const Event& b) { return a.at != b.at ? a.at < b.at : a.place < b.place; });
+    std::stable_sort(buffer_.begin(), buffer_.end(), [](const WaveEvent& a, const WaveEvent& b) {
+        return a.at != b.at ? a.at < b.at : a.place < b.place;
+    });
     const auto rest =
-        std::partition_point(buffer_.begin(), buffer_.end(), [end](const Event& event) { return event.at < end; });
+        std::partition_point(buffer_.begin(), buffer_.end(), [end](const WaveEvent& event) { return event.at < end; });
     for (auto event = buffer_.begin(); event != rest; ++event) {
         last_ = std::max(last_, event->at);  // after drain() a pulse's end may follow a later change
         sink_->change(event->signal, event->value, last_);

@@ -79,7 +79,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     void wire_changed(sim::WireId wire, int level, Instant now) override;
 
   private:
-    struct Event {
+    struct WaveEvent {
         Instant at{};
         std::uint32_t signal = 0;
         std::uint32_t place = 0;  ///< order among the events of its instant
@@ -96,7 +96,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     /// Listens to the encoder of one axis.
     class LineEar;
     /// LP or EP of a channel.
-    struct Counter {
+    struct RecordedCounter {
         Card* card = nullptr;
         int channel = 0;
         bool encoder = false;
@@ -139,8 +139,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::unique_ptr<LineEar>> lines_;
     std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
     std::vector<sim::WireId> followed_;
-    std::vector<Counter> counters_;
-    std::vector<Event> buffer_;
+    std::vector<RecordedCounter> counters_;
+    std::vector<WaveEvent> buffer_;
     std::uint64_t changes_ = 0;
     std::uint64_t lost_ = 0;
     Instant last_{};

@@ -15,7 +15,7 @@ constexpr double max_volts = 15;  // limit of an analog input
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
     std::map<std::string, double> out;
     for (const RackCard& card : config.cards)
-        for (const Pin& pin : pins_of(card))
+        for (const CardPinName& pin : pins_of(card))
             if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
     for (const RackAxis& axis : config.axes)
         for (const AxisSignal& end : axis_ends())
@@ -24,11 +24,11 @@ std::map<std::string, double> volts_of_wires(const RackConfig& config) {
 }
 
 WireAccess::WireAccess(Rack& rack) : rack_(rack) {
-    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
-    if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
+    wires_["estop"] = {WireKind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
+    if (rack_.config().probe) wires_["probe"] = {WireKind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
     for (const char* contact : {"estop1", "estop2", "door"})
         if (const sim::WireId wire = rack_.kernel().find_wire(contact); wire != sim::WireId::none)
-            wires_[contact] = {Kind::plain, wire, -1, 0, 1, 1, {}};
+            wires_[contact] = {WireKind::plain, wire, -1, 0, 1, 1, {}};
     add_cards();
     add_axes();
     add_tracks();
@@ -38,9 +38,9 @@ WireAccess::WireAccess(Rack& rack) : rack_(rack) {
 
 void WireAccess::add_cards() {
     for (const RackCard& card : rack_.config().cards)
-        for (const Pin& pin : pins_of(card)) {
+        for (const CardPinName& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
+            AccessibleWire wire{WireKind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
             if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
                 wire.refused = fmt::format(
@@ -49,7 +49,7 @@ void WireAccess::add_cards() {
         }
     for (const auto& card : rack_.cards())
         for (const std::string& name : card->shared_wires())
-            wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
+            wires_[name] = {WireKind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
 }
 
 void WireAccess::add_axes() {
@@ -58,16 +58,16 @@ void WireAccess::add_axes() {
         for (const AxisSignal& end : axis_ends()) {
             if (!end.present(config.axes[i])) continue;
             const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
+            AccessibleWire wire{WireKind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
             if (end.name == "enc_a" || end.name == "enc_b") {
-                wire.kind = Kind::track;
+                wire.kind = WireKind::track;
                 wire.which = end.name == "enc_b";
                 wire.refused =
                     fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
             } else if (end.volts > 0) {
                 wire.unit = end.volts;
             } else if (end.direction == PinDirection::input) {
-                wire.kind = Kind::pulses;
+                wire.kind = WireKind::pulses;
                 wire.refused = fmt::format(
                     "{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
                 for (const RackWire& joined : config.wires)
@@ -83,7 +83,7 @@ void WireAccess::add_tracks() {
         for (const ConveyorSignal& end : track_ends())
             if (end.present(track.config))
                 wires_[fmt::format("{}.{}", track.config.name, end.name)] = {
-                    Kind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
+                    WireKind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
 }
 
 /// The inputs at the end of a link are not separate wires unless they are forced.
@@ -93,22 +93,22 @@ void WireAccess::add_encoders() {
         if (!joined.link || joined.to.owner != EndOwner::card) continue;
         const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
         int channel = -1;
-        for (const Pin& pin : pins_of(card))
+        for (const CardPinName& pin : pins_of(card))
             if (pin.name == joined.to.pin) channel = pin.channel;
         for (const EncoderLink& link : config.encoder_links) {
             if (link.card != joined.to.index || link.channel != channel) continue;
             auto input = std::find_if(encoders_.begin(), encoders_.end(),
                                       [&](const EncoderInput& known) { return known.link == link; });
             if (input == encoders_.end()) input = encoders_.insert(input, EncoderInput{link, 0});
-            Wire& wire = wires_[config.end_name(joined.to)];
-            wire.kind = Kind::counted;
+            AccessibleWire& wire = wires_[config.end_name(joined.to)];
+            wire.kind = WireKind::counted;
             wire.index = static_cast<int>(input - encoders_.begin());
             wire.which = (joined.from.pin == "enc_b") != link.swapped;
         }
     }
 }
 
-const WireAccess::Wire* WireAccess::find(std::string_view name) const {
+const WireAccess::AccessibleWire* WireAccess::find(std::string_view name) const {
     const auto found = wires_.find(name);
     return found != wires_.end() ? &found->second : nullptr;
 }
@@ -125,7 +125,8 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
 std::vector<WireAccess::Named> WireAccess::names() const {
     std::vector<Named> out;
     for (const auto& [name, wire] : wires_) {
-        const bool recorded = wire.kind == Kind::plain ? wire.id != sim::WireId::none : wire.kind != Kind::counted;
+        const bool recorded =
+            wire.kind == WireKind::plain ? wire.id != sim::WireId::none : wire.kind != WireKind::counted;
         out.push_back({name, wire.unit != 1, wire.refused.empty(), recorded, wire.bits});
     }
     return out;
@@ -139,8 +140,8 @@ void WireAccess::add_ideal_encoders() {
         if (pins.empty()) continue;
         encoders_.push_back({{no_axis, static_cast<int>(i), 0, false}, 0});
         for (std::size_t which = 0; which < pins.size(); ++which) {
-            Wire& wire = wires_[fmt::format("{}.{}", card.name(), pins[which])];
-            wire.kind = Kind::counted;
+            AccessibleWire& wire = wires_[fmt::format("{}.{}", card.name(), pins[which])];
+            wire.kind = WireKind::counted;
             wire.index = static_cast<int>(encoders_.size()) - 1;
             wire.which = static_cast<int>(which);
         }
@@ -158,15 +159,15 @@ unsigned WireAccess::lines_at(const EncoderInput& input) const {
 }
 
 Result<double> WireAccess::get(std::string_view name) const {
-    const Wire* wire = find(name);
+    const AccessibleWire* wire = find(name);
     if (wire == nullptr) return unknown(name);
     const sim::Kernel& kernel = rack_.kernel();
-    if (wire->kind == Kind::track) {
-        const parts::Lines lines =
+    if (wire->kind == WireKind::track) {
+        const parts::QuadratureLevels lines =
             rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
         return wire->which == 0 ? lines.a : lines.b;
     }
-    if (wire->kind == Kind::counted) {
+    if (wire->kind == WireKind::counted) {
         const EncoderInput& input = encoders_[static_cast<std::size_t>(wire->index)];
         if (input.driven == 0) return lines_at(input) >> wire->which & 1u;
     }
@@ -174,7 +175,7 @@ Result<double> WireAccess::get(std::string_view name) const {
 }
 
 Result<void> WireAccess::check(std::string_view name, double value) const {
-    const Wire* wire = find(name);
+    const AccessibleWire* wire = find(name);
     if (wire == nullptr) return unknown(name);
     if (!wire->refused.empty()) return fail(ErrorKind::refused, wire->refused + ". Nothing was done.");
     if (std::isnan(value)) return {};
@@ -202,7 +203,7 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
 
 Result<void> WireAccess::force(std::string_view name, double value) {
     MOTIONRACK_CHECK(check(name, value));
-    const Wire& wire = *find(name);
+    const AccessibleWire& wire = *find(name);
     const bool released = std::isnan(value);
     const int level = released ? 0 : static_cast<int>(std::floor(value / wire.unit + 0.5));
     rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
@@ -216,9 +217,9 @@ Result<void> WireAccess::force(std::string_view name, double value) {
     return {};
 }
 
-void WireAccess::drive(const Wire& wire, int level) {
+void WireAccess::drive(const AccessibleWire& wire, int level) {
     sim::Kernel& kernel = rack_.kernel();
-    if (wire.kind == Kind::counted) {
+    if (wire.kind == WireKind::counted) {
         EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
         if (input.driven == 0) {
             // Its lines keep their levels, so that disconnecting it counts nothing.
@@ -230,8 +231,8 @@ void WireAccess::drive(const Wire& wire, int level) {
     kernel.force(wire.id, level);
 }
 
-void WireAccess::release(const Wire& wire) {
-    if (wire.kind != Kind::counted) return rack_.kernel().release(wire.id);
+void WireAccess::release(const AccessibleWire& wire) {
+    if (wire.kind != WireKind::counted) return rack_.kernel().release(wire.id);
     EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
     if ((input.driven & 1u << wire.which) == 0) return;
     input.driven &= ~(1u << wire.which);

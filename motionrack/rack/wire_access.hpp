@@ -43,14 +43,14 @@ class WireAccess {
     void copy_from(const WireAccess& other) { encoders_ = other.encoders_; }
 
   private:
-    enum class Kind : std::uint8_t {
+    enum class WireKind : std::uint8_t {
         plain,    ///< a wire of the kernel
         counted,  ///< a channel input to which an encoder is connected as a unit
         track,    ///< an output of an encoder
         pulses    ///< an input of a motor
     };
-    struct Wire {
-        Kind kind = Kind::plain;
+    struct AccessibleWire {
+        WireKind kind = WireKind::plain;
         sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives the motor, if any
         int index = -1;                      ///< counted: index in encoders_; track: index of the axis
         int which = 0;                       ///< 0: A, 1: B
@@ -70,14 +70,14 @@ class WireAccess {
     void add_tracks();
     void add_encoders();
     void add_ideal_encoders();
-    const Wire* find(std::string_view name) const;
+    const AccessibleWire* find(std::string_view name) const;
     tl::unexpected<Error> unknown(std::string_view name) const;
     unsigned lines_at(const EncoderInput& input) const;
-    void drive(const Wire& wire, int level);
-    void release(const Wire& wire);
+    void drive(const AccessibleWire& wire, int level);
+    void release(const AccessibleWire& wire);
 
     Rack& rack_;
-    std::map<std::string, Wire, std::less<>> wires_;
+    std::map<std::string, AccessibleWire, std::less<>> wires_;
     std::vector<EncoderInput> encoders_;
 };
 

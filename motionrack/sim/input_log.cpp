@@ -4,13 +4,13 @@
 
 namespace motionrack::sim {
 
-void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end,
-            const std::function<void(const Input&)>& apply) {
+void replay(Kernel& kernel, const std::vector<LoggedInput>& inputs, Instant end,
+            const std::function<void(const LoggedInput&)>& apply) {
     auto run = [&kernel](Instant until) {
         while (kernel.run_until(until) == RunEnd::broken) {
         }
     };
-    for (const Input& input : inputs) {
+    for (const LoggedInput& input : inputs) {
         run(input.at);
         apply(input);
         kernel.settle();

@@ -10,28 +10,28 @@ namespace motionrack::sim {
 
 enum class InputKind : std::uint8_t { register_write, register_read, force_wire, release_wire, fault };
 
-struct Input {
+struct LoggedInput {
     Instant at{};
     InputKind kind{};
     std::uint16_t target = 0;  ///< device or wire number
     std::uint32_t offset = 0;  ///< register offset, or the fault's number
     std::uint16_t value = 0;
     double amount = 0;  ///< the fault's parameter
-    friend bool operator==(const Input&, const Input&) = default;
+    friend bool operator==(const LoggedInput&, const LoggedInput&) = default;
 };
 
 /// Grows only between runs.
 class InputLog {
   public:
-    void add(const Input& input) {
+    void add(const LoggedInput& input) {
         if (keeps_) inputs_.push_back(input);
     }
     /// Stops recording: for worlds that run without end and are never replayed.
     void keep_no_more() { keeps_ = false; }
-    const std::vector<Input>& inputs() const { return inputs_; }
+    const std::vector<LoggedInput>& inputs() const { return inputs_; }
 
   private:
-    std::vector<Input> inputs_;
+    std::vector<LoggedInput> inputs_;
     bool keeps_ = true;
 };
 
@@ -39,7 +39,7 @@ class Kernel;
 
 /// Replays `inputs` into a new world of the same wiring: each at its instant, then advances to `end`. `apply` executes
 /// one input (writes the register, forces the wire); it is called between runs.
-void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end,
-            const std::function<void(const Input&)>& apply);
+void replay(Kernel& kernel, const std::vector<LoggedInput>& inputs, Instant end,
+            const std::function<void(const LoggedInput&)>& apply);
 
 }  // namespace motionrack::sim

@@ -42,7 +42,7 @@ class Preparation {
     }
 
   private:
-    const std::vector<Parameter>& parameters() const { return sweep_.file_.parameters; }
+    const std::vector<VariedParameter>& parameters() const { return sweep_.file_.parameters; }
 
     bool read_rack() {
         rack::RackReading reading = rack::read_rack_text(files_.rack, files_.rack_name);
@@ -73,7 +73,7 @@ class Preparation {
     void check_paths() {
         TomlNode value;
         value.type = rack::TomlType::flag;
-        for (const Parameter& parameter : parameters()) {
+        for (const VariedParameter& parameter : parameters()) {
             TomlNode scratch = sweep_.rack_;
             if (parameter.kind == ParameterKind::rack && !rack::put_value(scratch, parameter.path, value))
                 problems_.error(
@@ -134,7 +134,7 @@ class Preparation {
         std::string with;
         Place place;
         for (std::size_t p = 0; p < values.size(); ++p) {
-            const Parameter& parameter = parameters()[p];
+            const VariedParameter& parameter = parameters()[p];
             if (parameter.kind != ParameterKind::rack) continue;
             if (parameter.name == name)
                 return tell(static_cast<std::size_t>(error.place.column) <= name.size() ? parameter.place

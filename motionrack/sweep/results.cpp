@@ -28,7 +28,7 @@ Result<void> put_in_place(const std::string& made, const std::string& path) {
 /// Column names in table order; result columns only if `shown`.
 std::vector<std::string> heads(const Sweep& sweep, const std::vector<bool>& shown) {
     std::vector<std::string> out = {"key", "point"};
-    for (const Parameter& parameter : sweep.parameters()) out.push_back(parameter.name);
+    for (const VariedParameter& parameter : sweep.parameters()) out.push_back(parameter.name);
     const auto columns = result_columns();
     for (std::size_t c = 0; c < columns.size(); ++c)
         if (shown[c]) out.push_back(columns[c].name);
@@ -119,7 +119,8 @@ Result<void> Results::finish() {
 
 std::vector<TableColumn> table_of(const Sweep& sweep, const Results& results) {
     std::vector<TableColumn> out = {{"key", "", true, {}}, {"point", "", false, {}}};
-    for (const Parameter& parameter : sweep.parameters()) out.push_back({parameter.name, "", !parameter.numeric(), {}});
+    for (const VariedParameter& parameter : sweep.parameters())
+        out.push_back({parameter.name, "", !parameter.numeric(), {}});
     const auto columns = result_columns();
     const std::vector<bool> shown = shown_of(sweep, results);
     for (std::size_t c = 0; c < columns.size(); ++c)

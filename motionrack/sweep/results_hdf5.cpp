@@ -14,7 +14,7 @@ namespace motionrack::sweep {
 
 namespace {
 
-using trace::hdf5::File;
+using trace::hdf5::Hdf5File;
 using trace::hdf5::Type;
 
 constexpr const char* format = "motionrack sweep";
@@ -26,7 +26,7 @@ std::string path_of(std::string name) {
     return name;
 }
 
-void write_column(File& file, const TableColumn& column) {
+void write_column(Hdf5File& file, const TableColumn& column) {
     trace::hdf5::ColumnSettings settings;
     settings.unit = column.unit;
     settings.chunk = std::clamp<std::size_t>(column.cells.size(), 1, 1 << 14);
@@ -53,7 +53,7 @@ void write_column(File& file, const TableColumn& column) {
     if (!good) file.set_trouble("could not be written");
 }
 
-Result<std::vector<std::string>> read_column(const File& file, const ResultColumn& column) {
+Result<std::vector<std::string>> read_column(const Hdf5File& file, const ResultColumn& column) {
     MOTIONRACK_TRY(const auto reader, file.column(column.name));
     std::vector<std::string> out(reader.size());
     std::vector<double> numbers(column.text ? 0 : out.size());
@@ -71,7 +71,7 @@ Result<std::vector<std::string>> read_column(const File& file, const ResultColum
 }  // namespace
 
 Result<void> write_table_hdf5(const std::vector<TableColumn>& table, const std::string& path) {
-    MOTIONRACK_TRY(File file, File::create(path));
+    MOTIONRACK_TRY(Hdf5File file, Hdf5File::create(path));
     file.set("/", "format", std::string_view(format));
     file.set("/", "format_version", format_version);
     for (const TableColumn& column : table) write_column(file, column);
@@ -82,7 +82,7 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     Rows out;
     std::error_code missing;
     if (!std::filesystem::exists(path, missing) || std::filesystem::is_empty(path, missing)) return out;
-    const Result<File> file = File::open(path);
+    const Result<Hdf5File> file = Hdf5File::open(path);
     if (!file || file->attribute_text("format") != format)
         return fail(
             ErrorKind::refused,

@@ -20,7 +20,7 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t point, std::uint64_t param
     return out;
 }
 
-TomlNode drawn(const Parameter& parameter, std::uint64_t luck) {
+TomlNode drawn(const VariedParameter& parameter, std::uint64_t luck) {
     const double part = static_cast<double>(luck >> 11) * 0x1p-53;
     if (!parameter.range)
         return parameter.values[static_cast<std::size_t>(part * static_cast<double>(parameter.values.size()))];
@@ -36,7 +36,7 @@ TomlNode drawn(const Parameter& parameter, std::uint64_t luck) {
 
 std::vector<TomlNode> Sweep::values(std::int64_t i) const {
     std::vector<TomlNode> out;
-    const std::vector<Parameter>& parameters = file_.parameters;
+    const std::vector<VariedParameter>& parameters = file_.parameters;
     if (file_.settings.order == Order::random) {
         for (std::size_t p = 0; p < parameters.size(); ++p)
             out.push_back(drawn(parameters[p], mixed(static_cast<std::uint64_t>(file_.settings.seed),

@@ -19,7 +19,7 @@ namespace motionrack::sweep {
 class Sweep {
   public:
     std::int64_t points() const { return static_cast<std::int64_t>(keys_.size()); }
-    const std::vector<Parameter>& parameters() const { return file_.parameters; }
+    const std::vector<VariedParameter>& parameters() const { return file_.parameters; }
     /// Returns a value per parameter for point `i`, 0 .. points() - 1. In a grid, the last parameter changes fastest.
     std::vector<rack::TomlNode> values(std::int64_t i) const;
     PointText point(std::int64_t i) const;

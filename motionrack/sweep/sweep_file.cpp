@@ -117,13 +117,13 @@ class Reader {
     }
 
     void add(const TomlNode& node, const std::vector<std::string>& path) {
-        Parameter parameter;
+        VariedParameter parameter;
         parameter.name = rack::toml_name(path);
         parameter.path = path;
         parameter.place = node.key_place;
         if (path.size() == 1 && path[0] == "fault") parameter.kind = ParameterKind::fault;
         if (path[0] == "text") parameter.kind = ParameterKind::text;
-        for (const Parameter& other : file_.parameters)
+        for (const VariedParameter& other : file_.parameters)
             if (other.name == parameter.name)
                 return problems_.error(node.key_place,
                                        fmt::format("{} is varied twice; leave one out.", parameter.name));
@@ -135,7 +135,7 @@ class Reader {
         file_.parameters.push_back(std::move(parameter));
     }
 
-    bool read_values(const TomlNode& node, Parameter& parameter) {
+    bool read_values(const TomlNode& node, VariedParameter& parameter) {
         const auto wrong = [&](Place place, std::string_view what) {
             problems_.error(place, fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.",
                                                parameter.name, what));
@@ -160,7 +160,7 @@ class Reader {
         return good;
     }
 
-    bool check_value(const TomlNode& value, const Parameter& parameter) {
+    bool check_value(const TomlNode& value, const VariedParameter& parameter) {
         const auto refuse = [&](const std::string& what) {
             problems_.error(value.value_place, what);
             return false;
@@ -183,7 +183,7 @@ class Reader {
         return true;
     }
 
-    bool read_range(const TomlNode& node, Parameter& parameter) {
+    bool read_range(const TomlNode& node, VariedParameter& parameter) {
         RangeSettings settings;
         TomlNode table = node;
         table.key_place = node.value_place;
@@ -237,7 +237,7 @@ class Reader {
 
 }  // namespace
 
-bool Parameter::numeric() const {
+bool VariedParameter::numeric() const {
     return range || std::all_of(values.begin(), values.end(), [](const TomlNode& value) {
                return value.type == TomlType::integer || value.type == TomlType::number;
            });
@@ -246,7 +246,7 @@ bool Parameter::numeric() const {
 std::int64_t SweepFile::points() const {
     if (settings.order == Order::random) return settings.points.value_or(0);
     std::int64_t out = 1;
-    for (const Parameter& parameter : parameters)
+    for (const VariedParameter& parameter : parameters)
         if (__builtin_mul_overflow(out, static_cast<std::int64_t>(parameter.values.size()), &out))
             return std::numeric_limits<std::int64_t>::max();
     return out;

@@ -45,7 +45,7 @@ struct NumberRange {
 };
 
 /// A varied parameter.
-struct Parameter {
+struct VariedParameter {
     ParameterKind kind = ParameterKind::rack;
     std::string name;                    ///< name in tables: axis.X.max_limit_mm, fault, text.TOLERANCE
     std::vector<std::string> path;       ///< in the rack file
@@ -60,7 +60,7 @@ struct Parameter {
 /// The sweep file alone; the files it names are not yet read.
 struct SweepFile {
     SweepSettings settings;
-    std::vector<Parameter> parameters;  ///< in file order
+    std::vector<VariedParameter> parameters;  ///< in file order
     rack::TomlNode root;
     /// Number of points.
     std::int64_t points() const;

@@ -27,7 +27,7 @@ class SignalNames {
     std::vector<std::string> names_;
 };
 
-struct Change {
+struct SignalChange {
     std::int64_t at_ps = 0;
     std::size_t signal = 0;
     std::string value;  ///< "0", "1", "x", an integer or real number; wider values in binary without leading zeros
@@ -37,7 +37,7 @@ class ChangeSource {
   public:
     virtual ~ChangeSource() = default;
     /// Returns false at the end. Errors: io, invalid_input with the line (malformed change, decreasing time).
-    virtual Result<bool> next(Change& change) = 0;
+    virtual Result<bool> next(SignalChange& change) = 0;
     /// Declared signals, including those that never change.
     const std::vector<std::size_t>& declared() const { return declared_; }
     virtual double part() const = 0;

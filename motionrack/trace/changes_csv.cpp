@@ -33,7 +33,7 @@ class CsvChanges final : public ChangeSource {
     CsvChanges(CsvRows rows, std::string path, SignalNames& names)
         : rows_(std::move(rows)), path_(std::move(path)), names_(names) {}
 
-    Result<bool> next(Change& change) override {
+    Result<bool> next(SignalChange& change) override {
         MOTIONRACK_TRY(const bool any, rows_.next(fields_));
         if (!any) return false;
         const auto refuse = [&](const char* what) {

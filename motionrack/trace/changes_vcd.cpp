@@ -18,7 +18,7 @@ class VcdChanges final : public ChangeSource {
     VcdChanges(FileBytes bytes, SignalNames& names) : bytes_(std::move(bytes)), names_(names) {}
 
     Result<void> read_head();
-    Result<bool> next(Change& change) override;
+    Result<bool> next(SignalChange& change) override;
     double part() const override { return bytes_.part(); }
     bool cut() const override { return cut_; }
 
@@ -29,7 +29,7 @@ class VcdChanges final : public ChangeSource {
     Result<void> timescale();
     Result<void> variable(const std::string& scope);
     Result<void> time();
-    Result<bool> changed(const std::string& code, std::string value, Change& change);
+    Result<bool> changed(const std::string& code, std::string value, SignalChange& change);
     tl::unexpected<Error> refuse(const std::string& message) const {
         return fail(ErrorKind::invalid_input, message, {line_, 0}, bytes_.path());
     }
@@ -141,7 +141,7 @@ Result<void> VcdChanges::time() {
     return {};
 }
 
-Result<bool> VcdChanges::changed(const std::string& code, std::string value, Change& change) {
+Result<bool> VcdChanges::changed(const std::string& code, std::string value, SignalChange& change) {
     const auto found = codes_.find(code);
     if (found == codes_.end()) {
         if (cut_) return false;
@@ -153,7 +153,7 @@ Result<bool> VcdChanges::changed(const std::string& code, std::string value, Cha
     return true;
 }
 
-Result<bool> VcdChanges::next(Change& change) {
+Result<bool> VcdChanges::next(SignalChange& change) {
     while (word()) {
         const char first = word_[0];
         if (first == '#') {

@@ -12,7 +12,7 @@ constexpr std::uint64_t changes_between_looks = 1 << 16;
 /// One of the two files: its next change and its current signal values.
 struct Side {
     std::unique_ptr<ChangeSource> source;
-    Change next;
+    SignalChange next;
     bool more = false;
     std::vector<std::string> values;
     std::vector<bool> known;

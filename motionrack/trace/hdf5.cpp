@@ -118,7 +118,7 @@ bool Writer::append(const void* data, std::size_t count) {
     return true;
 }
 
-Writer File::make_column(const std::string& path, const ColumnSettings& settings) {
+Writer Hdf5File::make_column(const std::string& path, const ColumnSettings& settings) {
     Writer out;
     out.type_ = settings.type;
     out.text_bytes_ = settings.text_bytes;
@@ -142,13 +142,13 @@ Writer File::make_column(const std::string& path, const ColumnSettings& settings
 
 // ---- the file
 
-bool File::good(std::int64_t code, const char* what) {
+bool Hdf5File::good(std::int64_t code, const char* what) {
     if (code >= 0) return true;
     if (trouble_.empty()) trouble_ = fmt::format("could not {}: {}", what, why());
     return false;
 }
 
-Result<File> File::create(const std::string& path) {
+Result<Hdf5File> Hdf5File::create(const std::string& path) {
     MOTIONRACK_CHECK(load_library());
     be_quiet();
     // System errors are more specific than library errors if the file cannot be created.
@@ -158,7 +158,7 @@ Result<File> File::create(const std::string& path) {
                     {}, path);
     };
     if (!made) return not_made(made.error().message);
-    File out;
+    Hdf5File out;
     out.path_ = path;
     out.made_ = std::move(*made);
     const Handle access = access_settings();
@@ -170,7 +170,7 @@ Result<File> File::create(const std::string& path) {
     return out;
 }
 
-Result<void> File::reopen() {
+Result<void> Hdf5File::reopen() {
     MOTIONRACK_CHECK(close_library());
     const Handle access = access_settings();
     file_ = Handle(H5Fopen(made_.path_until_whole().c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
@@ -181,13 +181,13 @@ Result<void> File::reopen() {
                 {}, path_);
 }
 
-void File::make_group(const std::string& path) {
+void Hdf5File::make_group(const std::string& path) {
     const Handle links = link_settings();
     const Handle group(H5Gcreate2(file_.get(), path.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
     good(group.get(), "make a group");
 }
 
-void File::write_text(const std::string& path, std::string_view text) {
+void Hdf5File::write_text(const std::string& path, std::string_view text) {
     const Handle type = text_type(text.size());
     const hsize_t one = 1;
     const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose), links = link_settings(),
@@ -203,7 +203,7 @@ void File::write_text(const std::string& path, std::string_view text) {
     columns_[path]->add(bytes.data(), bytes.size());
 }
 
-void File::put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value) {
+void Hdf5File::put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value) {
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
     const Handle made(
         H5Acreate_by_name(file_.get(), object.c_str(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -215,27 +215,27 @@ void File::put_attribute(const std::string& object, const char* name, std::int64
     written.add(value, written.size);
 }
 
-void File::set(const std::string& object, const char* name, std::string_view text) {
+void Hdf5File::set(const std::string& object, const char* name, std::string_view text) {
     const Handle type = text_type(text.size());
     put_attribute(object, name, type.get(), text.empty() ? "" : text.data());
 }
 
-void File::set(const std::string& object, const char* name, double value) {
+void Hdf5File::set(const std::string& object, const char* name, double value) {
     put_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
 }
-void File::set(const std::string& object, const char* name, std::int64_t value) {
+void Hdf5File::set(const std::string& object, const char* name, std::int64_t value) {
     put_attribute(object, name, H5T_NATIVE_INT64, &value);
 }
 
-void File::begin_streaming() {
+void Hdf5File::begin_streaming() {
     made_.keep_part();
     good(H5Fstart_swmr_write(file_.get()), "begin");
 }
-void File::flush() {
+void Hdf5File::flush() {
     good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "be written");
 }
 
-Result<void> File::close_library() {
+Result<void> Hdf5File::close_library() {
     if (!file_.close() && trouble_.empty()) trouble_ = "could not be closed: " + why();
     if (trouble_.empty()) return {};
     const std::string kept =
@@ -247,7 +247,7 @@ Result<void> File::close_library() {
                 {}, path_);
 }
 
-Result<void> File::close() {
+Result<void> Hdf5File::close() {
     MOTIONRACK_CHECK(close_library());
     const bool device = made_.path_until_whole() == path_;
     if (!device && !is_as_written()) {
@@ -298,11 +298,11 @@ Result<void> check_signature(const std::string& path) {
 
 }  // namespace
 
-Result<File> File::open(const std::string& path) {
+Result<Hdf5File> Hdf5File::open(const std::string& path) {
     MOTIONRACK_CHECK(load_library());
     be_quiet();
     MOTIONRACK_CHECK(check_signature(path));
-    File out;
+    Hdf5File out;
     out.path_ = path;
     const Handle access = access_settings();
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
@@ -318,7 +318,7 @@ Result<File> File::open(const std::string& path) {
                 path);
 }
 
-bool File::has(const std::string& path) const {
+bool Hdf5File::has(const std::string& path) const {
     // H5Lexists requires a check of every group along the path.
     for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
         if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;

@@ -85,13 +85,13 @@ struct Written {
 /// Dataset that grows at its end.
 class Writer {
   public:
-    /// `data`: `count` elements of its type. Returns false on a write error (see File::trouble).
+    /// `data`: `count` elements of its type. Returns false on a write error (see Hdf5File::trouble).
     bool append(const void* data, std::size_t count);
     std::uint64_t size() const { return size_; }
     std::size_t text_bytes() const { return text_bytes_; }
 
   private:
-    friend class File;
+    friend class Hdf5File;
     Handle set_;
     Type type_ = Type::int64;
     std::size_t text_bytes_ = 0;
@@ -112,7 +112,7 @@ class Reader {
     Result<std::string> text(std::uint64_t at) const;
 
   private:
-    friend class File;
+    friend class Hdf5File;
     Result<void> read(Type type, std::uint64_t from, std::size_t count, void* out) const;
     tl::unexpected<Error> damaged() const;
 
@@ -121,12 +121,12 @@ class Reader {
     std::uint64_t size_ = 0;
 };
 
-class File {
+class Hdf5File {
   public:
     /// Creates a file that gets its final name on close; an existing file stays until then. Errors: io.
-    static Result<File> create(const std::string& path);
+    static Result<Hdf5File> create(const std::string& path);
     /// Opens for reading. Errors: io (missing or unreadable), invalid_input (not an HDF5 file, damaged).
-    static Result<File> open(const std::string& path);
+    static Result<Hdf5File> open(const std::string& path);
 
     /// For a file opened for reading: its writer did not close it and was killed or is still running.
     bool unfinished() const { return unfinished_; }

@@ -48,7 +48,7 @@ bool is_attribute_as(const Written& written, std::int64_t attribute) {
 
 }  // namespace
 
-bool File::is_as_written() const {
+bool Hdf5File::is_as_written() const {
     const Handle file(H5Fopen(made_.path_until_whole().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (!file) return false;
     for (const auto& [path, written] : columns_) {

@@ -6,7 +6,7 @@
 namespace motionrack::trace::hdf5 {
 
 Result<void> load_library() {
-    const std::string& trouble = LateTable<Library>::loaded(MOTIONRACK_HDF5_SONAME).trouble();
+    const std::string& trouble = LateTable<Hdf5Library>::loaded(MOTIONRACK_HDF5_SONAME).trouble();
     if (trouble.empty()) return {};
     return fail(ErrorKind::io,
                 fmt::format("The HDF5 library cannot be loaded: {}. Nothing was recorded or read; install "
@@ -14,8 +14,8 @@ Result<void> load_library() {
                             trouble));
 }
 
-const Library& library() {
-    const LateTable<Library>& loaded = LateTable<Library>::loaded(MOTIONRACK_HDF5_SONAME);
+const Hdf5Library& library() {
+    const LateTable<Hdf5Library>& loaded = LateTable<Hdf5Library>::loaded(MOTIONRACK_HDF5_SONAME);
     MOTIONRACK_ASSERT(loaded.trouble().empty());
     return loaded.table();
 }

@@ -29,7 +29,7 @@
 namespace motionrack::trace::hdf5 {
 
 /// Functions and constants of the library that are used here.
-struct Library {
+struct Hdf5Library {
 #define MOTIONRACK_HDF5_MEMBER(name) decltype(&::name) name##_ = nullptr;
     MOTIONRACK_HDF5_FUNCTIONS(MOTIONRACK_HDF5_MEMBER)
     MOTIONRACK_HDF5_NUMBERS(MOTIONRACK_HDF5_MEMBER)
@@ -45,7 +45,7 @@ struct Library {
 /// Errors: io if the library is not installed. Once loaded, it stays loaded.
 Result<void> load_library();
 /// Requires load_library().
-const Library& library();
+const Hdf5Library& library();
 
 }  // namespace motionrack::trace::hdf5
 

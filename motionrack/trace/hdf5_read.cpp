@@ -51,7 +51,7 @@ Result<std::string> Reader::text(std::uint64_t at) const {
     return out;
 }
 
-Result<Reader> File::column(const std::string& path) const {
+Result<Reader> Hdf5File::column(const std::string& path) const {
     const auto refuse = [&](const std::string& what) {
         return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
     };
@@ -82,12 +82,12 @@ Result<Reader> File::column(const std::string& path) const {
     return out;
 }
 
-Result<std::string> File::text(const std::string& path) const {
+Result<std::string> Hdf5File::text(const std::string& path) const {
     MOTIONRACK_TRY(const Reader reader, column(path));
     return reader.text(0);
 }
 
-std::string File::attribute_text(const char* name, const std::string& group) const {
+std::string Hdf5File::attribute_text(const char* name, const std::string& group) const {
     if ((group != "/" && !has(group)) || H5Aexists_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT) <= 0)
         return {};
     const Handle attribute(H5Aopen_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -105,7 +105,7 @@ std::string File::attribute_text(const char* name, const std::string& group) con
     return out;
 }
 
-std::int64_t File::attribute_number(const char* name) const {
+std::int64_t Hdf5File::attribute_number(const char* name) const {
     std::int64_t out = 0;
     if (H5Aexists(file_.get(), name) <= 0) return 0;
     const Handle attribute(H5Aopen(file_.get(), name, H5P_DEFAULT), H5Aclose);

@@ -126,7 +126,7 @@ class RecordingWriter {
     void make_signals(const RecordingHead& head);
     void make_samples(const RecordingHead& head);
 
-    hdf5::File file_;
+    hdf5::Hdf5File file_;
     std::vector<Signal> signals_;
     std::unique_ptr<Samples> samples_;
     hdf5::Writer input_times_, input_texts_, flushed_;
@@ -185,7 +185,7 @@ class RecordingReader {
     Result<void> read_samples(ReportData& data) const;
     ReportData report_of_cut() const;
 
-    hdf5::File file_;
+    hdf5::Hdf5File file_;
     RecordingHead head_;
     std::vector<RecordedInput> inputs_;
     std::vector<RecordedSeries> series_;

@@ -25,8 +25,8 @@ constexpr const char* fact_names[] = {
 
 Result<RecordingReader> RecordingReader::open(const std::string& path) {
     RecordingReader out;
-    MOTIONRACK_TRY(out.file_, hdf5::File::open(path));
-    const hdf5::File& file = out.file_;
+    MOTIONRACK_TRY(out.file_, hdf5::Hdf5File::open(path));
+    const hdf5::Hdf5File& file = out.file_;
     if (file.attribute_text("format") != "motionrack recording")
         return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but not a recording of motionrack.", {}, path);
     const std::int64_t version = file.attribute_number("format_version");

@@ -20,8 +20,8 @@ template <class T>
 class Buffered {
   public:
     Buffered() = default;
-    Buffered(hdf5::File& file, const std::string& path, std::size_t chunk, std::size_t most, const std::string& unit,
-             double scale = 1)
+    Buffered(hdf5::Hdf5File& file, const std::string& path, std::size_t chunk, std::size_t most,
+             const std::string& unit, double scale = 1)
         : writer_(file.make_column(path, {hdf5::type_of<T>, 0, chunk, unit, scale})), most_(most) {}
 
     bool add(T value) {
@@ -78,8 +78,8 @@ RecordingWriter::~RecordingWriter() = default;
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& path, const RecordingHead& head, Instant began) {
     RecordingWriter out;
-    MOTIONRACK_TRY(out.file_, hdf5::File::create(path));
-    hdf5::File& file = out.file_;
+    MOTIONRACK_TRY(out.file_, hdf5::Hdf5File::create(path));
+    hdf5::Hdf5File& file = out.file_;
     file.set("/", "format", "motionrack recording");
     file.set("/", "format_version", recording_format);
     file.set("/", "written_by", "motionrack " + head.version);

@@ -163,19 +163,19 @@ void VcdWriter::pop_scope() {
 }
 
 VcdWriter::Id VcdWriter::add_wire(std::string_view name, bool initial) {
-    return declare(name, Kind::wire, 1, initial ? 1 : 0);
+    return declare(name, VariableKind::wire, 1, initial ? 1 : 0);
 }
 
 VcdWriter::Id VcdWriter::add_vector(std::string_view name, int bits, std::uint64_t initial) {
     MOTIONRACK_ASSERT(bits >= 1 && bits <= 64);
-    return declare(name, Kind::vector, bits, cut(initial, bits));
+    return declare(name, VariableKind::vector, bits, cut(initial, bits));
 }
 
 VcdWriter::Id VcdWriter::add_real(std::string_view name, double initial) {
-    return declare(name, Kind::real, 64, std::bit_cast<std::uint64_t>(std::isfinite(initial) ? initial : 0.0));
+    return declare(name, VariableKind::real, 64, std::bit_cast<std::uint64_t>(std::isfinite(initial) ? initial : 0.0));
 }
 
-VcdWriter::Id VcdWriter::declare(std::string_view name, Kind kind, int bits, std::uint64_t value) {
+VcdWriter::Id VcdWriter::declare(std::string_view name, VariableKind kind, int bits, std::uint64_t value) {
     MOTIONRACK_ASSERT(declaring_);
     const auto id = static_cast<Id>(variables_.size());
     Variable variable{value, {}, 0, static_cast<std::uint8_t>(bits), kind};
@@ -188,8 +188,8 @@ VcdWriter::Id VcdWriter::declare(std::string_view name, Kind kind, int bits, std
     std::string full;
     for (std::size_t i = 0; full_names_ && i < scopes_.size(); ++i) full += scopes_[i] + '_';
     const std::string unique = unique_name(full.append(name));
-    const char* type = kind == Kind::real ? "real" : "wire";
-    put(kind == Kind::vector && bits > 1
+    const char* type = kind == VariableKind::real ? "real" : "wire";
+    put(kind == VariableKind::vector && bits > 1
             ? fmt::format("$var {} {} {} {} [{}:0] $end\n", type, bits, code, unique, bits - 1)
             : fmt::format("$var {} {} {} {} $end\n", type, bits, code, unique));
     variables_.push_back(variable);
@@ -215,7 +215,7 @@ void VcdWriter::change(Id id, std::uint64_t value, Instant at) {
     if (declaring_) end_declarations();
     MOTIONRACK_ASSERT(id < variables_.size() && at >= now_);
     Variable& variable = variables_[id];
-    MOTIONRACK_ASSERT(variable.kind != Kind::real);
+    MOTIONRACK_ASSERT(variable.kind != VariableKind::real);
     value = cut(value, variable.bits);
     now_ = at;
     if (value == variable.value) return;
@@ -229,7 +229,7 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
     if (declaring_) end_declarations();
     MOTIONRACK_ASSERT(id < variables_.size() && at >= now_);
     Variable& variable = variables_[id];
-    MOTIONRACK_ASSERT(variable.kind == Kind::real);
+    MOTIONRACK_ASSERT(variable.kind == VariableKind::real);
     now_ = at;
     if (!std::isfinite(value) || value == std::bit_cast<double>(variable.value)) return;
     variable.value = std::bit_cast<std::uint64_t>(value);
@@ -262,9 +262,9 @@ void VcdWriter::put(std::string_view text) {
 /// Writes the value; requires buffer space.
 void VcdWriter::put_value(const Variable& variable) {
     char* at = buffer_.data() + used_;
-    if (variable.kind == Kind::wire) {
+    if (variable.kind == VariableKind::wire) {
         *at++ = static_cast<char>('0' + variable.value);
-    } else if (variable.kind == Kind::vector) {
+    } else if (variable.kind == VariableKind::vector) {
         *at++ = 'b';
         for (int bit = std::max(1, static_cast<int>(std::bit_width(variable.value))); bit-- > 0;) {
             *at++ = static_cast<char>('0' + (variable.value >> bit & 1U));

@@ -74,17 +74,17 @@ class VcdWriter {
     Result<void> close(Instant end);
 
   private:
-    enum class Kind : std::uint8_t { wire, vector, real };
+    enum class VariableKind : std::uint8_t { wire, vector, real };
     struct Variable {
         std::uint64_t value;  ///< bits of a real
         char code[6];
         std::uint8_t code_length;
         std::uint8_t bits;
-        Kind kind;
+        VariableKind kind;
     };
 
     VcdWriter() = default;
-    Id declare(std::string_view name, Kind kind, int bits, std::uint64_t value);
+    Id declare(std::string_view name, VariableKind kind, int bits, std::uint64_t value);
     std::string unique_name(std::string_view name);
     void end_declarations();
     void put(std::string_view text);

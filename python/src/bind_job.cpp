@@ -28,10 +28,10 @@ struct Ran {
 };
 
 template <class T, class Get>
-py::array_t<T> series(const std::vector<rack::Sample>& samples, Get get) {
+py::array_t<T> series(const std::vector<rack::MonitorSample>& samples, Get get) {
     py::array_t<T> out(static_cast<py::ssize_t>(samples.size()));
     T* at = out.mutable_data();
-    for (const rack::Sample& sample : samples) *at++ = static_cast<T>(get(sample));
+    for (const rack::MonitorSample& sample : samples) *at++ = static_cast<T>(get(sample));
     return out;
 }
 
@@ -42,22 +42,22 @@ std::string letter_of(int index) {
 /// (ticks, {signal: values}) recorded by the monitor.
 py::tuple samples_of(const Ran& ran) {
     const rack::Monitor& monitor = ran.world->job()->monitor();
-    const std::vector<rack::Sample>& samples = monitor.samples();
+    const std::vector<rack::MonitorSample>& samples = monitor.samples();
     py::dict signals;
     const auto add = [&](int index, const char* what, auto get) {
         signals[py::str(letter_of(index) + "." + what)] = series<double>(samples, get);
     };
     for (const rack::AxisOutcome& axis : ran.outcome.axes) {
         const auto i = static_cast<std::size_t>(axis.index);
-        add(axis.index, "position", [i](const rack::Sample& sample) { return sample.position[i]; });
-        add(axis.index, "velocity", [i](const rack::Sample& sample) { return sample.speed[i]; });
-        add(axis.index, "accel", [i](const rack::Sample& sample) { return sample.accel[i]; });
-        if (axis.servo) add(axis.index, "volts", [i](const rack::Sample& sample) { return sample.volts[i]; });
+        add(axis.index, "position", [i](const rack::MonitorSample& sample) { return sample.position[i]; });
+        add(axis.index, "velocity", [i](const rack::MonitorSample& sample) { return sample.speed[i]; });
+        add(axis.index, "accel", [i](const rack::MonitorSample& sample) { return sample.accel[i]; });
+        if (axis.servo) add(axis.index, "volts", [i](const rack::MonitorSample& sample) { return sample.volts[i]; });
     }
     signals["deviation"] =
         py::array_t<double>(static_cast<py::ssize_t>(monitor.deviations().size()), monitor.deviations().data());
-    return py::make_tuple(series<std::int64_t>(samples, [](const rack::Sample& sample) { return sample.at.count(); }),
-                          signals);
+    return py::make_tuple(
+        series<std::int64_t>(samples, [](const rack::MonitorSample& sample) { return sample.at.count(); }), signals);
 }
 
 py::dict dict_of(const rack::AxisOutcome& axis) {

@@ -93,7 +93,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::string_view line; lines.next(line);) {
         if (const auto read = sender.line(line, lines.number(), Language::words); !read)
             require(read.error().status != GrblStatus::none, "a refused line has a number");
-        require(!sender.block().flow && sender.block().assignments.empty(), "a sender's line has no flow");
+        require(!sender.block().has_o_word && sender.block().assignments.empty(), "a sender's line has no flow");
     }
     if (steps < 20'000 && problems == 0) {
         require(before == reader.interpreter().position(), "the reader is where the last move ends");

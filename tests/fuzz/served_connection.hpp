@@ -50,7 +50,7 @@ class ServedConnection {
         post_ = std::make_shared<server::Post>(
             [this](std::function<void()> work) { boost::asio::post(*io_, std::move(work)); });
         hall_ = std::make_shared<server::ConnectionPool>(
-            std::make_shared<server::Service>(server_settings(), *panel_, *door_, lease_, server::Page(), post_));
+            std::make_shared<server::PanelService>(server_settings(), *panel_, *door_, lease_, server::Page(), post_));
         history_ = machine_->rack().kernel().trace_hash();
         connect();
     }

@@ -47,7 +47,7 @@ double number_of(const TomlNode& node) {
     return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
 }
 
-void check_range(const Parameter& parameter, const TomlNode& node) {
+void check_range(const VariedParameter& parameter, const TomlNode& node) {
     const TomlNode *from = node.find("from"), *to = node.find("to"), *steps = node.find("steps");
     require(from != nullptr && to != nullptr, "a range has two ends", parameter.name);
     if (steps == nullptr) {
@@ -63,7 +63,7 @@ void check_range(const Parameter& parameter, const TomlNode& node) {
         "the values begin and end where the range does", parameter.name);
 }
 
-void check_parameter(const SweepFile& file, const Parameter& parameter) {
+void check_parameter(const SweepFile& file, const VariedParameter& parameter) {
     require(!parameter.name.empty() && !parameter.path.empty(), "what is varied has a name");
     require(parameter.values.empty() == parameter.range.has_value(), "there are values or a range", parameter.name);
     if (parameter.range)
@@ -89,7 +89,7 @@ void check_file(const SweepFile& file) {
     require(file.parameters.size() <= max_parameters, "not too much is varied");
     std::set<std::string> names;
     std::int64_t combinations = 1;
-    for (const Parameter& parameter : file.parameters) {
+    for (const VariedParameter& parameter : file.parameters) {
         require(names.insert(parameter.name).second, "nothing is varied twice", parameter.name);
         check_parameter(file, parameter);
         if (combinations <= max_points) combinations *= static_cast<std::int64_t>(parameter.values.size());

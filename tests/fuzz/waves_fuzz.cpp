@@ -17,8 +17,8 @@
 namespace {
 
 using namespace motionrack;
-using decode::Block;
 using decode::Capture;
+using decode::SampleBlock;
 using fuzz::require;
 using fuzz::ScratchFile;
 
@@ -52,7 +52,7 @@ struct Reading {
     bool operator==(const Reading&) const = default;
 };
 
-void take(const Block& block, std::size_t chosen, Reading& out) {
+void take(const SampleBlock& block, std::size_t chosen, Reading& out) {
     require(block.samples > 0 && block.bytes == nullptr && block.planes.size() == chosen,
             "a block has samples of all lines that were chosen");
     for (std::size_t i = 0; i < block.samples && out.levels.size() < max_samples; ++i) {
@@ -78,7 +78,7 @@ void read_samples(Capture& capture, std::string_view text, Reading& out) {
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < std::min(max_chosen, out.signals.size()); ++i) chosen.push_back(i);
     capture.choose(chosen);
-    for (Block block;;) {
+    for (SampleBlock block;;) {
         const Result<bool> more = capture.next(block);
         if (!more) {
             out.error = error_text(more.error(), text);
@@ -211,7 +211,7 @@ Waves changes_of(const std::string& path, bool is_vcd, std::int64_t unit_ps) {
     require(source.has_value(), "changes that were written are read", source ? "" : source.error().text());
     Waves out;
     std::uint32_t levels = 0;
-    for (trace::Change change;;) {
+    for (trace::SignalChange change;;) {
         const auto more = (*source)->next(change);
         require(more.has_value(), "a change that was written is read", more ? "" : more.error().text());
         if (!*more) break;

@@ -161,7 +161,7 @@ Result<void> call(Machine& machine, Draws& draws) {
                                           "SCurve_F", "SCurve_C",    "Line2D_T",  "Line3D_S", "CircleCW_C",
                                           "HLMTSig",  "HomeType1",   "HomeType2", "LPS",      "ReadLPS",
                                           "RESET",    "stop",        "stop_now",  "wait"};
-    operate::Service::Call made;
+    operate::Service::FunctionCall made;
     made.card = some_card(machine, draws);
     made.function = called[static_cast<std::size_t>(draws.pick(static_cast<int>(called.size())))];
     const auto functions = operate::library_of(machine.rack(), made.card);

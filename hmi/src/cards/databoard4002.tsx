@@ -63,7 +63,7 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
 }
 
 /** Longer arguments are tables, for programs. */
-const MOST_BYTES = 4;
+const MAX_BYTES = 4;
 
 /** Ports by name; DATA is written as OUT and read as INP. */
 function busOf(card: CardInfo, answer: CardAnswer | null): Bus {
@@ -155,7 +155,7 @@ function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null 
           </thead>
           <tbody>
             {card.commands
-              .filter((one) => one.data_bytes <= MOST_BYTES)
+              .filter((one) => one.data_bytes <= MAX_BYTES)
               .map((one) => (
                 <Command key={one.name} bus={bus} command={one} why={why} />
               ))}

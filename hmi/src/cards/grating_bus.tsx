@@ -36,12 +36,12 @@ interface FramesAnswer {
   stages: CarrierState[];
 }
 
-const MOST_SCALES = 8;
+const MAX_SCALES = 8;
 
 const wordFor = (card: BusCard): string => (card.off ? 'off' : card.stale ? 'stale' : card.agrees ? 'yes' : 'no');
 
 function Table({ bus }: { bus: Bus }): JSX.Element {
-  const scales = Math.min(MOST_SCALES, Math.max(0, ...bus.cards.map((card) => card.positions?.length ?? 0)));
+  const scales = Math.min(MAX_SCALES, Math.max(0, ...bus.cards.map((card) => card.positions?.length ?? 0)));
   return (
     <>
       <p class={`agreement ${bus.agree ? 'yes' : 'no'}`}>

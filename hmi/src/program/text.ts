@@ -4,7 +4,7 @@ import { query } from '../link/commands';
 import { link, status } from '../link/state';
 
 const KEY = 'motionrack.program';
-const MOST_KEPT = 2_000_000;
+const MAX_KEPT = 2_000_000;
 
 export const programName = signal(localStorage.getItem(`${KEY}.name`) ?? 'program.ngc');
 export const program = signal(localStorage.getItem(KEY) ?? '');
@@ -27,7 +27,7 @@ effect(() => {
   const text = program.value;
   try {
     localStorage.setItem(`${KEY}.name`, programName.value);
-    if (text.length <= MOST_KEPT) localStorage.setItem(KEY, text);
+    if (text.length <= MAX_KEPT) localStorage.setItem(KEY, text);
     else localStorage.removeItem(KEY);
   } catch {
     // Browser storage is full or disabled: the text is kept only while the page is open.

@@ -8,7 +8,7 @@ import { Cursors, marksOf, pick } from './cursors';
 import { Picker } from './picker';
 import { csv, type Rows } from './reading';
 import { keep, recorded, type ScopeAnswer } from './recorded';
-import { armFields, MOST_CHANNELS, set, settings } from './settings';
+import { armFields, MAX_CHANNELS, set, settings } from './settings';
 
 function arm(mode: 'run' | 'single'): void {
   const fields = armFields(settings.value, mode);
@@ -117,7 +117,7 @@ export function Scope(): JSX.Element {
       </Panel>
       <div class="column">
         <Panel title="Channels">
-          <Picker chosen={settings.value.channels} most={MOST_CHANNELS} onChange={(channels) => set({ channels })} />
+          <Picker chosen={settings.value.channels} most={MAX_CHANNELS} onChange={(channels) => set({ channels })} />
         </Panel>
         <Trigger />
       </div>

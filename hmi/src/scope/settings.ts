@@ -3,7 +3,7 @@ import { signal } from '@preact/signals';
 import type { Fields } from '../link/contract';
 import { typed } from '../parts/numbers';
 
-export const MOST_CHANNELS = 16;
+export const MAX_CHANNELS = 16;
 const KEY = 'motionrack.scope';
 
 /** Texts as typed. */

@@ -48,7 +48,7 @@ constexpr std::int64_t unwrapped(std::int64_t before, std::uint32_t now) {
 }
 
 /// Waits of the host's sequence, and the clock of its logic.
-struct Timing {
+struct BusTiming {
     Duration t1 = nanoseconds(20);  ///< the decoder latches (S1, S7)
     Duration t2 = nanoseconds(30);  ///< address to stable data (S2, S8)
     Duration t3 = nanoseconds(30);  ///< the data is latched (S3, S9)
@@ -60,7 +60,7 @@ struct Timing {
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
     /// Time from entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
-    friend constexpr bool operator==(const Timing&, const Timing&) = default;
+    friend constexpr bool operator==(const BusTiming&, const BusTiming&) = default;
 };
 
 }  // namespace motionrack::grating_bus

@@ -15,7 +15,7 @@ namespace motionrack::mcx314 {
 inline constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 
 /// Phase of an S-ramp's rate.
-enum class Phase : std::uint8_t { increasing, constant, decreasing };
+enum class RatePhase : std::uint8_t { increasing, constant, decreasing };
 
 /// A speed and its ramp.
 struct Speed {
@@ -23,7 +23,7 @@ struct Speed {
     std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
     std::int64_t aim = 0;                    ///< target of an S-ramp
     std::int32_t ramp = 0;
-    Phase phase = Phase::increasing;
+    RatePhase phase = RatePhase::increasing;
     std::array<std::uint8_t, 3> reserved{};
 };
 
@@ -49,7 +49,7 @@ constexpr std::int64_t s_left(const Speed& law) {
 /// Ticks until an S-ramp changes its rate, or stops increasing it; far if never.
 constexpr std::int64_t s_ticks_of_rate(const Speed& law, std::int64_t jerk) {
     const std::int64_t spare = std::max<std::int64_t>(0, s_left(law) - s_fall(law.rate, jerk));
-    if (law.phase != Phase::increasing) return law.rate > 1 ? 1 + ceil_div(spare, law.rate) : far;
+    if (law.phase != RatePhase::increasing) return law.rate > 1 ? 1 + ceil_div(spare, law.rate) : far;
     const std::int64_t rise = std::max<std::int64_t>(1, jerk - law.rate_part);
     if (law.rate == 0) return rise;
     const std::int64_t more = std::max<std::int64_t>(1, spare - law.rate * (law.rate_part + 1));
@@ -66,27 +66,27 @@ inline std::int64_t s_ticks(const Speed& law, std::int64_t jerk) {
 /// accelerating one ends with the last: they mirror each other.
 constexpr void s_begin(Speed& law, std::int64_t aim, std::int64_t jerk) {
     law.aim = aim;
-    law.phase = Phase::increasing;
+    law.phase = RatePhase::increasing;
     law.rate = law.speed_part = 0;
     law.rate_part = law.ramp < 0 ? jerk : 0;
 }
 
 /// Executes `ticks` of an S-ramp in which neither changes.
 constexpr void s_skip(Speed& law, std::int64_t ticks) {
-    if (law.phase == Phase::increasing) law.rate_part += ticks;
+    if (law.phase == RatePhase::increasing) law.rate_part += ticks;
     law.speed_part += ticks * law.rate;
 }
 
 /// Executes one tick of an S-ramp with rates up to `top_rate`; returns true if its target is reached.
 constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
-    if (law.phase == Phase::increasing) {
+    if (law.phase == RatePhase::increasing) {
         if (++law.rate_part >= jerk) {
             law.rate_part = 0;
-            if (++law.rate >= top_rate) law.phase = Phase::constant;
+            if (++law.rate >= top_rate) law.phase = RatePhase::constant;
         }
     } else if (law.rate > 1 && s_left(law) <= s_fall(law.rate, jerk)) {
         --law.rate;
-        law.phase = Phase::decreasing;
+        law.phase = RatePhase::decreasing;
     }
     law.speed_part += law.rate;
     if (law.speed_part >= speed_carry) {
@@ -95,8 +95,8 @@ constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
         if (law.speed == law.aim) return true;
     }
     // Half of the change is done: the remaining ticks of this rate belong to the second half.
-    if (law.phase == Phase::increasing && s_left(law) <= s_fall(law.rate, jerk) + law.rate * (law.rate_part + 1)) {
-        law.phase = Phase::decreasing;
+    if (law.phase == RatePhase::increasing && s_left(law) <= s_fall(law.rate, jerk) + law.rate * (law.rate_part + 1)) {
+        law.phase = RatePhase::decreasing;
         law.rate_part = 0;
     }
     return false;

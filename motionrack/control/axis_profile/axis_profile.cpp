@@ -159,7 +159,8 @@ class AxisProfileBuilder {
         if (!(scaled > 0)) return;
         const double seconds = scaled * scale_.seconds;
         const double jerk = sign * limits_.jerk;
-        AxisProfile::Phase* last = out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
+        AxisProfile::CubicPhase* last =
+            out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
         const double zero = time_;
         time_ += seconds;
         if (last && sign != 0 && last->jerk == jerk && goes_on_) {

@@ -37,7 +37,7 @@ struct KinematicLimits {
 class AxisProfile {
   public:
     /// A cubic in the time since `zero`, valid until `end`.
-    struct Phase {
+    struct CubicPhase {
         double end;  ///< s from the start of the profile
         double
             zero;  ///< s from the start of the profile: start of the phase, or its end if the phase is stored backwards
@@ -65,14 +65,14 @@ class AxisProfile {
     }  ///< as given; after velocity_change_profile() with the position reached
 
     /// Returns the phases in order, without those of 0 s. At most 9.
-    std::span<const Phase> phases() const { return {phases_.data(), static_cast<std::size_t>(count_)}; }
+    std::span<const CubicPhase> phases() const { return {phases_.data(), static_cast<std::size_t>(count_)}; }
 
     /// Returns the state at `t` s; up to 0 the start, from duration() on exactly the target.
     ProfileSample sample(double t) const;
 
   private:
     friend class AxisProfileBuilder;
-    std::array<Phase, max_phases> phases_;
+    std::array<CubicPhase, max_phases> phases_;
     int count_ = 0;
     double duration_ = 0;
     KinematicState start_;
@@ -107,7 +107,7 @@ std::optional<AxisProfile> stop_profile(const KinematicState& from, const Kinema
 inline ProfileSample AxisProfile::sample(double t) const {
     if (!(t > 0)) return {start_.position, start_.speed, start_.accel, count_ > 0 ? phases_[0].jerk : 0};
     if (t >= duration_) return {target_.position, target_.speed, target_.accel, 0};
-    const Phase* p = phases_.data();
+    const CubicPhase* p = phases_.data();
     while (t >= p->end) ++p;
     return p->at(t);
 }

@@ -3,8 +3,8 @@
 //
 // A phase of the acceleration that rises from 0 and returns to 0 lasts u(x) = 2 sqrt(x) for a peak of sqrt(x) <= 1,
 // and u(x) = 1 + x with a hold of x - 1 s. The reach is (start_foot + v) u(P^2)/2 +- (end_foot + v) u(s^2)/2 with
-// v = end_foot + s^2, minus where s < 0. Its derivative with respect to the duration is the flow, which first falls and
-// then rises with s: the reach may rise to a crest, fall and rise again. Solutions before the crest are faster.
+// v = end_foot + s^2, minus where s < 0. Its derivative with respect to the duration is the slope, which first falls
+// and then rises with s: the reach may rise to a crest, fall and rise again. Solutions before the crest are faster.
 
 #include <limits>
 #include <motionrack/control/axis_profile/double_s_solver.hpp>
@@ -109,7 +109,7 @@ double DoubleSSolver::reach_at(double s) const {
     return (both_ + low) * up + (2 * end_foot_ + low) * down;
 }
 
-/// Returns a value with the sign of the flow.
+/// Returns a value with the sign of the slope.
 double DoubleSSolver::flow_at(double s) const {
     const double high = rise_ + s * s;
     if (high > 1) return end_foot_ + s * (s + 0.5);
@@ -290,8 +290,8 @@ TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double t
     const double noise = slack + noise_of(parts, sensitive, most);
     if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;
-    DoubleSSolver swings(backwards ? course.backwards() : course, top);
-    if (swings.find(slack, sensitive)) return {direct.mirrored, backwards, swings.phases()};
+    DoubleSSolver solver(backwards ? course.backwards() : course, top);
+    if (solver.find(slack, sensitive)) return {direct.mirrored, backwards, solver.phases()};
     backwards = !backwards;
     DoubleSSolver others(backwards ? course.backwards() : course, top);
     others.find_beyond_gap();

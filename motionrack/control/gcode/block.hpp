@@ -84,9 +84,9 @@ struct Block {
     std::uint32_t words = 0;     ///< letters that are present, except G and M; A = bit 0
     std::uint32_t g_groups = 0;  ///< groups that have a code
     std::uint32_t m_groups = 0;
-    bool percent = false;  ///< the line is a lone %
-    bool deleted = false;  ///< a line with '/' that was skipped
-    bool flow = false;     ///< an O word starts at `flow_column`; the rest of the line was not read
+    bool percent = false;     ///< the line is a lone %
+    bool deleted = false;     ///< a line with '/' that was skipped
+    bool has_o_word = false;  ///< an O word starts at `flow_column`; the rest of the line was not read
     std::uint16_t flow_column = 0;
     std::array<double, 26> value;          ///< valid for the letters in `words`
     std::array<std::uint16_t, 26> column;  ///< from 0

@@ -109,7 +109,7 @@ void CanonPrinter::note(const Interpreter& interpreter) {
 /// Prints the modes that M72 restores on the line, or M73 at the end of a call: the line has no words for them.
 void CanonPrinter::print_restored_modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
-    const bool ends_call = block.flow || block.has_m(m_program);
+    const bool ends_call = block.has_o_word || block.has_m(m_program);
     if (!ends_call && !(block.has_m(m_state) && block.m[m_state] == 72)) return;
     const ModalState& now = interpreter.modes();
     const auto able = [this](std::int32_t code, bool was, bool is) {
@@ -293,22 +293,22 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
 
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
                           const CanonPrinter::Put& put, const std::string& file) {
-    ProgramFlow walk(text, settings, file);
+    ProgramFlow program_flow(text, settings, file);
     Interpreter interpreter(settings);
     CanonPrinter printer(options, put);
     printer.begin(interpreter);
     std::string_view line;
-    while (walk.next(line)) {
-        if (auto done = interpreter.line(line, walk.number(), Language::program); !done) {
-            walk.line_rejected(line, done.error());
+    while (program_flow.next(line)) {
+        if (auto done = interpreter.line(line, program_flow.number(), Language::program); !done) {
+            program_flow.line_rejected(line, done.error());
             return done;
         }
-        if (auto done = walk.line_accepted(interpreter); !done) return done;
+        if (auto done = program_flow.line_accepted(interpreter); !done) return done;
         printer.line(interpreter);
     }
-    if (walk.has_faults()) return tl::unexpected<Problem>(walk.take_fault());
+    if (program_flow.has_faults()) return tl::unexpected<Problem>(program_flow.take_fault());
     auto done = interpreter.finish();
-    if (!done) done.error().file = walk.file();
+    if (!done) done.error().file = program_flow.file();
     printer.rest(interpreter);
     return done;
 }

@@ -35,7 +35,7 @@ std::span<const DrillCycleMoves::Act> DrillCycleMoves::acts_of(std::int16_t code
 
 void DrillCycleMoves::begin(const DrillCycle& plan) {
     plan_ = plan;
-    phase_ = Phase::lift;
+    phase_ = DrillPhase::lift;
     at_ = plan.from;
     level_ = plan.level;
     hole_ = 0;
@@ -80,53 +80,53 @@ void DrillCycleMoves::act(Act what, CanonCall& step) {
 bool DrillCycleMoves::next(CanonCall& step) {
     for (;;) {
         switch (phase_) {
-            case Phase::lift:
-                phase_ = Phase::over;
+            case DrillPhase::lift:
+                phase_ = DrillPhase::over;
                 if (level_ >= plan_.r) break;
                 level_ = plan_.r;
                 straight(step, MoveKind::rapid, plan_.r);
                 at_[plan_.first] = plan_.pattern.end[plan_.first];
                 at_[plan_.second] = plan_.pattern.end[plan_.second];
                 return true;
-            case Phase::over:
+            case DrillPhase::over:
                 if (hole_ == plan_.repeats) return false;
                 ++hole_;
                 at_[plan_.first] = plan_.pattern.end[plan_.first] + hole_ * plan_.step_first;
                 at_[plan_.second] = plan_.pattern.end[plan_.second] + hole_ * plan_.step_second;
-                phase_ = Phase::approach;
+                phase_ = DrillPhase::approach;
                 straight(step, MoveKind::rapid, level_);
                 return true;
-            case Phase::approach:
-                phase_ = Phase::work;
+            case DrillPhase::approach:
+                phase_ = DrillPhase::work;
                 pecks_ = 1;
                 if (level_ == plan_.r) break;
                 straight(step, MoveKind::rapid, plan_.r);
                 return true;
-            case Phase::work: {
+            case DrillPhase::work: {
                 double depth = is_pecking(plan_.code) ? plan_.r - pecks_ * plan_.peck : plan_.bottom;
                 const bool last = depth <= plan_.bottom + thinnest_peck;
                 if (last) depth = plan_.bottom;
-                phase_ = last ? Phase::leave : plan_.code == 730 ? Phase::again : Phase::back;
+                phase_ = last ? DrillPhase::leave : plan_.code == 730 ? DrillPhase::again : DrillPhase::back;
                 acts_ = 0;
                 straight(step, MoveKind::feed, depth);
                 return true;
             }
-            case Phase::back:
-                phase_ = Phase::again;
+            case DrillPhase::back:
+                phase_ = DrillPhase::again;
                 straight(step, MoveKind::rapid, plan_.r);
                 return true;
-            case Phase::again: {
-                phase_ = Phase::work;
+            case DrillPhase::again: {
+                phase_ = DrillPhase::work;
                 const double depth = plan_.r - pecks_ * plan_.peck;
                 ++pecks_;
                 straight(step, MoveKind::rapid, std::min(depth + plan_.clearance, plan_.r));
                 return true;
             }
-            case Phase::leave: {
+            case DrillPhase::leave: {
                 const std::span<const Act> acts = acts_of(plan_.code);
                 act(acts[acts_++], step);
                 if (acts_ < acts.size()) return true;
-                phase_ = Phase::over;
+                phase_ = DrillPhase::over;
                 level_ = plan_.clear;
                 return true;
             }

@@ -56,7 +56,7 @@ class DrillCycleMoves {
     bool next(CanonCall& step);
 
   private:
-    enum class Phase : std::uint8_t { lift, over, approach, work, back, again, leave };
+    enum class DrillPhase : std::uint8_t { lift, over, approach, work, back, again, leave };
     enum class Act : std::uint8_t { wait, stop, turn_back, turn, feed_r, feed_clear, rapid_clear };
 
     static std::span<const Act> acts_of(std::int16_t code);
@@ -65,7 +65,7 @@ class DrillCycleMoves {
     void act(Act what, CanonCall& step);
 
     DrillCycle plan_;
-    Phase phase_ = Phase::lift;
+    DrillPhase phase_ = DrillPhase::lift;
     Point at_ = {};
     double level_ = 0;
     std::int32_t hole_ = 0;

@@ -108,7 +108,7 @@ class Interpreter {
 
     /// Checks one line (without its line end) and prepares its calls; drops calls of the previous line that were not
     /// pulled. On an error the line has no effect. Texts of the calls point into `text`. A line with an O word
-    /// (block().flow) has no calls; ProgramFlow interprets it.
+    /// (block().has_o_word) has no calls; ProgramFlow interprets it.
     Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
     /// Returns the next call of the last line, valid until the next pull(); null if there is none.

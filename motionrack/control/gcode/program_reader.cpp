@@ -8,7 +8,7 @@
 namespace motionrack::control::gcode {
 
 ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
-    : walk_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
+    : program_flow_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
 
 /// Checks the budget of cycles; calls of other lines are covered by the allowance for each line.
 bool ProgramReader::within_budget() const {
@@ -18,7 +18,7 @@ bool ProgramReader::within_budget() const {
 
 Outcome<const CanonCall*> ProgramReader::next_from_lines() {
     std::string_view text;
-    while (walk_.next(text)) {
+    while (program_flow_.next(text)) {
         ++lines_read_;
         if (!within_budget()) {
             Problem problem;
@@ -26,25 +26,26 @@ Outcome<const CanonCall*> ProgramReader::next_from_lines() {
                         fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, without "
                                     "an end of the program; check that its loops end. The rest was not read",
                                     further_steps_));
-            walk_.line_rejected(text, problem);
-            walk_.end();
+            program_flow_.line_rejected(text, problem);
+            program_flow_.end();
             return tl::unexpected<Problem>(std::move(problem));
         }
-        if (auto done = interpreter_.line(text, walk_.number(), Language::program); !done) {
-            walk_.line_rejected(text, done.error());
+        if (auto done = interpreter_.line(text, program_flow_.number(), Language::program); !done) {
+            program_flow_.line_rejected(text, done.error());
             const std::size_t column = static_cast<std::size_t>(done.error().place.column);
-            if (walk_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
+            if (program_flow_.at_end() && done.error().word == "(" &&
+                text.find(')', column) == std::string_view::npos) {
                 done.error().message = "the text ends inside this comment; is the file complete?";
             }
             return tl::unexpected<Problem>(std::move(done.error()));
         }
-        if (auto done = walk_.line_accepted(interpreter_); !done)
+        if (auto done = program_flow_.line_accepted(interpreter_); !done)
             return tl::unexpected<Problem>(std::move(done.error()));
         if (const CanonCall* step = interpreter_.pull()) return step;
     }
-    if (walk_.has_faults()) return tl::unexpected<Problem>(walk_.take_fault());
+    if (program_flow_.has_faults()) return tl::unexpected<Problem>(program_flow_.take_fault());
     if (auto done = interpreter_.finish(); !done) {
-        done.error().file = walk_.file();
+        done.error().file = program_flow_.file();
         return tl::unexpected<Problem>(std::move(done.error()));
     }
     return interpreter_.pull();
@@ -97,7 +98,7 @@ ProgramCheck check_program(std::string_view text, const Settings& settings, std:
             check.max[axis] = std::max(check.max[axis], move.end[axis]);
         }
     }
-    check.lines = reader.walk().highest_line();
+    check.lines = reader.program_flow().highest_line();
     check.ended = reader.interpreter().modes().ended;
     if (check.problems.empty() && is_empty_program(text)) check.problems.push_back(empty_program_problem(text, file));
     return check;

@@ -36,18 +36,18 @@ class ProgramReader {
     }
 
     const Interpreter& interpreter() const { return interpreter_; }
-    const ProgramFlow& walk() const { return walk_; }
+    const ProgramFlow& program_flow() const { return program_flow_; }
     /// See Interpreter::set_probe_result(); call after the probing call, before the next one.
     void set_probe_result(bool hit, const Point& at, const Point& stands) {
         interpreter_.set_probe_result(hit, at, stands);
     }
-    std::int32_t line() const { return walk_.number(); }  ///< line of the last call or error
+    std::int32_t line() const { return program_flow_.number(); }  ///< line of the last call or error
 
   private:
     Outcome<const CanonCall*> next_from_lines();
     bool within_budget() const;
 
-    ProgramFlow walk_;
+    ProgramFlow program_flow_;
     Interpreter interpreter_;
     std::int64_t max_steps_;
     std::int64_t further_steps_ = 0;  ///< calls other than the first one of each line

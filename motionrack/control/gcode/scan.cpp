@@ -166,7 +166,8 @@ bool Scanner::comment() {
             while (at_ < end_ && is_blank(*at_)) ++at_;
             if ((letter_bit(letter) & word_letters) == 0 ||
                 ((letter == 'H' || letter == 'E') && options_.language == Language::words)) {
-                if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column))
+                if (letter == 'O' && options_.language == Language::program ? o_word(column)
+                                                                            : bad_letter(letter, column))
                     continue;
                 return false;
             }
@@ -186,7 +187,7 @@ bool Scanner::comment() {
 bool scan_line(std::string_view text, const ScanOptions& options, Block& block, Problem& problem) {
     block.text = text;
     block.words = block.g_groups = block.m_groups = 0;
-    block.percent = block.deleted = block.flow = false;
+    block.percent = block.deleted = block.has_o_word = false;
     if (!block.comments.empty()) block.comments.clear();
     if (!block.assignments.empty()) block.assignments.clear();
     if (text.size() > max_line_length) {

@@ -44,7 +44,7 @@ class Scanner {
     bool comment_kind(std::string_view body, Comment& found);
     bool word_of_language(char letter, std::size_t column, const Number& plain);
     bool assignment();
-    bool flow(std::size_t column);
+    bool o_word(std::size_t column);
     bool slash();
     bool bad_number(const Number& number, char letter, std::size_t column);
     bool bad_letter(char letter, std::size_t column);

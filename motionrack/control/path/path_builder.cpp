@@ -49,9 +49,10 @@ double max_velocity_on(const CubicSegment& piece, bool rotary) {
 }
 
 /// Returns the remaining tolerance for blends on a segment.
-Tolerance room_on(const MergedSegment& span, double arcs) {
+Tolerance room_on(const MergedSegment& segment, double arcs) {
     const double part = 1 - arcs - 2 * left_out_share;
-    return {part * span.tolerance.linear - span.merged.linear, part * span.tolerance.rotary - span.merged.rotary};
+    return {part * segment.tolerance.linear - segment.merged.linear,
+            part * segment.tolerance.rotary - segment.merged.rotary};
 }
 
 /// Returns the remaining tolerance at a junction; both segments may be arcs.
@@ -85,14 +86,14 @@ bool is_straight(const CubicSegment& piece) {
     return piece.curvature == Point{} && piece.curvature_rate == Point{};
 }
 
-PathBuilder::PathBuilder(const MachineLimits& limits, const Point& start) : spans_(limits, start), turns_(limits) {}
+PathBuilder::PathBuilder(const MachineLimits& limits, const Point& start) : segments_(limits, start), turns_(limits) {}
 
 void PathBuilder::push(const Move& move) {
-    spans_.push(move);
+    segments_.push(move);
 }
 
 void PathBuilder::flush() {
-    spans_.flush();
+    segments_.flush();
 }
 
 bool PathBuilder::pull(PathElement& item) {
@@ -102,7 +103,7 @@ bool PathBuilder::pull(PathElement& item) {
             if (next_piece(item.piece)) return true;
         }
         const bool all_pieces = !begun_ || (turns_.is_complete() && cursor_ >= turns_.end());
-        if (all_pieces && spans_.size() > 0 && spans_.at(0).kind == MergedSegmentKind::rest) {
+        if (all_pieces && segments_.size() > 0 && segments_.at(0).kind == MergedSegmentKind::rest) {
             end_curve(item);
             return true;
         }
@@ -111,13 +112,13 @@ bool PathBuilder::pull(PathElement& item) {
 }
 
 void PathBuilder::end_curve(PathElement& item) {
-    const MergedSegment& rest = spans_.at(0);
+    const MergedSegment& rest = segments_.at(0);
     item.rest = true;
     item.seconds = rest.seconds;
     item.corner_tolerance_mm = rest.corner_tolerance_mm;
     item.line = rest.line;
     item.at = rest.end;
-    spans_.pop();
+    segments_.pop();
     begun_ = false;
 }
 
@@ -130,24 +131,24 @@ bool PathBuilder::next_turn() {
         add_arc_corner();
         return true;
     }
-    if (spans_.size() == 0) return false;
-    const MergedSegment& span = spans_.at(0);
-    if (span.kind == MergedSegmentKind::rest) {
+    if (segments_.size() == 0) return false;
+    const MergedSegment& segment = segments_.at(0);
+    if (segment.kind == MergedSegmentKind::rest) {
         turns_.complete(u_end_);
         return true;
     }
-    const bool arc = span.kind == MergedSegmentKind::arc;
-    if (arc && spans_.size() < 2) return false;
+    const bool arc = segment.kind == MergedSegmentKind::arc;
+    if (arc && segments_.size() < 2) return false;
     if (begun_)
-        add_corner(span);
+        add_corner(segment);
     else
-        begin_curve(span);
+        begin_curve(segment);
     if (arc)
-        begin_arc(span, spans_.at(1));
+        begin_arc(segment, segments_.at(1));
     else
-        add_line(span);
-    last_ = span;
-    spans_.pop();
+        add_line(segment);
+    last_ = segment;
+    segments_.pop();
     return true;
 }
 
@@ -159,7 +160,7 @@ CornerBlend& PathBuilder::add_turn(double u, const Point& at, const Point& tange
     return turn;
 }
 
-void PathBuilder::begin_curve(const MergedSegment& span) {
+void PathBuilder::begin_curve(const MergedSegment& segment) {
     begun_ = true;
     turns_.clear();
     u_end_ = cursor_ = 0;
@@ -167,10 +168,10 @@ void PathBuilder::begin_curve(const MergedSegment& span) {
     eased_from_ = std::numeric_limits<double>::infinity();
     first_event_ = past_event_ = 0;
     placed_ = alive_ = edge_ = 0;
-    CornerBlend& turn = add_turn(0, span.start, span.tangent_in);
+    CornerBlend& turn = add_turn(0, segment.start, segment.tangent_in);
     turn.fixed = true;
-    turn.feed = span.feed;
-    turn.line = span.line;
+    turn.feed = segment.feed;
+    turn.line = segment.line;
     turns_.added();
 }
 
@@ -186,15 +187,15 @@ void PathBuilder::add_line(const MergedSegment& line) {
     }
 }
 
-void PathBuilder::add_corner(const MergedSegment& span) {
-    CornerBlend& turn = add_turn(u_end_, span.start, span.tangent_in);
-    for (int i = 0; i < axis_count; ++i) turn.change[i] = span.tangent_in[i] - last_.tangent_out[i];
-    const Tolerance room = room_between(last_, span);
-    turn.tolerance = span.rotary ? room.rotary : room.linear;
+void PathBuilder::add_corner(const MergedSegment& segment) {
+    CornerBlend& turn = add_turn(u_end_, segment.start, segment.tangent_in);
+    for (int i = 0; i < axis_count; ++i) turn.change[i] = segment.tangent_in[i] - last_.tangent_out[i];
+    const Tolerance room = room_between(last_, segment);
+    turn.tolerance = segment.rotary ? room.rotary : room.linear;
     turn.room_per_rotary = turn.tolerance / room.rotary;
-    turn.speed = std::max(last_.speed, span.speed);
-    turn.feed = span.feed;
-    turn.line = span.line;
+    turn.speed = std::max(last_.speed, segment.speed);
+    turn.feed = segment.feed;
+    turn.line = segment.line;
     turns_.added();
 }
 
@@ -204,18 +205,20 @@ double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& ne
     if (neighbour.kind == MergedSegmentKind::rest) return 0;
     const double share = tangent ? arc_tangent_share : arc_corner_share;
     const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
-    const auto by_room = [room](const ArcCurve& bow) { return std::sqrt(room / (joint_error * bow.max_curvature())); };
+    const auto by_room = [room](const ArcCurve& curve) {
+        return std::sqrt(room / (joint_error * curve.max_curvature()));
+    };
     // The first hat reaches over the junction, but not over the other end of the neighbour or many of its corners.
-    double step = std::min(by_room(arc.bow), neighbour.length / step_before_joint);
+    double step = std::min(by_room(arc.arc), neighbour.length / step_before_joint);
     if (neighbour.kind == MergedSegmentKind::arc) {
         const double other =
-            std::min(by_room(neighbour.bow), inner_step(neighbour.bow, inner_share * neighbour.tolerance.linear));
+            std::min(by_room(neighbour.arc), inner_step(neighbour.arc, inner_share * neighbour.tolerance.linear));
         step = std::min(step, 2 * other);
     }
     // The distance over the first corner exceeds the arc by this; the rotary axes move with it.
     const double rotary_room = share * std::min(arc.tolerance.rotary, neighbour.tolerance.rotary);
-    const double square = arc.bow.max_curvature() * arc.bow.max_curvature();
-    while (step_after_joint / 9 * step * step * step * square * arc.bow.rotary_rate() > rotary_room) step *= 0.5;
+    const double square = arc.arc.max_curvature() * arc.arc.max_curvature();
+    while (step_after_joint / 9 * step * step * step * square * arc.arc.rotary_rate() > rotary_room) step *= 0.5;
     return step;
 }
 
@@ -223,7 +226,7 @@ void PathBuilder::begin_arc(const MergedSegment& arc, const MergedSegment& next)
     const bool at_rest = turns_.size() == 1;
     const double in = at_rest ? 0 : joint_step(arc, last_, arc.tangent);
     const double out = joint_step(arc, next, next.tangent);
-    arc_ = ArcControlPolygon(arc.bow, in, out, inner_step(arc.bow, inner_share * arc.tolerance.linear));
+    arc_ = ArcControlPolygon(arc.arc, in, out, inner_step(arc.arc, inner_share * arc.tolerance.linear));
     arc_begin_ = u_end_;
     u_end_ += arc_.length();
     corner_ = arc_.next();

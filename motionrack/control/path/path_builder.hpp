@@ -80,7 +80,7 @@ class PathBuilder {
     PathBuilder(const MachineLimits& limits, const Point& start);
 
     /// Returns false until enough is pulled, at the latest until pull() returns false.
-    bool has_room() const { return spans_.has_room(); }
+    bool has_room() const { return segments_.has_room(); }
 
     /// Adds a move that starts where the last one ended; all its numbers are finite, and feed rates above 0. Requires
     /// has_room(). Skips moves shorter than a thousandth of a pulse and adds their distance to the next one.
@@ -94,8 +94,8 @@ class PathBuilder {
 
   private:
     bool next_turn();
-    void begin_curve(const MergedSegment& span);
-    void add_corner(const MergedSegment& span);
+    void begin_curve(const MergedSegment& segment);
+    void add_corner(const MergedSegment& segment);
     void add_line(const MergedSegment& line);
     void begin_arc(const MergedSegment& arc, const MergedSegment& next);
     void add_arc_corner();
@@ -108,7 +108,7 @@ class PathBuilder {
     void fill(CubicSegment& piece, double end);
     void end_curve(PathElement& item);
 
-    SegmentMerger spans_;
+    SegmentMerger segments_;
     CornerBlends turns_;
     bool begun_ = false;                ///< there is a curve, with the known data below
     MergedSegment last_;                ///< segment whose corners were added last

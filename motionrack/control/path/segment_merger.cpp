@@ -106,67 +106,68 @@ bool SegmentMerger::is_rotary_alone(const Move& move, const Geometry& path) cons
 }
 
 /// Computes length and tangents of a line from `start` to `end`.
-void SegmentMerger::make_line(MergedSegment& span) const {
+void SegmentMerger::make_line(MergedSegment& segment) const {
     Point change;
-    for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
-    span.length = span.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
-                              : std::sqrt(dot_from(change, change, 0));
-    for (int i = 0; i < axis_count; ++i) span.tangent_in[i] = span.tangent_out[i] = change[i] / span.length;
+    for (int i = 0; i < axis_count; ++i) change[i] = segment.end[i] - segment.start[i];
+    segment.length = segment.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
+                                    : std::sqrt(dot_from(change, change, 0));
+    for (int i = 0; i < axis_count; ++i) segment.tangent_in[i] = segment.tangent_out[i] = change[i] / segment.length;
 }
 
-MergedSegment SegmentMerger::span_of(const Move& move, const Geometry& path) const {
-    MergedSegment span;
-    span.kind = MergedSegmentKind::line;
-    span.rotary = path.shape == PathShape::rotary;
-    span.line = move.line;
-    span.start = path.start;
-    span.end = path.end;
-    span.tolerance = path_tolerance(move);
+MergedSegment SegmentMerger::segment_of(const Move& move, const Geometry& path) const {
+    MergedSegment segment;
+    segment.kind = MergedSegmentKind::line;
+    segment.rotary = path.shape == PathShape::rotary;
+    segment.line = move.line;
+    segment.start = path.start;
+    segment.end = path.end;
+    segment.tolerance = path_tolerance(move);
     Point worst;
     if (path.shape == PathShape::arc) {
-        span.kind = MergedSegmentKind::arc;
-        span.bow = ArcCurve(path);
-        span.length = span.bow.length();
-        span.tangent_in = span.bow.at(0).tangent;
-        span.tangent_out = span.bow.at(span.length).tangent;
+        segment.kind = MergedSegmentKind::arc;
+        segment.arc = ArcCurve(path);
+        segment.length = segment.arc.length();
+        segment.tangent_in = segment.arc.at(0).tangent;
+        segment.tangent_out = segment.arc.at(segment.length).tangent;
         worst = max_tangent_components(path);
     } else {
-        if (move.kind == MoveKind::arc) span.merged = room_to_merge(span.tolerance);
-        make_line(span);
-        worst = span.tangent_in;
+        if (move.kind == MoveKind::arc) segment.merged = room_to_merge(segment.tolerance);
+        make_line(segment);
+        worst = segment.tangent_in;
     }
     const double fastest = max_velocity_along(worst, limits_);
     if (move.kind == MoveKind::rapid)
-        span.feed = move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
+        segment.feed =
+            move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
     else
-        span.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * span.length : move.feed;
-    span.speed = std::min(span.feed, fastest);
-    return span;
+        segment.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * segment.length : move.feed;
+    segment.speed = std::min(segment.feed, fastest);
+    return segment;
 }
 
 /// Returns true if the path stops between the last move and this one.
-bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& span) const {
-    if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || span.rotary != last_.rotary)
+bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& segment) const {
+    if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || segment.rotary != last_.rotary)
         return true;
     const Point& in = last_tangent_;
     const Point& out = path.tangent_in;
     if (is_same_direction(in, out)) return false;
     if (last_move_.path == PathControl::exact_path) return true;
-    const int first = span.rotary ? 3 : 0;
+    const int first = segment.rotary ? 3 : 0;
     if (dot_from(in, out, first) < sharpest_turn * std::sqrt(dot_from(in, in, first) * dot_from(out, out, first)))
         return true;
-    return !has_width(span, in, out);
+    return !has_width(segment, in, out);
 }
 
 /// Returns true if the blend between the last segment and this one is long enough.
-bool SegmentMerger::has_width(const MergedSegment& span, const Point& in, const Point& out) const {
+bool SegmentMerger::has_width(const MergedSegment& segment, const Point& in, const Point& out) const {
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
         double& most = i < 3 ? linear : rotary;
         most = std::max(most, std::fabs(out[i] - in[i]));
     }
-    const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear),
-                         std::min(last_.tolerance.rotary, span.tolerance.rotary)};
+    const Tolerance room{std::min(last_.tolerance.linear, segment.tolerance.linear),
+                         std::min(last_.tolerance.rotary, segment.tolerance.rotary)};
     return room.linear >= min_width * linear && room.rotary >= min_width * rotary;
 }
 
@@ -206,12 +207,12 @@ double SegmentMerger::width_between(const MergedSegment& before, const MergedSeg
 Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegment& after) const {
     Junction joint;
     if (!after.tangent) {
-        const LegLimits leg_in = leg_of(before.span), leg_out = leg_of(after);
-        const Point &in = before.span.tangent_out, &out = after.tangent_in;
-        joint = junction_between(leg_in, leg_out, in, out, width_between(before.span, after), limits_);
-        if (!joint.can_stop || before.span.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
+        const LegLimits leg_in = leg_of(before.segment), leg_out = leg_of(after);
+        const Point &in = before.segment.tangent_out, &out = after.tangent_in;
+        joint = junction_between(leg_in, leg_out, in, out, width_between(before.segment, after), limits_);
+        if (!joint.can_stop || before.segment.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
             return joint;
-        before.corner_tolerance_mm = corner_tolerance(before.span, after);
+        before.corner_tolerance_mm = corner_tolerance(before.segment, after);
         before.stop = corner_stop_between(leg_in, leg_out, in, out, before.corner_tolerance_mm, limits_);
         joint.gain = before.stop.gain;
         return joint;
@@ -222,15 +223,15 @@ Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegmen
     return joint;
 }
 
-LegLimits SegmentMerger::leg_of(const MergedSegment& span) const {
-    LegLimits leg{span.length, span.speed, max_accel_along(span.tangent_in, limits_),
-                  max_jerk_along(span.tangent_in, limits_)};
-    if (span.kind != MergedSegmentKind::arc) return leg;
-    for (const Point& tangent : {span.tangent_out, span.bow.at(0.5 * span.length).tangent}) {
+LegLimits SegmentMerger::leg_of(const MergedSegment& segment) const {
+    LegLimits leg{segment.length, segment.speed, max_accel_along(segment.tangent_in, limits_),
+                  max_jerk_along(segment.tangent_in, limits_)};
+    if (segment.kind != MergedSegmentKind::arc) return leg;
+    for (const Point& tangent : {segment.tangent_out, segment.arc.at(0.5 * segment.length).tangent}) {
         leg.accel = std::min(leg.accel, max_accel_along(tangent, limits_));
         leg.jerk = std::min(leg.jerk, max_jerk_along(tangent, limits_));
     }
-    leg.speed = std::min(leg.speed, std::sqrt(max_curvature_share * leg.accel / span.bow.max_curvature()));
+    leg.speed = std::min(leg.speed, std::sqrt(max_curvature_share * leg.accel / segment.arc.max_curvature()));
     return leg;
 }
 
@@ -248,24 +249,24 @@ void SegmentMerger::push(const Move& move) {
         stop_left_out_ = stop_left_out_ || move.path == PathControl::exact_stop;
         return;
     }
-    MergedSegment span = span_of(move, path);
-    bool rests = stops_between(path, span);
+    MergedSegment segment = segment_of(move, path);
+    bool rests = stops_between(path, segment);
     if (any_left_out_ && (rests || is_rotary_alone(move, path))) {
         add_left_out();
         path = shape_of(move);
-        span = span_of(move, path);
-        rests = rests || stops_between(path, span);
+        segment = segment_of(move, path);
+        rests = rests || stops_between(path, segment);
     }
     any_left_out_ = stop_left_out_ = false;
-    if (rests || !merge(move, span)) {
+    if (rests || !merge(move, segment)) {
         if (rests && open_) {
-            const double room = last_move_.path == PathControl::continuous ? corner_tolerance(last_, span) : 0;
+            const double room = last_move_.path == PathControl::continuous ? corner_tolerance(last_, segment) : 0;
             rest(0, last_move_.line);
-            spans_[(made_ - 1) % capacity].corner_tolerance_mm = room;
+            segments_[(made_ - 1) % capacity].corner_tolerance_mm = room;
         }
         close();
-        span.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
-        last_ = span;
+        segment.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
+        last_ = segment;
         open_ = true;
         inner_count_ = 0;
     }
@@ -331,7 +332,7 @@ void SegmentMerger::add_left_out() {
     if (open_) rest(0, last_move_.line);
     position_ = move.end;
     last_move_ = move;
-    last_ = span_of(move, path);
+    last_ = segment_of(move, path);
     if (!rotary && move.kind != MoveKind::rapid && move.feed_mode == FeedMode::units_per_second) {
         // Some of the skipped moves may be rotary, with this feed as their own.
         double turned = 0;
@@ -351,7 +352,7 @@ void SegmentMerger::close() {
         choice_.begin();
     } else {
         PendingSegment& before = waiting(waiting_past_ - 1);
-        choice_.add(leg_of(before.span), joint_between(before, last_));
+        choice_.add(leg_of(before.segment), joint_between(before, last_));
     }
     waiting(waiting_past_++) = {last_, last_move_.line, 0, {}};
     make_decided();
@@ -362,28 +363,28 @@ void SegmentMerger::make_decided() {
         PendingSegment& ended = waiting(waiting_++);
         const bool stops = choice_.take() && waiting_ < waiting_past_;
         if (stops) {
-            ended.span.ease_out = ended.stop.before;
-            waiting(waiting_).span.ease_in = ended.stop.after;
+            ended.segment.ease_out = ended.stop.before;
+            waiting(waiting_).segment.ease_in = ended.stop.after;
         }
-        make(ended.span);
-        if (stops) make_rest(0, ended.last_line, ended.corner_tolerance_mm, ended.span.end);
+        make(ended.segment);
+        if (stops) make_rest(0, ended.last_line, ended.corner_tolerance_mm, ended.segment.end);
     }
 }
 
 void SegmentMerger::make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at) {
-    MergedSegment span;
-    span.seconds = seconds;
-    span.line = line;
-    span.corner_tolerance_mm = corner_tolerance_mm;
-    span.start = span.end = at;
-    make(span);
+    MergedSegment segment;
+    segment.seconds = seconds;
+    segment.line = line;
+    segment.corner_tolerance_mm = corner_tolerance_mm;
+    segment.start = segment.end = at;
+    make(segment);
 }
 
 void SegmentMerger::rest(double seconds, std::int32_t line) {
     if (any_left_out_) add_left_out();
     close();
     if (waiting_ < waiting_past_) {
-        choice_.add(leg_of(waiting(waiting_past_ - 1).span), Junction{});
+        choice_.add(leg_of(waiting(waiting_past_ - 1).segment), Junction{});
         make_decided();
     }
     make_rest(seconds, line, 0, position_);

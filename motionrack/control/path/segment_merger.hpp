@@ -51,7 +51,7 @@ struct MergedSegment {
     JerkReduction ease_in, ease_out;
     double seconds = 0;              ///< rest
     double corner_tolerance_mm = 0;  ///< rest: largest distance of the path from the sides of the corner here
-    ArcCurve bow;                    ///< arc
+    ArcCurve arc;                    ///< arc
 };
 
 /// Merges moves into segments, in program order.
@@ -68,7 +68,7 @@ class SegmentMerger {
     /// Returns the number of complete segments.
     std::size_t size() const { return made_ - taken_; }
     /// Returns the i-th of them, from 0.
-    const MergedSegment& at(std::size_t i) const { return spans_[(taken_ + i) % capacity]; }
+    const MergedSegment& at(std::size_t i) const { return segments_[(taken_ + i) % capacity]; }
     void pop() { ++taken_; }
 
   private:
@@ -82,39 +82,39 @@ class SegmentMerger {
     bool is_left_out(const Geometry& path) const;
     bool turns_otherwise(const Move& move) const;
     bool is_rotary_alone(const Move& move, const Geometry& path) const;
-    MergedSegment span_of(const Move& move, const Geometry& path) const;
-    void make_line(MergedSegment& span) const;
-    bool stops_between(const Geometry& path, const MergedSegment& span) const;
-    bool has_width(const MergedSegment& span, const Point& in, const Point& out) const;
+    MergedSegment segment_of(const Move& move, const Geometry& path) const;
+    void make_line(MergedSegment& segment) const;
+    bool stops_between(const Geometry& path, const MergedSegment& segment) const;
+    bool has_width(const MergedSegment& segment, const Point& in, const Point& out) const;
     double corner_tolerance(const MergedSegment& before, const MergedSegment& after) const;
     double width_between(const MergedSegment& before, const MergedSegment& after) const;
-    LegLimits leg_of(const MergedSegment& span) const;
+    LegLimits leg_of(const MergedSegment& segment) const;
     bool merge(const Move& move, const MergedSegment& next);
     bool lies_along(const Point& end, const MergedSegment& next) const;
     void add_left_out();
     void close();
     void make_decided();
-    void make(const MergedSegment& span) { spans_[made_++ % capacity] = span; }
+    void make(const MergedSegment& segment) { segments_[made_++ % capacity] = segment; }
     void make_rest(double seconds, std::int32_t line, double corner_tolerance_mm, const Point& at);
     void rest(double seconds, std::int32_t line);
 
     /// A segment whose end is not decided yet.
     struct PendingSegment {
-        MergedSegment span;
+        MergedSegment segment;
         std::int32_t last_line = 0;      ///< line of its last move
         double corner_tolerance_mm = 0;  ///< at its end
         CornerStop stop;                 ///< stop at its end, if chosen
     };
     Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
     static constexpr std::size_t max_waiting = JunctionPlanner::most + 2;
-    PendingSegment& waiting(std::size_t i) { return spans_waiting_[i % max_waiting]; }
+    PendingSegment& waiting(std::size_t i) { return pending_[i % max_waiting]; }
 
     MachineLimits limits_;
     Tolerance half_pulse_;
     JunctionPlanner choice_;
-    std::array<PendingSegment, max_waiting> spans_waiting_;
+    std::array<PendingSegment, max_waiting> pending_;
     std::size_t waiting_ = 0, waiting_past_ = 0;
-    std::array<MergedSegment, capacity> spans_;
+    std::array<MergedSegment, capacity> segments_;
     std::size_t made_ = 0;
     std::size_t taken_ = 0;
     Point position_;  ///< end of the last move that was not skipped

@@ -86,26 +86,26 @@ std::optional<double> max_reachable_velocity(const End& begin, const End& end, d
 }
 
 /// Returns true if only the jerk at one or both ends differs.
-bool is_eased_line(std::span<const LimitInterval> spans, const LimitInterval& full) {
-    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
-        return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel &&
-               span.jerk <= full.jerk;
+bool is_eased_line(std::span<const LimitInterval> intervals, const LimitInterval& full) {
+    return std::all_of(intervals.begin(), intervals.end(), [&](const LimitInterval& interval) {
+        return interval.speed == full.speed && interval.accel == full.accel && interval.brake == full.accel &&
+               interval.jerk <= full.jerk;
     });
 }
 
 }  // namespace
 
-bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out) {
-    if (spans.size() < 2 || spans.size() > 3) return false;
-    const std::size_t first = spans.size() == 3 || spans[0].jerk < spans[1].jerk ? 1 : 0;
-    const LimitInterval& full = spans[first];
-    if (!is_eased_line(spans, full)) return false;
+bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::vector<ProfileSegment>& out) {
+    if (intervals.size() < 2 || intervals.size() > 3) return false;
+    const std::size_t first = intervals.size() == 3 || intervals[0].jerk < intervals[1].jerk ? 1 : 0;
+    const LimitInterval& full = intervals[first];
+    if (!is_eased_line(intervals, full)) return false;
     double length = 0;
-    for (const LimitInterval& span : spans) length += span.length;
+    for (const LimitInterval& interval : intervals) length += interval.length;
     const auto end_of = [&](bool there, std::size_t i) {
-        return there ? End(spans[i].length, spans[i].jerk, full) : End(0, full.jerk, full);
+        return there ? End(intervals[i].length, intervals[i].jerk, full) : End(0, full.jerk, full);
     };
-    const End begin = end_of(first > 0, 0), end = end_of(first + 1 < spans.size(), spans.size() - 1);
+    const End begin = end_of(first > 0, 0), end = end_of(first + 1 < intervals.size(), intervals.size() - 1);
     if (!begin.is_possible() || !end.is_possible()) return false;
     const std::optional<double> found = max_reachable_velocity(begin, end, length, full.speed);
     if (!found) return false;

@@ -16,6 +16,6 @@ namespace motionrack::control {
 
 /// Writes the profile from standstill to standstill. Returns false, and writes nothing, if the intervals are not such a
 /// line or its ends are too long for this profile to be the fastest.
-bool write_reduced_jerk_profile(std::span<const LimitInterval> spans, std::vector<ProfileSegment>& out);
+bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::vector<ProfileSegment>& out);
 
 }  // namespace motionrack::control

@@ -15,49 +15,49 @@ constexpr double first_guess = 2, guess_falls = 0.3;
 /// Relative to the initial velocity2.
 constexpr double min_square = 1e-6;
 
-bool all_alike(std::span<const LimitInterval> spans) {
-    return std::all_of(spans.begin(), spans.end(), [&](const LimitInterval& span) {
-        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel &&
-               span.jerk == spans[0].jerk;
+bool all_alike(std::span<const LimitInterval> intervals) {
+    return std::all_of(intervals.begin(), intervals.end(), [&](const LimitInterval& interval) {
+        return interval.speed == intervals[0].speed && interval.accel == intervals[0].accel &&
+               interval.brake == intervals[0].accel && interval.jerk == intervals[0].jerk;
     });
 }
 
 }  // namespace
 
-std::span<const ProfileSegment> VelocityPlanner::plan(std::span<const LimitInterval> spans) {
-    return plan_from({}, spans);
+std::span<const ProfileSegment> VelocityPlanner::plan(std::span<const LimitInterval> intervals) {
+    return plan_from({}, intervals);
 }
 
 std::span<const ProfileSegment> VelocityPlanner::plan_from(const InitialPathState& start,
-                                                           std::span<const LimitInterval> spans) {
-    plan_approximate(start, spans);
+                                                           std::span<const LimitInterval> intervals) {
+    plan_approximate(start, intervals);
     for (ProfileSegment& piece : pieces_) settle(piece);
     return pieces_;
 }
 
 std::span<const ProfileSegment> VelocityPlanner::plan_approximate(const InitialPathState& start,
-                                                                  std::span<const LimitInterval> spans) {
+                                                                  std::span<const LimitInterval> intervals) {
     start_ = start.velocity2 > 0 ? start : InitialPathState{};
-    return sketch(spans, false);
+    return sketch(intervals, false);
 }
 
-std::span<const ProfileSegment> VelocityPlanner::replan_approximate(std::span<const LimitInterval> spans) {
+std::span<const ProfileSegment> VelocityPlanner::replan_approximate(std::span<const LimitInterval> intervals) {
     before_.swap(pieces_);
-    return sketch(spans, !before_.empty());
+    return sketch(intervals, !before_.empty());
 }
 
-std::span<const ProfileSegment> VelocityPlanner::sketch(std::span<const LimitInterval> spans, bool again) {
-    measure_length(spans);
+std::span<const ProfileSegment> VelocityPlanner::sketch(std::span<const LimitInterval> intervals, bool again) {
+    measure_length(intervals);
     if (!(length_ > 0)) return pieces_;
-    if (all_alike(spans)) {
+    if (all_alike(intervals)) {
         if (moving())
-            write_travel(spans.front());
+            write_travel(intervals.front());
         else
-            write_s_curve(spans.front());
+            write_s_curve(intervals.front());
         return pieces_;
     }
-    if (!moving() && write_reduced_jerk_profile(spans, pieces_)) return pieces_;
-    build_cells(spans);
+    if (!moving() && write_reduced_jerk_profile(intervals, pieces_)) return pieces_;
+    build_cells(intervals);
     if (again)
         solve_from_previous();
     else
@@ -66,11 +66,11 @@ std::span<const ProfileSegment> VelocityPlanner::sketch(std::span<const LimitInt
     return pieces_;
 }
 
-void VelocityPlanner::measure_length(std::span<const LimitInterval> spans) {
+void VelocityPlanner::measure_length(std::span<const LimitInterval> intervals) {
     pieces_.clear();
     ends_.clear();
     length_ = 0;
-    for (const LimitInterval& span : spans) ends_.push_back(length_ += span.length);
+    for (const LimitInterval& interval : intervals) ends_.push_back(length_ += interval.length);
 }
 
 /// Starts from the limits and iterates towards the velocities that they allow.
@@ -272,10 +272,10 @@ void VelocityPlanner::limit_deceleration_jerk() {
                    cells_[i - 1].length;
     edges_.clear();
     for (std::size_t i = 1; i < n + 2; ++i) {
-        Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
+        HullEdge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
         // The corner between two edges is on the hull if the slope decreases there by less than allowed.
         while (!edges_.empty() && edges_.back().slope_out() - fall_[edge.from] >= edge.slope_in()) {
-            const Edge& before = edges_.back();
+            const HullEdge& before = edges_.back();
             const double fall = before.fall + fall_[edge.from];
             edge = {before.from, before.length + edge.length, fall + edge.fall,
                     before.moment + fall * edge.length + edge.moment, before.rise + edge.rise};
@@ -288,7 +288,7 @@ void VelocityPlanner::limit_deceleration_jerk() {
 }
 
 /// Evaluates the edge from its lower end, where digits count.
-void VelocityPlanner::evaluate_hull_edge(const Edge& edge, std::size_t to) {
+void VelocityPlanner::evaluate_hull_edge(const HullEdge& edge, std::size_t to) {
     square_[edge.from] = left_[edge.from];
     square_[to] = left_[to];
     if (left_[edge.from] <= left_[to]) {

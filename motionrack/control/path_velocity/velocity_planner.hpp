@@ -43,17 +43,17 @@ class VelocityPlanner {
 
     /// Plans from standstill to standstill over intervals whose limits are above 0. The result is valid until the next
     /// call; empty without intervals.
-    std::span<const ProfileSegment> plan(std::span<const LimitInterval> spans);
+    std::span<const ProfileSegment> plan(std::span<const LimitInterval> intervals);
 
     /// Plans from a motion in progress. Returns an empty span if no feasible plan was found; one may still exist.
-    std::span<const ProfileSegment> plan_from(const InitialPathState& start, std::span<const LimitInterval> spans);
+    std::span<const ProfileSegment> plan_from(const InitialPathState& start, std::span<const LimitInterval> intervals);
 
     /// As plan_from(), but the durations of its cells are approximate until settle() is called for them.
     std::span<const ProfileSegment> plan_approximate(const InitialPathState& start,
-                                                     std::span<const LimitInterval> spans);
+                                                     std::span<const LimitInterval> intervals);
 
     /// Replans over the same intervals after a small change of limits; starts the iteration from the previous solution.
-    std::span<const ProfileSegment> replan_approximate(std::span<const LimitInterval> spans);
+    std::span<const ProfileSegment> replan_approximate(std::span<const LimitInterval> intervals);
 
   private:
     static constexpr double rounding =
@@ -68,7 +68,7 @@ class VelocityPlanner {
     };
     /// Edge of the hull, from control point `from`: decrease of the slope between its ends, and the resulting loss of
     /// velocity2.
-    struct Edge {
+    struct HullEdge {
         std::size_t from = 0;
         double length = 0, fall = 0, moment = 0, rise = 0;
         double slope_in() const { return (rise + moment) / length; }
@@ -80,17 +80,17 @@ class VelocityPlanner {
     };
 
     bool moving() const { return start_.velocity2 > 0; }
-    void measure_length(std::span<const LimitInterval> spans);
-    std::span<const ProfileSegment> sketch(std::span<const LimitInterval> spans, bool again);
+    void measure_length(std::span<const LimitInterval> intervals);
+    std::span<const ProfileSegment> sketch(std::span<const LimitInterval> intervals, bool again);
     void solve_from_limits();
     void solve_from_previous();
     void refine();
-    void build_cells(std::span<const LimitInterval> spans);
-    End end_of(std::span<const LimitInterval> spans, bool back) const;
-    double target_cell_length(const LimitInterval& span) const;
+    void build_cells(std::span<const LimitInterval> intervals);
+    End end_of(std::span<const LimitInterval> intervals, bool back) const;
+    double target_cell_length(const LimitInterval& interval) const;
     double first_size(double wanted) const;
-    void compute_cell_sizes(std::span<const LimitInterval> spans);
-    void add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end);
+    void compute_cell_sizes(std::span<const LimitInterval> intervals);
+    void add_cell(std::span<const LimitInterval> intervals, std::size_t at, double begin, double end);
     void compute_bounds();
     bool is_loose(double guess) const;
     void tighten_limits(const std::vector<double>& found, double guess);
@@ -102,7 +102,7 @@ class VelocityPlanner {
     void limit_slope_rate(std::vector<double>& slopes) const;
     void accelerate_pass(std::vector<double>& out, bool back);
     void limit_deceleration_jerk();
-    void evaluate_hull_edge(const Edge& edge, std::size_t to);
+    void evaluate_hull_edge(const HullEdge& edge, std::size_t to);
     void write();
     void write_s_curve(const LimitInterval& limits);
     void write_travel(const LimitInterval& limits);
@@ -123,7 +123,7 @@ class VelocityPlanner {
     // one entry per control point: 0 and cells().size() + 1 are the standstills
     std::vector<double> bound_, left_, right_, square_;
     std::vector<double> fall_;  ///< largest decrease of the slope at the point
-    std::vector<Edge> edges_;
+    std::vector<HullEdge> edges_;
     std::vector<ProfileSegment> pieces_, before_;
 };
 

@@ -15,7 +15,7 @@ constexpr double unlike_part = 0.25;
 /// of it.
 constexpr double min_cell_s = 0.1;
 /// Minimum number of cells between two standstills, and maximum number of the target size in an interval.
-constexpr double min_feed_cells = 48, max_cells_of_a_span = 256;
+constexpr double min_feed_cells = 48, max_cells_of_an_interval = 256;
 /// Maximum share of a launch or a landing in the path: on a short path constant jerk ends after a twelfth.
 constexpr double max_launch = 1.0 / 14;
 constexpr double alike_jerk = 1.5;
@@ -39,18 +39,18 @@ double launch_length(double jerk, double seconds) {
 /// Returns the launch or landing: as long as acceleration and velocity allow at full jerk, over intervals with equal
 /// jerk. The velocity must still be able to return to the limit of an interval ahead. Up to half of that limit this
 /// needs no braking, and a launch of a fourteenth of the distance leaves room for it.
-VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> spans, bool back) const {
+VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> intervals, bool back) const {
     End end{length_ * max_launch, 0};
-    LimitInterval least = spans[back ? spans.size() - 1 : 0];
+    LimitInterval least = intervals[back ? intervals.size() - 1 : 0];
     double before = 0;
     bool within = true;
-    for (std::size_t n = 0; n < spans.size() && before * max_launch < end.length; ++n) {
-        const LimitInterval& span = spans[back ? spans.size() - 1 - n : n];
+    for (std::size_t n = 0; n < intervals.size() && before * max_launch < end.length; ++n) {
+        const LimitInterval& interval = intervals[back ? intervals.size() - 1 - n : n];
         if (within) {
-            const LimitInterval all = min_of(least, span);
+            const LimitInterval all = min_of(least, interval);
             const double fits = launch_length(
                 all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
-            const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
+            const bool alike = interval.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * interval.jerk;
             if (n > 0 && (fits <= before || !alike)) {
                 end.length = std::min(end.length, before);
                 within = false;
@@ -60,9 +60,10 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> span
             }
         }
         if (n > 0)
-            end.length = std::min(end.length, std::max(before * max_launch,
-                                                       launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
-        before += span.length;
+            end.length = std::min(
+                end.length,
+                std::max(before * max_launch, launch_length(least.jerk, std::sqrt(interval.speed / least.jerk))));
+        before += interval.length;
         within = within && before < end.length;
     }
     end.jerk = least.jerk;
@@ -70,10 +71,11 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> span
 }
 
 /// Returns the cell length for the limits of one interval.
-double VelocityPlanner::target_cell_length(const LimitInterval& span) const {
-    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk, min_cell_s * settings_.cell_seconds,
-                                      settings_.cell_seconds);
-    return std::min(std::max(span.speed * seconds, span.length / max_cells_of_a_span), length_ / min_feed_cells);
+double VelocityPlanner::target_cell_length(const LimitInterval& interval) const {
+    const double seconds = std::clamp(std::max(interval.accel, interval.brake) / interval.jerk,
+                                      min_cell_s * settings_.cell_seconds, settings_.cell_seconds);
+    return std::min(std::max(interval.speed * seconds, interval.length / max_cells_of_an_interval),
+                    length_ / min_feed_cells);
 }
 
 /// Returns the first cell size of a continued motion. It is short, because the initial state is assumed for the whole
@@ -86,35 +88,35 @@ double VelocityPlanner::first_size(double wanted) const {
 
 /// Computes the largest cell sizes at the ends of the intervals: the target size there, growing with the distance from
 /// small ones.
-void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> spans) {
-    sizes_.assign(spans.size() + 1, 0);
-    sizes_.front() = moving() ? first_size(target_cell_length(spans.front())) : launch_.length / 3;
+void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> intervals) {
+    sizes_.assign(intervals.size() + 1, 0);
+    sizes_.front() = moving() ? first_size(target_cell_length(intervals.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
-    for (std::size_t k = 1; k < spans.size(); ++k) {
-        const LimitInterval least = min_of(spans[k - 1], spans[k]);
+    for (std::size_t k = 1; k < intervals.size(); ++k) {
+        const LimitInterval least = min_of(intervals[k - 1], intervals[k]);
         // Between different velocities the jerk needs about this time to reach or leave the lower one.
-        const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
+        const double unlike = 1 - least.speed / std::max(intervals[k - 1].speed, intervals[k].speed);
         const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
         const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
-        sizes_[k] = std::min({target_cell_length(spans[k - 1]), target_cell_length(spans[k]), ramp});
+        sizes_[k] = std::min({target_cell_length(intervals[k - 1]), target_cell_length(intervals[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k)
-        sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + radius_growth * spans[k - 1].length);
+        sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + radius_growth * intervals[k - 1].length);
     for (std::size_t k = sizes_.size() - 1; k-- > 0;)
-        sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + radius_growth * spans[k].length);
+        sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + radius_growth * intervals[k].length);
 }
 
-void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
-    launch_ = moving() ? End{} : end_of(spans, false);
-    landing_ = end_of(spans, true);
-    compute_cell_sizes(spans);
+void VelocityPlanner::build_cells(std::span<const LimitInterval> intervals) {
+    launch_ = moving() ? End{} : end_of(intervals, false);
+    landing_ = end_of(intervals, true);
+    compute_cell_sizes(intervals);
     cells_.clear();
     const double end = length_ - landing_.length;
     std::size_t at = 0;
     for (double begin = launch_.length; begin < end;) {
-        while (at + 1 < spans.size() && ends_[at] <= begin) ++at;
-        const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
-        double size = std::min({target_cell_length(spans[at]), sizes_[at] + radius_growth * from_left,
+        while (at + 1 < intervals.size() && ends_[at] <= begin) ++at;
+        const double from_left = begin - (ends_[at] - intervals[at].length), to_right = ends_[at] - begin;
+        double size = std::min({target_cell_length(intervals[at]), sizes_[at] + radius_growth * from_left,
                                 sizes_[at + 1] + radius_growth / (1 + radius_growth) * to_right});
         size = std::max(size, min_part * length_);
         if (begin + 1.5 * size >= end)
@@ -122,15 +124,15 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> spans) {
         else if (begin + 2.5 * size >= end)
             size = (end - begin) / 2;
         const double next = size == end - begin ? end : begin + size;
-        add_cell(spans, at, begin, next);
+        add_cell(intervals, at, begin, next);
         begin = next;
     }
 }
 
 /// `at`: the interval in which it starts.
-void VelocityPlanner::add_cell(std::span<const LimitInterval> spans, std::size_t at, double begin, double end) {
-    LimitInterval least = spans[at];
-    for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = min_of(least, spans[at + 1]);
+void VelocityPlanner::add_cell(std::span<const LimitInterval> intervals, std::size_t at, double begin, double end) {
+    LimitInterval least = intervals[at];
+    for (; at + 1 < intervals.size() && ends_[at] < end; ++at) least = min_of(least, intervals[at + 1]);
     cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
 }
 

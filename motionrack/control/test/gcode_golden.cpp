@@ -34,10 +34,10 @@ TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
     for (const std::string& name : names()) {
         Interpreter interpreter(settings_of(name));
         const std::string text = file_text(folder() + name + ".ngc");
-        ProgramFlow walk(text, settings_of(name), name);
-        for (std::string_view line; walk.next(line);) {
-            ASSERT_TRUE(interpreter.line(line, walk.number(), Language::program)) << name << ": " << line;
-            ASSERT_TRUE(walk.line_accepted(interpreter));
+        ProgramFlow program_flow(text, settings_of(name), name);
+        for (std::string_view line; program_flow.next(line);) {
+            ASSERT_TRUE(interpreter.line(line, program_flow.number(), Language::program)) << name << ": " << line;
+            ASSERT_TRUE(program_flow.line_accepted(interpreter));
             const Block& block = interpreter.block();
             for (int i = 0; i < g_group_count; ++i)
                 if (block.has_g(static_cast<GroupG>(i))) g.insert(block.g[static_cast<std::size_t>(i)]);

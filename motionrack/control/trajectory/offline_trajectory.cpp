@@ -6,18 +6,18 @@
 namespace motionrack::control {
 
 TrajectoryPoint SectionSampler::at(double seconds) {
-    const auto& feed = stretch_.feed;
-    const auto& curve = stretch_.curve;
+    const auto& feed = section_.feed;
+    const auto& curve = section_.curve;
     while (feed_ + 1 < feed.size() && seconds > feed_begin_ + feed[feed_].seconds) feed_begin_ += feed[feed_++].seconds;
     const PathMotion along = feed[feed_].at(std::clamp(seconds - feed_begin_, 0.0, feed[feed_].seconds));
     while (piece_ + 1 < curve.size() && along.u > curve[piece_ + 1].begin) ++piece_;
     TrajectoryPoint out = trajectory_point(curve[piece_], along);
-    if (seconds < stretch_.overlap) add_overlap(out, stretch_.before, stretch_.overlap - seconds);
+    if (seconds < section_.overlap) add_overlap(out, section_.before, section_.overlap - seconds);
     return out;
 }
 
-OfflineTrajectory::OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_stretch)
-    : limits_(limits), on_stretch_(std::move(on_stretch)), builder_(limits, start), planner_(limits) {}
+OfflineTrajectory::OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_section)
+    : limits_(limits), on_section_(std::move(on_section)), builder_(limits, start), planner_(limits) {}
 
 void OfflineTrajectory::push(const Move& move) {
     if (!builder_.has_room()) take();
@@ -40,16 +40,16 @@ void OfflineTrajectory::take() {
             });
             continue;
         }
-        PathSection stretch{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
+        PathSection section{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
         if (!curve_.empty() && planner_.plan({}, curve_, use_, 0, curve_.back().begin + curve_.back().length)) {
-            stretch.feed = planner_.feed();
-            stretch.seconds = planner_.seconds();
-            stretch.overlap =
-                max_overlap_s(stretch.before, initial_acceleration(curve_, stretch.feed), alone_, room_mm_, limits_);
+            section.feed = planner_.feed();
+            section.seconds = planner_.seconds();
+            section.overlap =
+                max_overlap_s(section.before, initial_acceleration(curve_, section.feed), alone_, room_mm_, limits_);
         }
-        on_stretch_(stretch);
-        before_.keep(final_deceleration(curve_, stretch.feed));
-        alone_ = stretch.seconds - stretch.overlap;
+        on_section_(section);
+        before_.keep(final_deceleration(curve_, section.feed));
+        alone_ = section.seconds - section.overlap;
         room_mm_ = curve_.empty() ? 0 : item.corner_tolerance_mm;
         curve_.clear();
         use_.clear();

@@ -33,13 +33,13 @@ struct PathSection {
 /// Samples a section; times must not decrease.
 class SectionSampler {
   public:
-    explicit SectionSampler(const PathSection& stretch) : stretch_(stretch) {}
+    explicit SectionSampler(const PathSection& section) : section_(section) {}
     /// Returns the point at `seconds` from the start of the section, from 0 to its end; not before the previous call.
     /// Includes the remaining motion of the previous section.
     TrajectoryPoint at(double seconds);
 
   private:
-    PathSection stretch_;
+    PathSection section_;
     std::size_t feed_ = 0, piece_ = 0;
     double feed_begin_ = 0;  ///< s
 };
@@ -48,7 +48,7 @@ class OfflineTrajectory {
   public:
     using OnSection = std::function<void(const PathSection&)>;
     /// `start`: the current position, at standstill.
-    OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_stretch);
+    OfflineTrajectory(const MachineLimits& limits, const Point& start, OnSection on_section);
 
     /// Adds a move that starts where the last one ended. All its numbers are finite, and feed rates above 0.
     void push(const Move& move);
@@ -59,7 +59,7 @@ class OfflineTrajectory {
     void take();
 
     MachineLimits limits_;
-    OnSection on_stretch_;
+    OnSection on_section_;
     PathBuilder builder_;
     SectionPlanner planner_;
     std::vector<CubicSegment> curve_;

@@ -137,9 +137,10 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
         planned = found ? distance : -1;
         return found;
     };
-    const LimitInterval span =
+    const LimitInterval interval =
         SegmentLimits(now_.curve[from.piece], limits_).up_to(part_of_speed * from.along.speed, 0);
-    double distance = 0.25 * from.along.speed * (from.along.speed / span.brake + span.brake / span.jerk), too_near = 0;
+    double distance = 0.25 * from.along.speed * (from.along.speed / interval.brake + interval.brake / interval.jerk),
+           too_near = 0;
     for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
         too_near = distance;
         distance *= 1.5;

@@ -51,7 +51,7 @@ TrajectoryInterpolator::TrajectoryInterpolator(const MachineLimits& limits, cons
     : limits_(limits),
       path_limits_(limits),
       settings_(settings),
-      rider_(limits, start, settings.rider),
+      generator_(limits, start, settings.generator),
       position_(start),
       place_(start) {}
 
@@ -60,10 +60,10 @@ Result<void> TrajectoryInterpolator::push(const Move& move, bool overridable) {
     if (path.shape == PathShape::nothing && move.kind != MoveKind::dwell) return {};
     const std::uint8_t axes = axes_of(path);
     if (has_to_rest(path, axes)) {
-        rider_.flush();
+        generator_.flush();
         run_axes_ = 0;
     }
-    rider_.push({move, overridable, axes});
+    generator_.push({move, overridable, axes});
     last_ = path;
     last_axes_ = axes;
     run_axes_ |= axes;
@@ -95,28 +95,28 @@ bool TrajectoryInterpolator::uses_auxiliary_axis(std::uint8_t axes) const {
 
 bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned = {};
-    const NextMotion next = rider_.next(early);
+    const NextMotion next = generator_.next(early);
     if (next == NextMotion::nothing) return false;
     planned.start = place_;
     if (next == NextMotion::dwell) {
-        planned.number = rider_.move_of_rest();
-        planned.move = rider_.move(planned.number).move;
+        planned.number = generator_.move_of_rest();
+        planned.move = generator_.move(planned.number).move;
         planned.move.end = place_;
-        planned.move.seconds =
-            settings_.cut_dwells ? std::min(settings_.max_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
-        rider_.advance_dwell(planned.move.seconds);
+        planned.move.seconds = settings_.cut_dwells ? std::min(settings_.max_seconds, generator_.dwell_seconds())
+                                                    : generator_.dwell_seconds();
+        generator_.advance_dwell(planned.move.seconds);
         return true;
     }
-    const TrajectoryPoint begin = rider_.at(0);
+    const TrajectoryPoint begin = generator_.at(0);
     const double seconds = last_seconds_ = seconds_of_next();
-    const TrajectoryPoint end = rider_.at(seconds);
+    const TrajectoryPoint end = generator_.at(seconds);
     const double length = size_of(between(place_, end.place));
     if (length < min_move_length && size_of(end.speed) > 0) {  // at a reversal
-        rider_.advance(seconds);
+        generator_.advance(seconds);
         return pull(planned, early);
     }
-    planned.number = rider_.move_of(begin);
-    const TrajectoryMove& move = rider_.move(planned.number);
+    planned.number = generator_.move_of(begin);
+    const TrajectoryMove& move = generator_.move(planned.number);
     planned.move = move.move;
     if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
     if (planned.move.kind != MoveKind::rapid) planned.move.kind = MoveKind::feed;
@@ -131,25 +131,25 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned.constant_accel = true;
     planned.move.feed = planned.cruise_velocity;
     place_ = end.place;
-    rider_.advance(seconds);
+    generator_.advance(seconds);
     return true;
 }
 
 /// Returns the longest duration with small errors. The ends are rounded to whole pulses, so its velocities are wrong by
 /// half a pulse per move; a shorter move would not be better.
 double TrajectoryInterpolator::seconds_of_next() const {
-    const TrajectoryPoint begin = rider_.at(0);
-    const double least = uses_auxiliary_axis(rider_.move(rider_.move_of(begin)).axes)
+    const TrajectoryPoint begin = generator_.at(0);
+    const double least = uses_auxiliary_axis(generator_.move(generator_.move_of(begin)).axes)
                              ? settings_.drive->min_velocity_update_s()
                              : shortest;
-    double seconds = std::min({settings_.max_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
+    double seconds = std::min({settings_.max_seconds, generator_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= shorter) {
         const ApproximationError is = roughness_of(begin, seconds);
         if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
         if (noise_left * is.quantisation > std::max(is.velocity_step, min_noise)) break;
     }
     // Avoids a tiny remainder before the end.
-    const double left = rider_.left();
+    const double left = generator_.left();
     if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
     return left < 2 * shortest || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
 }
@@ -160,7 +160,7 @@ double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, doub
     double best = seconds, min_off = 1;
     for (int k = 0; k < tries && min_off > near_enough; ++k) {
         const double time = seconds * (1 - earliest * k / tries),
-                     off = off_whole_pulses(begin.place, rider_.at(time).place);
+                     off = off_whole_pulses(begin.place, generator_.at(time).place);
         if (off >= min_off) continue;
         best = time;
         min_off = off;
@@ -186,7 +186,7 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
 /// On a short distance corners may lie on both sides of the middle.
 TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
                                                                                 double seconds) const {
-    const TrajectoryPoint middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
+    const TrajectoryPoint middle = generator_.at(0.5 * seconds), end = generator_.at(seconds);
     const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
     double square = 0, along = 0, even = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -208,8 +208,8 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     out.chord_error = std::max(out.chord_error, beside(way, per_square, gone));
     for (const double part : {0.25, 0.75})
         if (out.chord_error <= off_pulses)
-            out.chord_error = std::max(out.chord_error,
-                                       beside(way, per_square, between(begin.place, rider_.at(part * seconds).place)));
+            out.chord_error = std::max(
+                out.chord_error, beside(way, per_square, between(begin.place, generator_.at(part * seconds).place)));
     return out;
 }
 

@@ -12,7 +12,7 @@
 namespace motionrack::control {
 
 struct InterpolatorSettings {
-    TrajectoryGeneratorSettings rider;
+    TrajectoryGeneratorSettings generator;
     double max_seconds =
         0.1;  ///< maximum duration of a move, which bounds the delay of a hold or an override; above 0, at most 0.1
     bool cut_dwells = false;                  ///< divides dwells, too
@@ -27,19 +27,19 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     Result<void> push(const Move& move) override { return push(move, true); }
     /// Adds a move; one that is not `overridable` ignores the feed override.
     Result<void> push(const Move& move, bool overridable);
-    bool has_room() const override { return rider_.has_room(); }
-    void flush() override { rider_.flush(); }
+    bool has_room() const override { return generator_.has_room(); }
+    void flush() override { generator_.flush(); }
     bool pull(PlannedMove& planned) override { return pull(planned, false); }
     bool hold() override {
-        rider_.hold();
+        generator_.hold();
         return true;
     }
     /// `early`: start with the known segments although more may follow.
     bool pull(PlannedMove& planned, bool early);
 
     /// Access to hold, resume and overrides.
-    TrajectoryGenerator& rider() { return rider_; }
-    const TrajectoryGenerator& rider() const { return rider_; }
+    TrajectoryGenerator& generator() { return generator_; }
+    const TrajectoryGenerator& generator() const { return generator_; }
 
   private:
     /// Errors of a move that replaces an interval of the trajectory.
@@ -61,7 +61,7 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     MachineLimits limits_;
     PathLimits path_limits_;
     InterpolatorSettings settings_;
-    TrajectoryGenerator rider_;
+    TrajectoryGenerator generator_;
     Geometry last_;                              ///< geometry of the last pushed move
     std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< axes of the last move, and of all moves since the last standstill
     Point position_;

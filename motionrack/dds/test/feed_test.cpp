@@ -60,7 +60,7 @@ class CountingPublisher final : public Publisher {
         return true;
     }
     void look() override {}
-    bool next_event(Event&) override { return false; }
+    bool next_event(BusEvent&) override { return false; }
     std::vector<std::uint32_t> numbers;
 };
 

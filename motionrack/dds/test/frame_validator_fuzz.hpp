@@ -41,7 +41,8 @@ class Run {
 
     Sample next_sample() {
         const std::uint32_t what = feed_.word();
-        Source source = source_named(static_cast<std::uint8_t>(1 + what % 3), what % 2 ? "wafer1" : "wafer2");
+        PublisherIdentity source =
+            source_named(static_cast<std::uint8_t>(1 + what % 3), what % 2 ? "wafer1" : "wafer2");
         number_ += (what >> 2 & 3) == 3 ? feed_.word() - 40 : (what >> 2 & 3);
         Sample out = sample_of(source, number_, 3 + 3 * (what >> 4 & 1));
         if ((what >> 5 & 7) == 0) damage(out);
@@ -90,7 +91,7 @@ class Run {
         if (judge_.joined())
             must(!judge_.stale() == (now_ - used_at_ <= 2 * judge_.pace()),
                  "it is stale two paces after the last frame");
-        for (Event event; judge_.next_event(event);)
+        for (BusEvent event; judge_.next_event(event);)
             for (const char c : sentence(event)) must(c >= ' ' && c <= '~', "a sentence can be printed");
         const Counts& c = judge_.counts();
         must(c.received == c.used + c.duplicates + c.late + c.jumps + c.wrong_crc + c.foreign + c.malformed +
@@ -101,7 +102,7 @@ class Run {
 
     void take(const Sample& sample) {
         const bool had = judge_.joined();
-        const Source before = judge_.source();
+        const PublisherIdentity before = judge_.source();
         const Frame held = judge_.frame();
         const Counts then = judge_.counts();
         const Validation verdict = judge_.take(sample, now_);

@@ -26,7 +26,7 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
     std::stable_sort(arrivals.begin(), arrivals.end(),
                      [](const Arrival& a, const Arrival& b) { return a.place < b.place; });
     FrameValidator judge;
-    const Source source = source_named(1);
+    const PublisherIdentity source = source_named(1);
     Instant now{};
     std::set<int> seen;
     int newest = arrivals.front().number;
@@ -65,7 +65,7 @@ RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ())
         const bool damaged = *rc::gen::element(false, false, true);
         if (damaged) sample.frame.counts[*rc::gen::inRange<std::size_t>(0, 6)] ^= 1U << *rc::gen::inRange(0, 32);
         now += *rc::gen::element(period, period, Duration{0}, milliseconds(700));
-        const Source before = judge.source();
+        const PublisherIdentity before = judge.source();
         const bool had = judge.joined();
         const std::uint64_t followed = judge.counts().restarts + judge.counts().takeovers;
         const Validation verdict = judge.take(sample, now);
@@ -137,7 +137,7 @@ TEST(Domain, Is0To232) {
 }
 
 TEST(NewSource, IsNoOther) {
-    const Source a = new_source(), b = new_source();
+    const PublisherIdentity a = new_source(), b = new_source();
     EXPECT_FALSE(a == b);
     EXPECT_EQ(a.id_text().size(), 32u);
     EXPECT_FALSE(a.host_name().empty());

@@ -14,20 +14,20 @@ using testing::HasSubstr;
 class Judging : public testing::Test {
   protected:
     FrameValidator judge;
-    Source first = source_named(1), second = source_named(2, "wafer2");
+    PublisherIdentity first = source_named(1), second = source_named(2, "wafer2");
     Instant now = whole_seconds(5);
 
     Validation hear(const Sample& sample) { return judge.take(sample, now += period); }
     Validation hear(std::uint32_t number) { return hear(sample_of(first, number)); }
-    std::vector<Event> events() {
-        std::vector<Event> out;
-        for (Event event; judge.next_event(event);) out.push_back(event);
+    std::vector<BusEvent> events() {
+        std::vector<BusEvent> out;
+        for (BusEvent event; judge.next_event(event);) out.push_back(event);
         return out;
     }
     /// The sentence of the only event of this kind.
     std::string told(EventKind kind) {
         std::string out;
-        for (const Event& event : events())
+        for (const BusEvent& event : events())
             if (event.kind == kind) {
                 if (!out.empty()) out += '\n';
                 out += sentence(event);
@@ -176,7 +176,7 @@ TEST_F(Judging, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
 
 TEST_F(Judging, KnowsAPublisherThatWasStartedAnew) {
     hear(10);
-    const Source again = source_named(3);
+    const PublisherIdentity again = source_named(3);
     now += ValidatorSettings{}.release;
     EXPECT_EQ(hear(sample_of(again, 0)), Validation::used);
     EXPECT_EQ(judge.counts().restarts, 1u);
@@ -217,7 +217,7 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
     EXPECT_EQ(judge.counts().wrong_words, 1u);
     EXPECT_EQ(judge.counts().used, 1u);
     int kinds = 0;
-    for (const Event& event : events()) {
+    for (const BusEvent& event : events()) {
         EXPECT_FALSE(sentence(event).empty());
         kinds += event.kind == EventKind::joined ? 0 : 1;
     }

@@ -7,8 +7,8 @@ namespace motionrack::dds {
 
 inline constexpr Duration period = microseconds(200);
 
-inline Source source_named(std::uint8_t id, std::string_view host = "wafer1") {
-    Source out;
+inline PublisherIdentity source_named(std::uint8_t id, std::string_view host = "wafer1") {
+    PublisherIdentity out;
     out.id.fill(id);
     for (std::size_t i = 0; i < host.size(); ++i) out.host[i] = host[i];
     out.process = 100U + id;
@@ -21,7 +21,7 @@ inline void seal(Sample& sample) {
 }
 
 /// Frame `number` of a source whose card's time began at 1 ms.
-inline Sample sample_of(const Source& source, std::uint32_t number, std::uint32_t words = 6) {
+inline Sample sample_of(const PublisherIdentity& source, std::uint32_t number, std::uint32_t words = 6) {
     Sample out;
     out.source = source;
     out.period = out.pace = period.count();

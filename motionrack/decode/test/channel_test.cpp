@@ -10,7 +10,7 @@
 namespace motionrack::decode {
 namespace {
 
-Referee refereed(const std::uint8_t* samples, std::size_t size, const Lines& lines) {
+Referee refereed(const std::uint8_t* samples, std::size_t size, const LineBits& lines) {
     Referee referee;
     for (std::size_t i = 0; i < size; ++i) referee.sample(samples[i], lines);
     return referee;
@@ -54,8 +54,8 @@ TEST_P(WideDecoder, CountsBytesOfEveryLengthAndAlignmentAsTheReferee) {
     for (std::size_t size = 0; size <= 300; ++size)
         for (std::size_t start = 0; start < 64; start += 1 + size % 3) {
             const auto stream = random_lines(size * 64 + start, size + start);
-            const Lines lines{static_cast<int>(size % 8), static_cast<int>((size + 3) % 8),
-                              start % 2 == 0 ? -1 : static_cast<int>((size + 6) % 8)};
+            const LineBits lines{static_cast<int>(size % 8), static_cast<int>((size + 3) % 8),
+                                 start % 2 == 0 ? -1 : static_cast<int>((size + 6) % 8)};
             ChannelDecoder decoder(keep_all(), kernels());
             decoder.bytes(stream.data() + start, size, lines);
             ASSERT_TRUE(agrees(decoder, refereed(stream.data() + start, size, lines)))
@@ -100,7 +100,7 @@ RC_GTEST_PROP(WideDecoderStreams, AreTheSameInBlocksOfAnyLength, ()) {
     std::size_t total = 0;
     for (const std::size_t size : sizes) total += size;
     const auto stream = random_lines(seed, total);
-    const Lines lines{0, 1, 2};
+    const LineBits lines{0, 1, 2};
     const Referee referee = refereed(stream.data(), total, lines);
     for (const Kernels& kernels : available_kernels()) {
         ChannelDecoder bytes(keep_all(), kernels), planes(keep_all(), kernels);

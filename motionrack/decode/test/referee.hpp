@@ -16,8 +16,8 @@ struct Referee {
     std::vector<std::uint64_t> illegal;
     std::vector<IndexEvent> indexes;
 
-    /// One sample; bit numbers as in Lines.
-    void sample(std::uint8_t byte, const Lines& lines) {
+    /// One sample; bit numbers as in LineBits.
+    void sample(std::uint8_t byte, const LineBits& lines) {
         // Rows: lines before; columns: lines (B A) now; 2 is illegal.
         static constexpr std::array<int, 16> table = {0, 1, -1, 2, -1, 0, 2, 1, 1, 2, 0, -1, 2, -1, 1, 0};
         const int now = (byte >> lines.a & 1) | (byte >> lines.b & 1) << 1, z = lines.z < 0 ? 0 : byte >> lines.z & 1;

@@ -58,7 +58,7 @@ std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack:
         given += static_cast<std::uint64_t>(feed.give(now, [&cards](const grating_bus::Frame& frame, Instant at) {
             for (grating_bus::Card* card : cards) card->take(frame, at);
         }));
-        for (dds::Event event; feed.subscriber().judge().next_event(event);)
+        for (dds::BusEvent event; feed.subscriber().judge().next_event(event);)
             if (!options.json && !options.quiet) fmt::print(stderr, "{}\n", dds::sentence(event));
         if (now < next) continue;
         show(options, watch, now);

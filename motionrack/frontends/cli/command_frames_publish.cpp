@@ -133,7 +133,7 @@ int publish_rack(Run& run) {
     }
     bool conflict = false;
     const Instant start = dds::monotonic_now();
-    run.settings.report = [&](const dds::Event& event) {
+    run.settings.report = [&](const dds::BusEvent& event) {
         conflict = conflict || event.kind == dds::EventKind::conflict;
         if (options.json)
             fmt::print("{}\n", event_json(event, start));

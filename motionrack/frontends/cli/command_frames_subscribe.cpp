@@ -76,7 +76,7 @@ class Display {
         : options_(options), start_(start), live_(!options.json && !options.quiet && is_terminal(1)) {}
 
     void events(dds::FrameValidator& judge) {
-        for (dds::Event event; judge.next_event(event);) {
+        for (dds::BusEvent event; judge.next_event(event);) {
             if (options_.json) {
                 fmt::print("{}\n", event_json(event, start_));
                 std::fflush(stdout);

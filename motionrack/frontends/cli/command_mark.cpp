@@ -125,7 +125,8 @@ int run_mark(const MarkOptions& options) {
         if (const Result<void> good = check_writable(file); !good) return report(good.error());
     stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
-    const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
+    const mark::RunObserver watch{[&](double part) { progress.show(part, "marking"); },
+                                  [] { return stop_asked.load(); }};
     const Result<mark::MarkingOutcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());

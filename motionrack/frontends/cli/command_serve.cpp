@@ -211,7 +211,7 @@ class Serving {
     }
 
     const ServeOptions& options_;
-    LineOutput output_;
+    ConsoleOutput output_;
     std::string users_file_;
     std::unique_ptr<journal::Journal> journal_;
     std::unique_ptr<server::ServedRack> served_;

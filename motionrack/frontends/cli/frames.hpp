@@ -20,7 +20,7 @@ Result<void> use_config(const BusOptions& options);
 /// Returns the state of a subscriber at `now` as one line of JSON.
 std::string status_json(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
 /// Returns an event as one line of JSON, with its time relative to `start`.
-std::string event_json(const dds::Event& event, Instant start);
+std::string event_json(const dds::BusEvent& event, Instant start);
 /// Returns the state of a subscriber as a table of several lines, each with a line end.
 std::string status_table(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
 /// Returns the state of a subscriber as one line without a line end.

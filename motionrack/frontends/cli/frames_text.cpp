@@ -38,7 +38,7 @@ constexpr CountName count_names[] = {
     {"stale", "times stale", &dds::Counts::stale},
 };
 
-ordered_json source_json(const dds::Source& source) {
+ordered_json source_json(const dds::PublisherIdentity& source) {
     return {{"host", source.host_name()}, {"process", source.process}, {"id", source.id_text()}};
 }
 
@@ -95,7 +95,7 @@ std::string status_json(const dds::Subscriber& subscriber, const std::string& bu
     return text_of(out);
 }
 
-std::string event_json(const dds::Event& event, Instant start) {
+std::string event_json(const dds::BusEvent& event, Instant start) {
     ordered_json out = {
         {"event", dds::name_of(event.kind)}, {"at_s", to_seconds(event.when - start)}, {"text", dds::sentence(event)}};
     out["source"] = source_json(event.source);

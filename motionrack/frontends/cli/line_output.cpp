@@ -10,25 +10,25 @@
 
 namespace motionrack::cli {
 
-struct LineOutput::Queue {
+struct ConsoleOutput::Queue {
     std::mutex lock;
     std::condition_variable changed;
     std::deque<std::string> lines;
     bool quit = false, ended = false;
 };
 
-LineOutput::LineOutput() : queue_(std::make_shared<Queue>()) {
+ConsoleOutput::ConsoleOutput() : queue_(std::make_shared<Queue>()) {
     std::thread([queue = queue_] { print(*queue); }).detach();
 }
 
-LineOutput::~LineOutput() {
+ConsoleOutput::~ConsoleOutput() {
     std::unique_lock<std::mutex> guard(queue_->lock);
     queue_->quit = true;
     queue_->changed.notify_all();
     queue_->changed.wait_for(guard, std::chrono::seconds(1), [this] { return queue_->ended; });
 }
 
-void LineOutput::say(std::string line) {
+void ConsoleOutput::say(std::string line) {
     {
         const std::lock_guard<std::mutex> guard(queue_->lock);
         if (queue_->lines.size() >= max_lines) queue_->lines.pop_front();
@@ -38,7 +38,7 @@ void LineOutput::say(std::string line) {
 }
 
 /// Bypasses stdio, whose lock a blocked reader would hold.
-void LineOutput::print(Queue& queue) {
+void ConsoleOutput::print(Queue& queue) {
     std::unique_lock<std::mutex> guard(queue.lock);
     for (;;) {
         queue.changed.wait(guard, [&queue] { return queue.quit || !queue.lines.empty(); });

@@ -8,16 +8,16 @@
 
 namespace motionrack::cli {
 
-class LineOutput {
+class ConsoleOutput {
   public:
     /// Maximum number of buffered lines; drops the oldest beyond it.
     static constexpr std::size_t max_lines = 200;
 
-    LineOutput();
+    ConsoleOutput();
     /// Waits up to a second for the remaining lines.
-    ~LineOutput();
-    LineOutput(const LineOutput&) = delete;
-    LineOutput& operator=(const LineOutput&) = delete;
+    ~ConsoleOutput();
+    ConsoleOutput(const ConsoleOutput&) = delete;
+    ConsoleOutput& operator=(const ConsoleOutput&) = delete;
 
     /// Queues a line, from any thread. Never blocks on the reader and never fails.
     void say(std::string line);

@@ -14,8 +14,8 @@ thread_local std::string last_error;
 
 }  // namespace
 
-calls::Process<Bench>& process() {
-    static calls::Process<Bench> one;
+calls::Process<ChipTable>& process() {
+    static calls::Process<ChipTable> one;
     return one;
 }
 

@@ -7,7 +7,7 @@
 
 namespace motionrack::mcx314lib {
 
-calls::Process<Bench>& process();
+calls::Process<ChipTable>& process();
 
 /// Stores the sentence for this thread, prefixed with the function's name, and calls the handler. Requires the lock to
 /// be free.
@@ -23,8 +23,8 @@ Value with_bench(const char* who, Value otherwise, Call call) noexcept {
 /// Runs `call` with the selected chip; `call` returns a Result<Value>.
 template <class Value, class Call>
 Value with_chip(const char* who, Value otherwise, Call call) noexcept {
-    return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
-        MOTIONRACK_TRY(Chip * chip, bench.selected());
+    return with_bench(who, otherwise, [&](ChipTable& bench) -> Result<Value> {
+        MOTIONRACK_TRY(OpenChip * chip, bench.selected());
         MOTIONRACK_CHECK(bench.pass(*chip, Duration{0}));  // polls manual operations; refused at the end of time
         Result<Value> answer = call(*chip);
         MOTIONRACK_CHECK(chip->check_live());
@@ -35,7 +35,7 @@ Value with_chip(const char* who, Value otherwise, Call call) noexcept {
 /// Runs `call`, a Result<void>, with the selected chip. Returns 0, or -1 on an error.
 template <class Call>
 int done(const char* who, Call call) noexcept {
-    return with_chip(who, -1, [&](Chip& chip) -> Result<int> {
+    return with_chip(who, -1, [&](OpenChip& chip) -> Result<int> {
         MOTIONRACK_CHECK(call(chip));
         return 0;
     });
@@ -51,7 +51,7 @@ using calls::check_pointer;
 /// As above with an axis mask: `call` receives the chip and the mask.
 template <class Call>
 int on_axes(const char* who, int axis, Call call) noexcept {
-    return done(who, [&](Chip& chip) -> Result<void> {
+    return done(who, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_TRY(const unsigned axes, mask_of(axis));
         return call(chip, axes);
     });

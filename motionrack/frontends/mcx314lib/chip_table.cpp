@@ -24,7 +24,7 @@ bool names_real_card(std::string_view text) {
 
 }  // namespace
 
-bool Chip::step() {
+bool OpenChip::step() {
     bool going_on = false;
     for (mcx314::Manual& manual : manuals) {
         manual.step(now());
@@ -33,12 +33,12 @@ bool Chip::step() {
     return going_on;
 }
 
-Result<void> Chip::check_live() const {
+Result<void> OpenChip::check_live() const {
     if (live && live->trouble()) return tl::unexpected<Error>(*live->trouble());
     return {};
 }
 
-Result<VirtualCard*> Chip::virtual_card(const char* what) const {
+Result<VirtualCard*> OpenChip::virtual_card(const char* what) const {
     if (card != nullptr) return card;
     return fail(ErrorKind::refused,
                 fmt::format("The selected chip is a real card, which has no {} here. Nothing was done.", what));
@@ -46,12 +46,12 @@ Result<VirtualCard*> Chip::virtual_card(const char* what) const {
 
 // ---- chips
 
-int Bench::keep(std::unique_ptr<Chip> chip) {
+int ChipTable::keep(std::unique_ptr<OpenChip> chip) {
     chips_.emplace(++last_, std::move(chip));
     return selected_ = last_;
 }
 
-Result<int> Bench::open_live(const char* text, const char* card) {
+Result<int> ChipTable::open_live(const char* text, const char* card) {
     if (card != nullptr)
         return fail(ErrorKind::invalid_input,
                     fmt::format("A real card has no name, but the name {} was given. Nothing was opened. Give NULL.",
@@ -59,14 +59,14 @@ Result<int> Bench::open_live(const char* text, const char* card) {
     MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
     MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
     MOTIONRACK_CHECK(port->check_answers());
-    return keep(std::make_unique<Chip>(std::move(port)));
+    return keep(std::make_unique<OpenChip>(std::move(port)));
 }
 
-bool Bench::is_open(const VirtualCard& card) const {
+bool ChipTable::is_open(const VirtualCard& card) const {
     return std::any_of(chips_.begin(), chips_.end(), [&](const auto& chip) { return chip.second->card == &card; });
 }
 
-Result<int> Bench::open(const char* rack, const char* card) {
+Result<int> ChipTable::open(const char* rack, const char* card) {
     std::shared_ptr<World> world;
     if (rack != nullptr) {
         if (names_real_card(rack)) return open_live(rack, card);
@@ -84,7 +84,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
         if (names_real_card(path)) return open_live(path.c_str(), card);
         MOTIONRACK_TRY(world, World::open(path));
     } else {
-        MOTIONRACK_TRY(Chip * chip, selected());
+        MOTIONRACK_TRY(OpenChip * chip, selected());
         if (!chip->world)
             return fail(ErrorKind::invalid_input,
                         "The selected chip is a real card outside a rack. Nothing was opened. Name a rack.");
@@ -94,7 +94,7 @@ Result<int> Bench::open(const char* rack, const char* card) {
     for (VirtualCard* const each : world->cards()) {
         known += (known.empty() ? "" : ", ") + each->name() + (is_open(*each) ? " (open already)" : "");
         if (is_open(*each) || (card != nullptr && each->name() != card)) continue;
-        return keep(std::make_unique<Chip>(world, *each));
+        return keep(std::make_unique<OpenChip>(world, *each));
     }
     return fail(ErrorKind::invalid_input,
                 fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
@@ -103,33 +103,33 @@ Result<int> Bench::open(const char* rack, const char* card) {
                             known.empty() ? "none" : known));
 }
 
-std::string Bench::handles() const {
+std::string ChipTable::handles() const {
     std::string out;
     for (const auto& [handle, chip] : chips_) out += (out.empty() ? "" : ", ") + std::to_string(handle);
     return out.empty() ? "none" : out;
 }
 
-Result<void> Bench::check_open(int handle) const {
+Result<void> ChipTable::check_open(int handle) const {
     if (chips_.count(handle) != 0) return {};
     return fail(ErrorKind::invalid_input,
                 fmt::format("Unknown chip handle {}; the handles of the open chips are: {}. Nothing was done.", handle,
                             handles()));
 }
 
-Result<void> Bench::select(int handle) {
+Result<void> ChipTable::select(int handle) {
     MOTIONRACK_CHECK(check_open(handle));
     selected_ = handle;
     return {};
 }
 
-Result<void> Bench::close(int handle) {
+Result<void> ChipTable::close(int handle) {
     MOTIONRACK_CHECK(check_open(handle));
     chips_.erase(handle);
     if (selected_ == handle) selected_ = 0;
     return {};
 }
 
-Result<Chip*> Bench::selected() {
+Result<OpenChip*> ChipTable::selected() {
     if (chips_.empty()) {
         const Result<int> opened = open(nullptr, nullptr);
         if (!opened) return tl::unexpected<Error>(opened.error());
@@ -145,14 +145,14 @@ Result<Chip*> Bench::selected() {
 
 // ---- time
 
-bool Bench::step_all_beside(Chip& chip) {
+bool ChipTable::step_all_beside(OpenChip& chip) {
     bool going_on = false;
     for (auto& [handle, other] : chips_)
         if (other->world == chip.world) going_on = other->step() || going_on;
     return going_on;
 }
 
-Result<void> Bench::pass(Chip& chip, Duration duration) {
+Result<void> ChipTable::pass(OpenChip& chip, Duration duration) {
     MOTIONRACK_CHECK(chip.check_live());
     const auto advance = [&](Duration time) -> Result<void> {
         if (chip.world) return chip.world->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));

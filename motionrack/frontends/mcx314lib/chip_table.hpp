@@ -17,11 +17,11 @@
 namespace motionrack::mcx314lib {
 
 /// An open card with its driver.
-class Chip {
+class OpenChip {
   public:
-    Chip(std::shared_ptr<World> in, VirtualCard& on)
+    OpenChip(std::shared_ptr<World> in, VirtualCard& on)
         : world(std::move(in)), card(&on), driver(on.registers(), on.interrupt()) {}
-    explicit Chip(std::unique_ptr<live::CardPort> port) : live(std::move(port)), driver(*live, *live) {}
+    explicit OpenChip(std::unique_ptr<live::CardPort> port) : live(std::move(port)), driver(*live, *live) {}
 
     Instant now() { return driver.interrupt().now(); }
     /// Errors: io, for the first access that the computer refused.
@@ -40,27 +40,27 @@ class Chip {
     unsigned home_axes = mcx314::axis_x;
 };
 
-class Bench {
+class ChipTable {
   public:
     /// See mcx314_open; a null rack or card selects the default.
     Result<int> open(const char* rack, const char* card);
     Result<void> select(int handle);
     Result<void> close(int handle);
     /// Returns the selected chip. If no chip is open, opens the rack of the environment variable MOTIONRACK_RACK.
-    Result<Chip*> selected();
+    Result<OpenChip*> selected();
     /// Advances the world of `chip`; polls the manual operations of all its chips every millisecond.
-    Result<void> pass(Chip& chip, Duration duration);
+    Result<void> pass(OpenChip& chip, Duration duration);
 
   private:
     Result<void> check_open(int handle) const;
     std::string handles() const;
     bool is_open(const VirtualCard& card) const;
     Result<int> open_live(const char* text, const char* card);
-    int keep(std::unique_ptr<Chip> chip);
+    int keep(std::unique_ptr<OpenChip> chip);
     /// Polls the manual operations of all chips in the world of `chip`; returns true if one is running.
-    bool step_all_beside(Chip& chip);
+    bool step_all_beside(OpenChip& chip);
 
-    std::map<int, std::unique_ptr<Chip>> chips_;
+    std::map<int, std::unique_ptr<OpenChip>> chips_;
     int selected_ = 0;  // 0: none
     int last_ = 0;
 };

@@ -35,7 +35,7 @@ Result<bool> bit_of(int value, const char* what) {
 /// Returns the mask of those axes for which `fits` is true.
 template <class Fits>
 int those_of(const char* who, int axis, Fits fits) {
-    return with_chip(who, -1, [&](Chip& chip) -> Result<int> {
+    return with_chip(who, -1, [&](OpenChip& chip) -> Result<int> {
         MOTIONRACK_TRY(const unsigned axes, mask_of(axis));
         int out = 0;
         for (const int i : channels_of(axes))
@@ -46,7 +46,7 @@ int those_of(const char* who, int axis, Fits fits) {
 
 /// Stops manual operations by themselves and other drives by the library.
 int stop(const char* who, int axis, StopKind kind) {
-    return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(who, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         for (const int i : channels_of(axes)) {
             if (chip.manual(i).state() == motionrack::mcx314::ManualState::standing) continue;
             kind == StopKind::quick ? chip.manual(i).stop_now() : chip.manual(i).stop();
@@ -59,7 +59,7 @@ int stop(const char* who, int axis, StopKind kind) {
 /// Runs `call` with the manual operation of an axis, which applies these settings at standstill.
 template <class Call>
 int manually(const char* who, int axis, int sv, int a, Call call) {
-    return done(who, [&](Chip& chip) -> Result<void> {
+    return done(who, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_TRY(const int channel, channel_of(axis));
         motionrack::mcx314::Manual& manual = chip.manual(channel);
         if (manual.state() == motionrack::mcx314::ManualState::standing && !chip.driver.moving(1u << channel)) {
@@ -80,7 +80,7 @@ FourAxes four(const int* values) {
 
 int change_interrupts(const char* who, int axis, int causes,
                       Result<void> (motionrack::mcx314::Driver::*function)(unsigned, std::uint16_t)) {
-    return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(who, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         if (causes < 1 || causes > motionrack::mcx314::cause::all)
             return fail(ErrorKind::refused,
                         fmt::format("the causes are {}, but they are 1 to 255, bits of enum mcx314_cause. "
@@ -95,18 +95,18 @@ int change_interrupts(const char* who, int axis, int causes,
 // ---- chips
 
 int mcx314_open(const char* rack, const char* card) {
-    return with_bench(__func__, -1, [&](Bench& bench) { return bench.open(rack, card); });
+    return with_bench(__func__, -1, [&](ChipTable& bench) { return bench.open(rack, card); });
 }
 
 int mcx314_select(int handle) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+    return with_bench(__func__, -1, [&](ChipTable& bench) -> Result<int> {
         MOTIONRACK_CHECK(bench.select(handle));
         return 0;
     });
 }
 
 int mcx314_close(int handle) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+    return with_bench(__func__, -1, [&](ChipTable& bench) -> Result<int> {
         MOTIONRACK_CHECK(bench.close(handle));
         return 0;
     });
@@ -115,8 +115,8 @@ int mcx314_close(int handle) {
 // ---- time
 
 int mcx314_wait(int axis, int milliseconds) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
-        MOTIONRACK_TRY(Chip * chip, bench.selected());
+    return with_bench(__func__, -1, [&](ChipTable& bench) -> Result<int> {
+        MOTIONRACK_TRY(OpenChip * chip, bench.selected());
         MOTIONRACK_TRY(const unsigned axes, mask_of(axis));
         MOTIONRACK_TRY(const Duration time, time_of(milliseconds));
         MOTIONRACK_CHECK(bench.pass(*chip, Duration{0}));
@@ -134,8 +134,8 @@ int mcx314_wait(int axis, int milliseconds) {
 }
 
 int mcx314_advance_ms(int milliseconds) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
-        MOTIONRACK_TRY(Chip * chip, bench.selected());
+    return with_bench(__func__, -1, [&](ChipTable& bench) -> Result<int> {
+        MOTIONRACK_TRY(OpenChip * chip, bench.selected());
         MOTIONRACK_TRY(const Duration time, time_of(milliseconds));
         MOTIONRACK_CHECK(bench.pass(*chip, time));
         return 0;
@@ -143,8 +143,8 @@ int mcx314_advance_ms(int milliseconds) {
 }
 
 int64_t mcx314_now_us(void) {
-    return with_bench(__func__, std::int64_t{-1}, [](Bench& bench) -> Result<std::int64_t> {
-        MOTIONRACK_TRY(Chip * chip, bench.selected());
+    return with_bench(__func__, std::int64_t{-1}, [](ChipTable& bench) -> Result<std::int64_t> {
+        MOTIONRACK_TRY(OpenChip * chip, bench.selected());
         return chip->now() / motionrack::microseconds(1);
     });
 }
@@ -152,17 +152,17 @@ int64_t mcx314_now_us(void) {
 // ---- status
 
 int mcx314_moving(int axis) {
-    return those_of(__func__, axis, [](Chip& chip, int channel) { return chip.driver.moving(1u << channel); });
+    return those_of(__func__, axis, [](OpenChip& chip, int channel) { return chip.driver.moving(1u << channel); });
 }
 
 int mcx314_at_limit(int axis) {
     return those_of(__func__, axis,
-                    [](Chip& chip, int channel) { return chip.driver.axis_status(channel).at_limit(); });
+                    [](OpenChip& chip, int channel) { return chip.driver.axis_status(channel).at_limit(); });
 }
 
 const char* mcx314_report(int axis) {
     report_text.clear();
-    on_axes(__func__, axis, [](Chip& chip, unsigned axes) -> Result<void> {
+    on_axes(__func__, axis, [](OpenChip& chip, unsigned axes) -> Result<void> {
         for (const int i : channels_of(axes)) {
             if (!report_text.empty()) report_text += '\n';
             report_text += chip.driver.report(i).text();
@@ -182,14 +182,14 @@ int mcx314_stop_now(int axis) {
 }
 
 int mcx314_asymmetric(int axis, int on) {
-    return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_TRY(const bool wanted, bit_of(on, "switch"));
         return chip.driver.SetAsymmetric(axes, wanted);
     });
 }
 
 int mcx314_set_output(int axis, int output, int level) {
-    return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_TRY(const bool high, bit_of(level, "level"));
         return chip.driver.SetOutput(axes, output, high);
     });
@@ -198,7 +198,7 @@ int mcx314_set_output(int axis, int output, int level) {
 // ---- plans
 
 int mcx314_plan(int axis, int SV, int V, int A, int K, int pulses, MCX314_PLAN* plan) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_TRY(const int channel, channel_of(axis));
         MOTIONRACK_CHECK(check_pointer(plan, "The plan"));
         MOTIONRACK_TRY(const motionrack::mcx314::CurvePlan made, chip.driver.plan(channel, SV, V, A, K, pulses));
@@ -220,7 +220,7 @@ int mcx314_jog_step(int axis, int SV, int V, int A, int pulses) {
 }
 
 int mcx314_jog_home(int axis, int type, int WR1Reg, int SV, int V, int A) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_TRY(const int channel, channel_of(axis));
         MOTIONRACK_TRY(const unsigned word, mode_word(WR1Reg));
         MOTIONRACK_TRY(const auto settings, motionrack::mcx314::home_settings(type, word, SV, V, A));
@@ -229,7 +229,7 @@ int mcx314_jog_home(int axis, int type, int WR1Reg, int SV, int V, int A) {
 }
 
 int mcx314_home_axes(int axis) {
-    return on_axes(__func__, axis, [](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [](OpenChip& chip, unsigned axes) -> Result<void> {
         chip.home_axes = axes;
         return {};
     });
@@ -244,7 +244,7 @@ int mcx314_disable_interrupt(int axis, int causes) {
     return change_interrupts(__func__, axis, causes, &motionrack::mcx314::Driver::DisableInterrupt);
 }
 int mcx314_read_interrupt(int axis) {
-    return with_chip(__func__, -1, [&](Chip& chip) -> Result<int> {
+    return with_chip(__func__, -1, [&](OpenChip& chip) -> Result<int> {
         MOTIONRACK_TRY(const int channel, channel_of(axis));
         return chip.driver.read_interrupts(channel);
     });
@@ -253,21 +253,21 @@ int mcx314_read_interrupt(int axis) {
 // ---- contours
 
 int mcx314_contour_begin(const MCX314_CONTOUR* data) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(data, "The contour"));
         return chip.driver.ContStart({data->SV, data->V, data->A, data->D});
     });
 }
 
 int mcx314_contour_line(int axis, const int P[4], int V) {
-    return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(P, "The finish point"));
         return chip.driver.ContLine(axes, four(P), V);
     });
 }
 
 int mcx314_contour_arc(int axis, const int P[4], const int C[4], int clockwise, int V) {
-    return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(P, "The finish point"));
         MOTIONRACK_CHECK(check_pointer(C, "The centre"));
         MOTIONRACK_TRY(const bool cw, bit_of(clockwise, "direction"));
@@ -276,7 +276,7 @@ int mcx314_contour_arc(int axis, const int P[4], const int C[4], int clockwise, 
 }
 
 int mcx314_contour_end(void) {
-    return done(__func__, [](Chip& chip) -> Result<void> {
+    return done(__func__, [](OpenChip& chip) -> Result<void> {
         const auto outcome = chip.driver.ContEnd();
         return outcome ? Result<void>{} : tl::unexpected<motionrack::Error>(outcome.error());
     });
@@ -285,7 +285,7 @@ int mcx314_contour_end(void) {
 // ---- bit patterns
 
 int mcx314_pattern_begin(const MCX314_PATTERN* data, int axis) {
-    return on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    return on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(data, "The pattern"));
         const motionrack::mcx314::BPDATA speeds{data->SV, data->V, data->A, data->DecPoint};
         return motionrack::mcx314::channels_of(axes).count == 3 ? chip.driver.BP3D(speeds, axes)
@@ -294,7 +294,7 @@ int mcx314_pattern_begin(const MCX314_PATTERN* data, int axis) {
 }
 
 int mcx314_pattern_steps(const MCX314_STEPS* steps) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(steps, "The steps"));
         motionrack::mcx314::BPWORD word;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -311,16 +311,16 @@ int mcx314_pattern_steps(const MCX314_STEPS* steps) {
 }
 
 int mcx314_pattern_start(void) {
-    return done(__func__, [](Chip& chip) { return chip.driver.BPStart(); });
+    return done(__func__, [](OpenChip& chip) { return chip.driver.BPStart(); });
 }
 int mcx314_pattern_end(void) {
-    return done(__func__, [](Chip& chip) { return chip.driver.BPEnd(); });
+    return done(__func__, [](OpenChip& chip) { return chip.driver.BPEnd(); });
 }
 
 // ---- the virtual card
 
 int mcx314_peek(const char* name, int64_t* value) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(name, "The name"));
         MOTIONRACK_CHECK(check_pointer(value, "The address of the value"));
         MOTIONRACK_TRY(const VirtualCard* card, chip.virtual_card("registers that are visible without access"));
@@ -330,7 +330,7 @@ int mcx314_peek(const char* name, int64_t* value) {
 }
 
 int mcx314_set_wire(const char* wire, double value) {
-    return done(__func__, [&](Chip& chip) -> Result<void> {
+    return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(wire, "The wire"));
         MOTIONRACK_CHECK(chip.virtual_card("wires that a program could set"));
         return chip.world->set_wire(wire, value);

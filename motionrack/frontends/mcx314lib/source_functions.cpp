@@ -15,7 +15,7 @@ using Number = Result<void> (Driver::*)(unsigned axes, std::int64_t value);
 using Switch = Result<void> (Driver::*)(int n, unsigned axes);
 
 void set(const char* who, int axis, std::int64_t value, Number function) {
-    on_axes(who, axis, [&](Chip& chip, unsigned axes) { return (chip.driver.*function)(axes, value); });
+    on_axes(who, axis, [&](OpenChip& chip, unsigned axes) { return (chip.driver.*function)(axes, value); });
 }
 
 /// Calls a function for all axes.
@@ -24,7 +24,7 @@ void set_all(const char* who, std::int64_t value, Number function) {
 }
 
 void turn(const char* who, int n, int axis, Switch function) {
-    on_axes(who, axis, [&](Chip& chip, unsigned axes) { return (chip.driver.*function)(n, axes); });
+    on_axes(who, axis, [&](OpenChip& chip, unsigned axes) { return (chip.driver.*function)(n, axes); });
 }
 
 void turn_all(const char* who, int n, Switch function) {
@@ -33,7 +33,7 @@ void turn_all(const char* who, int n, Switch function) {
 
 void line(const char* who, const LINEDATA* data, int axis,
           Result<void> (Driver::*function)(const motionrack::mcx314::LINEDATA&, unsigned)) {
-    on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    on_axes(who, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(data, "The line"));
         motionrack::mcx314::LINEDATA out{data->SV, data->V, data->A, data->D, data->K};
         std::copy(data->P, data->P + 4, out.P.begin());
@@ -43,7 +43,7 @@ void line(const char* who, const LINEDATA* data, int axis,
 
 void circle(const char* who, const CIRCLEDATA* data, int axis,
             Result<void> (Driver::*function)(const motionrack::mcx314::CIRCLEDATA&, unsigned)) {
-    on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    on_axes(who, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(data, "The arc"));
         motionrack::mcx314::CIRCLEDATA out{data->SV, data->V, data->A, data->D};
         std::copy(data->P, data->P + 4, out.P.begin());
@@ -54,7 +54,7 @@ void circle(const char* who, const CIRCLEDATA* data, int axis,
 
 template <class Function>
 void home(const char* who, int wr1, int sv, int v, int a, Function function) {
-    done(who, [&](Chip& chip) -> Result<void> {
+    done(who, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_TRY(const unsigned word, mode_word(wr1));
         const auto reports = function(chip.driver, chip.home_axes, word, sv, v, a);
         return reports ? Result<void>{} : tl::unexpected<motionrack::Error>(reports.error());
@@ -62,7 +62,7 @@ void home(const char* who, int wr1, int sv, int v, int a, Function function) {
 }
 
 unsigned read(const char* who, int axis, std::int32_t (Driver::*function)(int)) {
-    return with_chip(who, 0u, [&](Chip& chip) -> Result<unsigned> {
+    return with_chip(who, 0u, [&](OpenChip& chip) -> Result<unsigned> {
         MOTIONRACK_TRY(const int channel, channel_of(axis));
         return static_cast<unsigned>((chip.driver.*function)(channel));
     });
@@ -78,7 +78,7 @@ std::int64_t with_sign(unsigned data) {
 // ---- initial
 
 void SetPulseMode(int axis, int mode) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SetPulseMode(axes, mode); });
+    on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) { return chip.driver.SetPulseMode(axes, mode); });
 }
 void SetMultiple(int axis, int data) {
     set(__func__, axis, data, &Driver::SetMultiple);
@@ -102,7 +102,7 @@ void SetA(int axis, int data) {
     set(__func__, axis, data, &Driver::SetA);
 }
 void SetD(int axis, int data) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
+    on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         MOTIONRACK_CHECK(chip.driver.SetD(axes, data));
         return chip.driver.SetAsymmetric(axes, true);
     });
@@ -111,13 +111,13 @@ void SetAA(int axis, int data) {
     set(__func__, axis, data, &Driver::SetAA);
 }
 void SetAO(int axis, int data) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SetAO(axes, data); });
+    on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) { return chip.driver.SetAO(axes, data); });
 }
 void Pulse(int axis, int data) {
     set(__func__, axis, data, &Driver::Pulse);
 }
 void AutoDec(void) {
-    done(__func__, [](Chip& chip) { return chip.driver.AutoDec(); });
+    done(__func__, [](OpenChip& chip) { return chip.driver.AutoDec(); });
 }
 void ManualDec(int axis, int DecPulse) {
     set(__func__, axis, DecPulse, &Driver::ManualDec);
@@ -128,17 +128,18 @@ void ManDec(int axis, int DecPulse) {
 
 void TCurve_F(int axis, int m_SV, int m_V, int m_A, int m_Pulse) {
     on_axes(__func__, axis,
-            [&](Chip& chip, unsigned axes) { return chip.driver.TCurve_F(axes, m_SV, m_V, m_A, m_Pulse); });
+            [&](OpenChip& chip, unsigned axes) { return chip.driver.TCurve_F(axes, m_SV, m_V, m_A, m_Pulse); });
 }
 void TCurve_C(int axis, int m_SV, int m_V, int m_A) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.TCurve_C(axes, m_SV, m_V, m_A); });
+    on_axes(__func__, axis, [&](OpenChip& chip, unsigned axes) { return chip.driver.TCurve_C(axes, m_SV, m_V, m_A); });
 }
 void SCurve_F(int axis, int m_SV, int m_V, int m_A, int m_K, int m_Pulse) {
     on_axes(__func__, axis,
-            [&](Chip& chip, unsigned axes) { return chip.driver.SCurve_F(axes, m_SV, m_V, m_A, m_K, m_Pulse); });
+            [&](OpenChip& chip, unsigned axes) { return chip.driver.SCurve_F(axes, m_SV, m_V, m_A, m_K, m_Pulse); });
 }
 void SCurve_C(int axis, int m_SV, int m_V, int m_A, int m_K) {
-    on_axes(__func__, axis, [&](Chip& chip, unsigned axes) { return chip.driver.SCurve_C(axes, m_SV, m_V, m_A, m_K); });
+    on_axes(__func__, axis,
+            [&](OpenChip& chip, unsigned axes) { return chip.driver.SCurve_C(axes, m_SV, m_V, m_A, m_K); });
 }
 
 // ---- interpolation
@@ -267,7 +268,7 @@ void SetCompM(int axis, int data) {
     set(__func__, axis, data, &Driver::SetCompM);
 }
 void RESET(void) {
-    done(__func__, [](Chip& chip) -> Result<void> {
+    done(__func__, [](OpenChip& chip) -> Result<void> {
         chip.driver.RESET();
         return {};
     });

@@ -1,7 +1,7 @@
 // World of the library's virtual chips: cards that share one simulated time. On Linux it is a complete rack from a rack
 // file; on Windows (windows/world.cpp) it has chips only.
 //
-//   Bench ──► World::open ──► World ──► VirtualCard ──► registers, interrupt ◄── Driver
+//   ChipTable ──► World::open ──► World ──► VirtualCard ──► registers, interrupt ◄── Driver
 //                              └──► time and wires, shared by its cards
 #pragma once
 

@@ -93,22 +93,22 @@ void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call)
 // ---- Cards
 
 UINT init_rtc5_dll() {
-    return with_bench(__func__, UINT{RTC5_NO_CARD}, [](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_NO_CARD}, [](CardTable& bench) -> Result<UINT> {
         MOTIONRACK_CHECK(bench.count());
         return 0u;
     });
 }
 UINT rtc5_count_cards() {
-    return with_bench(__func__, 0u, [](Bench& bench) { return bench.count(); });
+    return with_bench(__func__, 0u, [](CardTable& bench) { return bench.count(); });
 }
 UINT select_rtc(UINT CardNo) {
-    return with_bench(__func__, 0u, [&](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, 0u, [&](CardTable& bench) -> Result<UINT> {
         MOTIONRACK_CHECK(bench.select(CardNo));
         return CardNo;
     });
 }
 void free_rtc5_dll() {
-    with_bench(__func__, false, [](Bench& bench) -> Result<bool> {
+    with_bench(__func__, false, [](CardTable& bench) -> Result<bool> {
         bench.close();
         return true;
     });

@@ -63,15 +63,15 @@ Result<UINT> cards_wanted() {
 
 }  // namespace
 
-calls::Process<Bench>& process() {
-    static calls::Process<Bench> one;
+calls::Process<CardTable>& process() {
+    static calls::Process<CardTable> one;
     return one;
 }
 
 // ---- the belt
 
 std::int64_t Belt::count(std::size_t encoder, std::int64_t tick) const {
-    const Line& line = lines_[encoder];
+    const SpeedLine& line = lines_[encoder];
     return line.count +
            static_cast<std::int64_t>(std::floor(line.counts_per_s * static_cast<double>(tick - line.tick) / 100'000));
 }
@@ -84,7 +84,7 @@ void Belt::counts(int encoder, std::int64_t first, std::span<std::int32_t> out) 
 
 // ---- the bench
 
-Result<void> Bench::open() {
+Result<void> CardTable::open() {
     if (!cards_.empty()) return {};
     MOTIONRACK_TRY(const UINT wanted, cards_wanted());
     for (UINT i = 1; i <= wanted; ++i) {
@@ -93,12 +93,12 @@ Result<void> Bench::open() {
     return {};
 }
 
-Result<UINT> Bench::count() {
+Result<UINT> CardTable::count() {
     MOTIONRACK_CHECK(open());
     return static_cast<UINT>(cards_.size());
 }
 
-Result<Card*> Bench::card(UINT number) {
+Result<Card*> CardTable::card(UINT number) {
     MOTIONRACK_CHECK(open());
     if (number >= 1 && number <= cards_.size()) {
         Card& card = *cards_[number - 1];
@@ -118,19 +118,19 @@ Result<Card*> Bench::card(UINT number) {
                                                : fmt::format("{}, 1 to {}", cards_.size(), cards_.size())));
 }
 
-Result<void> Bench::select(UINT number) {
+Result<void> CardTable::select(UINT number) {
     MOTIONRACK_CHECK(card(number));
     selected = number;
     return {};
 }
 
-Result<std::int64_t> Bench::tick() {
+Result<std::int64_t> CardTable::tick() {
     MOTIONRACK_CHECK(open());
     if (rack_) return static_cast<std::int64_t>(rack_->now_ns() / ns_per_tick);
     return cards_.front()->engine.tick();
 }
 
-Result<void> Bench::pass(std::int64_t ticks) {
+Result<void> CardTable::pass(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
     if (ticks > end_of_time - present) return fail(ErrorKind::refused, "the end of time is reached. Nothing was run.");
     const Inside inside(samples != nullptr);
@@ -142,7 +142,7 @@ Result<void> Bench::pass(std::int64_t ticks) {
     return {};
 }
 
-Result<void> Bench::pass_rack(std::int64_t ticks) {
+Result<void> CardTable::pass_rack(std::int64_t ticks) {
     std::vector<Handed> sinks;
     for (const auto& card : cards_) sinks.emplace_back(samples, samples_user, card->number);
     for (std::size_t i = 0; samples != nullptr && i < sinks.size(); ++i) cards_[i]->wired->watch(&sinks[i]);
@@ -151,7 +151,7 @@ Result<void> Bench::pass_rack(std::int64_t ticks) {
     return done;
 }
 
-Result<void> Bench::open_rack(std::string_view path_or_text) {
+Result<void> CardTable::open_rack(std::string_view path_or_text) {
     MOTIONRACK_TRY(std::unique_ptr<rack::Session> opened, rack::Session::open(path_or_text));
     std::vector<std::unique_ptr<Card>> found;
     for (const rack::RackCard& each : opened->rack().config().cards)
@@ -166,18 +166,18 @@ Result<void> Bench::open_rack(std::string_view path_or_text) {
     return {};
 }
 
-Result<rack::Session*> Bench::rack() {
+Result<rack::Session*> CardTable::rack() {
     if (rack_) return rack_.get();
     return fail(ErrorKind::refused, "the cards are not those of a rack. Nothing was done; call rtc5sim_open first.");
 }
 
-void Bench::close() {
+void CardTable::close() {
     cards_.clear();
     rack_.reset();
     selected = 1;
 }
 
-Result<bool> Bench::run_to_rest(std::int64_t ticks) {
+Result<bool> CardTable::run_to_rest(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
     ticks = std::min(ticks, end_of_time - present);
     if (cards_.size() == 1 && !rack_) {
@@ -207,7 +207,7 @@ static_assert(RTC5_NO_CARD == rtc5::error_bit("NO_CARD") && RTC5_ACCESS_DENIED =
 
 UINT selected() noexcept {
     if (inside_handler) return 1;  // rejected there anyway
-    return process().alone([](Bench& bench) { return bench.selected; });
+    return process().alone([](CardTable& bench) { return bench.selected; });
 }
 
 Result<void> checked(rtc5::Op op, double parameter) {

@@ -31,11 +31,11 @@ class Belt final : public rtc5::Inputs {
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
 
   private:
-    struct Line {
+    struct SpeedLine {
         std::int64_t tick = 0, count = 0;
         double counts_per_s = 0;
     };
-    std::array<Line, rtc5::encoder_count> lines_;
+    std::array<SpeedLine, rtc5::encoder_count> lines_;
 };
 
 struct Card {
@@ -53,7 +53,7 @@ struct Card {
 };
 
 /// Cards of the process. All share one time.
-class Bench {
+class CardTable {
   public:
     /// Returns a card. The first use creates as many cards as RTC5SIM_CARDS gives, else 1.
     Result<Card*> card(UINT number);
@@ -83,7 +83,7 @@ class Bench {
     std::vector<std::unique_ptr<Card>> cards_;
 };
 
-calls::Process<Bench>& process();
+calls::Process<CardTable>& process();
 
 /// True while this thread runs a samples handler. Library functions are refused there.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
@@ -114,7 +114,7 @@ Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
 /// pass.
 template <class Value, class Call>
 Value with_card(std::string_view who, UINT number, Value otherwise, Call call, bool asks = false) noexcept {
-    return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
+    return with_bench(who, otherwise, [&](CardTable& bench) -> Result<Value> {
         MOTIONRACK_TRY(Card * card, bench.card(number));
         if (asks) MOTIONRACK_CHECK(bench.pass(bench.question_ticks));
         Result<Value> result = call(*card);

@@ -24,19 +24,19 @@ void execute(const char* who, UINT number, UINT list, UINT position = 0) {
 // ---- Cards
 
 UINT n_get_error(UINT CardNo) {
-    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](CardTable& bench) -> Result<UINT> {
         MOTIONRACK_TRY(Card * card, bench.card(CardNo));
         return card->errors;
     });
 }
 UINT n_get_last_error(UINT CardNo) {
-    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](CardTable& bench) -> Result<UINT> {
         MOTIONRACK_TRY(Card * card, bench.card(CardNo));
         return card->last_error;
     });
 }
 void n_reset_error(UINT CardNo, UINT Code) {
-    with_bench(__func__, false, [&](Bench& bench) -> Result<bool> {
+    with_bench(__func__, false, [&](CardTable& bench) -> Result<bool> {
         MOTIONRACK_TRY(Card * card, bench.card(CardNo));
         card->errors &= ~Code;
         return true;

@@ -61,14 +61,14 @@ void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per
 // ---- time
 
 int rtc5sim_question_us(int64_t us) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+    return with_bench(__func__, -1, [&](CardTable& bench) -> Result<int> {
         MOTIONRACK_TRY(bench.question_ticks, ticks_of(us, 1'000'000'000));
         return 0;
     });
 }
 
 int rtc5sim_advance_us(int64_t us) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+    return with_bench(__func__, -1, [&](CardTable& bench) -> Result<int> {
         MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(us, std::numeric_limits<std::int64_t>::max()));
         MOTIONRACK_CHECK(bench.pass(ticks));
         return 0;
@@ -76,7 +76,7 @@ int rtc5sim_advance_us(int64_t us) {
 }
 
 int rtc5sim_run(int64_t max_us) {
-    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+    return with_bench(__func__, -1, [&](CardTable& bench) -> Result<int> {
         MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(max_us, std::numeric_limits<std::int64_t>::max()));
         MOTIONRACK_TRY(const bool rests, bench.run_to_rest(ticks));
         return rests ? 1 : 0;
@@ -84,7 +84,7 @@ int rtc5sim_run(int64_t max_us) {
 }
 
 int64_t rtc5sim_now_us(void) {
-    return with_bench(__func__, std::int64_t{-1}, [](Bench& bench) -> Result<std::int64_t> {
+    return with_bench(__func__, std::int64_t{-1}, [](CardTable& bench) -> Result<std::int64_t> {
         MOTIONRACK_TRY(const std::int64_t tick, bench.tick());
         return tick * us_per_tick;
     });
@@ -155,7 +155,7 @@ int rtc5sim_sent(UINT CardNo, int32_t* word) {
 }
 
 void rtc5sim_on_samples(rtc5sim_samples_handler handler, void* user) {
-    with_bench(__func__, false, [&](Bench& bench) -> Result<bool> {
+    with_bench(__func__, false, [&](CardTable& bench) -> Result<bool> {
         bench.samples = handler;
         bench.samples_user = user;
         return true;

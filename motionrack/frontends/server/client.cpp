@@ -28,7 +28,7 @@ json without(json object, std::initializer_list<const char*> names) {
 
 }  // namespace
 
-Client::Client(Service& service, Peer peer, std::string session, MessageSink& wire)
+Client::Client(PanelService& service, Peer peer, std::string session, MessageSink& wire)
     : service_(service),
       peer_(std::move(peer)),
       session_(std::move(session)),

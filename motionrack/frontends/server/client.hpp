@@ -40,7 +40,7 @@ class Client : public std::enable_shared_from_this<Client> {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    Client(Service& service, Peer peer, std::string session, MessageSink& wire);
+    Client(PanelService& service, Peer peer, std::string session, MessageSink& wire);
 
     // ---- from the connection
     void opened();
@@ -75,7 +75,7 @@ class Client : public std::enable_shared_from_this<Client> {
     void refuse(const nlohmann::json& id, int status, std::string_view trouble, std::string sentence);
     void send(Outgoing message);
 
-    Service& service_;
+    PanelService& service_;
     Peer peer_;
     std::string session_, user_, token_id_;
     MessageSink* wire_;

@@ -12,7 +12,7 @@ namespace motionrack::server {
 
 class Clients {
   public:
-    explicit Clients(Service& service) : service_(service) {}
+    explicit Clients(PanelService& service) : service_(service) {}
     void add(std::shared_ptr<Client> client);
     void remove(const Client* client);
     /// Called every few ms.
@@ -32,7 +32,7 @@ class Clients {
     std::shared_ptr<const std::string> encode(const std::shared_ptr<panel::ChannelSet>& set,
                                               const std::shared_ptr<const panel::StatusSnapshot>& picture);
 
-    Service& service_;
+    PanelService& service_;
     std::vector<std::shared_ptr<Client>> clients_;
     std::map<const panel::ChannelSet*, Encoded> encoded_;  // used for lookup only; its order is never visible
     std::atomic<std::int64_t> count_ = 0;

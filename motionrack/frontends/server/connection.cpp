@@ -2,7 +2,7 @@
 //
 //  handshake ─► head ─► admitted? ─no─► answer ──────────────────► close, after discarding the rest of the body
 //                 ▲         │ yes
-//                 │       body ─► Service::handle ─► answer ─┐
+//                 │       body ─► PanelService::handle ─► answer ─┐
 //                 └──────────────────────────────────────────┘
 //
 // A timeout closes the connection without an answer.

@@ -228,7 +228,7 @@ class GrblPorts::Inside {
         });
     }
     void look_for_clients() {
-        const PseudoTerminal::Look seen = terminal_->look();
+        const PseudoTerminal::ClientActivity seen = terminal_->look();
         if (seen.left) {
             name_terminal_sender(false);
             terminal_port_->left();

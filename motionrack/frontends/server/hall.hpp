@@ -11,10 +11,10 @@ namespace motionrack::server {
 
 /// Lives as long as the last of its connections.
 struct ConnectionPool {
-    explicit ConnectionPool(std::shared_ptr<Service> all)
+    explicit ConnectionPool(std::shared_ptr<PanelService> all)
         : service(std::move(all)), clients(*service), open_connections(service->settings().limits) {}
 
-    std::shared_ptr<Service> service;
+    std::shared_ptr<PanelService> service;
     Clients clients;
     Seats open_connections;
     std::int64_t next_session = 1;

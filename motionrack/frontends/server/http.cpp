@@ -107,8 +107,8 @@ Result<nlohmann::json> read_object(std::string_view text, std::string_view what)
     }
 }
 
-Result<Target> read_target(std::string_view target) {
-    Target out;
+Result<RequestTarget> read_target(std::string_view target) {
+    RequestTarget out;
     const std::size_t question = target.find('?');
     out.path = target.substr(0, question);
     if (question == std::string_view::npos) return out;

@@ -43,10 +43,10 @@ HttpAnswer http_error(int status, std::string_view trouble, std::string sentence
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what);
 
 /// "/api/card", and the %XX-decoded texts behind "?". Errors: invalid_input.
-struct Target {
+struct RequestTarget {
     std::string path;
     std::vector<std::pair<std::string, std::string>> texts;
 };
-Result<Target> read_target(std::string_view target);
+Result<RequestTarget> read_target(std::string_view target);
 
 }  // namespace motionrack::server

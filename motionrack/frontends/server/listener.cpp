@@ -76,16 +76,16 @@ void Reserve::refill() {
     }
 }
 
-Listener::Listener(asio::io_context& io, std::shared_ptr<ConnectionPool> hall, tcp::acceptor acceptor,
-                   std::unique_ptr<asio::ssl::context> tls)
+PortListener::PortListener(asio::io_context& io, std::shared_ptr<ConnectionPool> hall, tcp::acceptor acceptor,
+                           std::unique_ptr<asio::ssl::context> tls)
     : io_(io), acceptor_(std::move(acceptor)), tls_(std::move(tls)), pause_(io), timer_(io), hall_(std::move(hall)) {}
 
-void Listener::begin() {
+void PortListener::begin() {
     accept();
     tick();
 }
 
-void Listener::tick() {
+void PortListener::tick() {
     timer_.expires_after(tick_every);
     timer_.async_wait([this](error_code error) {
         if (error || ended_) return;
@@ -96,13 +96,13 @@ void Listener::tick() {
     });
 }
 
-void Listener::accept() {
+void PortListener::accept() {
     acceptor_.async_wait(tcp::acceptor::wait_read, [this](error_code error) {
         if (!error && !ended_) take_some();
     });
 }
 
-void Listener::take_some() {
+void PortListener::take_some() {
     for (int taken = 0; taken < max_taken_at_once; ++taken) {
         error_code error;
         tcp::socket socket(io_);
@@ -124,11 +124,11 @@ void Listener::take_some() {
     accept();
 }
 
-bool Listener::make_room() {
+bool PortListener::make_room() {
     return reserve_.give() || hall_->open_connections.end_a_caller();
 }
 
-void Listener::take(tcp::socket socket) {
+void PortListener::take(tcp::socket socket) {
     error_code error;
     const tcp::endpoint remote = socket.remote_endpoint(error),
                         local = error ? tcp::endpoint() : socket.local_endpoint(error);
@@ -144,7 +144,7 @@ void Listener::take(tcp::socket socket) {
     serve(tls_ ? Transport(std::move(socket), *tls_) : Transport(std::move(socket)), std::move(peer), hall_);
 }
 
-void Listener::end() {
+void PortListener::end() {
     ended_ = true;
     error_code error;
     acceptor_.close(error);

@@ -33,11 +33,11 @@ class Reserve {
 Result<boost::asio::ip::tcp::acceptor> take_port(boost::asio::io_context& io, const boost::asio::ip::address& address,
                                                  std::uint16_t port);
 
-class Listener {
+class PortListener {
   public:
     /// Requires a non-blocking `acceptor`.
-    Listener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> hall, boost::asio::ip::tcp::acceptor acceptor,
-             std::unique_ptr<boost::asio::ssl::context> tls);
+    PortListener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> hall,
+                 boost::asio::ip::tcp::acceptor acceptor, std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
     /// Stops accepting and closes all connections with a reason.
     void end();

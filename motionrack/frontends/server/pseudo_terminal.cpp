@@ -134,8 +134,8 @@ void PseudoTerminal::forget_unread() {
     ::tcflush(slave_.number(), TCIFLUSH);
 }
 
-PseudoTerminal::Look PseudoTerminal::look() {
-    Look out;
+PseudoTerminal::ClientActivity PseudoTerminal::look() {
+    ClientActivity out;
     alignas(inotify_event) std::array<char, 4096> events{};
     for (ssize_t got = 0; (got = ::read(watch_.number(), events.data(), events.size())) > 0;) {
         for (ssize_t at = 0; at < got;) {

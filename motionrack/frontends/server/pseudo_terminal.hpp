@@ -36,11 +36,11 @@ class PseudoTerminal {
     /// Discards output that clients have not read; keeps their input.
     void forget_unread();
     /// Client activity since the last look.
-    struct Look {
+    struct ClientActivity {
         bool left = false;  ///< the last client closed it
         bool came = false;  ///< a client opened it as the only one, at or before that time
     };
-    Look look();
+    ClientActivity look();
     int clients() const { return clients_; }
     /// Descriptor that is readable when a look is needed.
     int watch() const { return watch_.number(); }

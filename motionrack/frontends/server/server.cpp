@@ -54,7 +54,7 @@ class Server::Inside {
            Page page)
         : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
           hall_(std::make_shared<ConnectionPool>(
-              std::make_shared<Service>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
+              std::make_shared<PanelService>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
     ~Inside() { stop(); }
 
     Result<void> open() {
@@ -75,7 +75,7 @@ class Server::Inside {
         }
         MOTIONRACK_TRY(tcp::acceptor acceptor, take_port(io_, address, settings.port));
         port_ = acceptor.local_endpoint().port();
-        listener_ = std::make_unique<Listener>(io_, hall_, std::move(acceptor), std::move(tls));
+        listener_ = std::make_unique<PortListener>(io_, hall_, std::move(acceptor), std::move(tls));
         hall_->service->panel().on_event(
             [post = post_, hall = std::weak_ptr<ConnectionPool>(hall_)](const panel::Event& event) {
                 (*post)([hall, event] {
@@ -113,7 +113,7 @@ class Server::Inside {
     asio::io_context io_{1};
     std::shared_ptr<Post> post_;
     std::shared_ptr<ConnectionPool> hall_;
-    std::unique_ptr<Listener> listener_;
+    std::unique_ptr<PortListener> listener_;
     asio::steady_timer goodbye_{io_};
     std::chrono::steady_clock::time_point stopped_;
     std::uint16_t port_ = 0;

@@ -57,8 +57,8 @@ bool is_query(const panel::OperationSpec& row) {
     return &row >= queries.data() && &row < queries.data() + queries.size();
 }
 
-Service::Service(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
-                 Page page, std::shared_ptr<Post> post)
+PanelService::PanelService(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
+                           auth::ControlLease& lease, Page page, std::shared_ptr<Post> post)
     : settings_(std::move(settings)),
       panel_(panel),
       door_(door),
@@ -76,7 +76,7 @@ Service::Service(ServerSettings settings, panel::Panel& panel, auth::Authenticat
 // ---- before the body
 
 /// Checks for every request except STOP.
-std::optional<HttpAnswer> Service::refuse(const RequestHead& head) {
+std::optional<HttpAnswer> PanelService::refuse(const RequestHead& head) {
     if (head.peer.stop_only)
         return http_error(503, "limit",
                           fmt::format("All connections are in use: {} in total, or {} of {}. Only STOP is accepted; "
@@ -90,7 +90,7 @@ std::optional<HttpAnswer> Service::refuse(const RequestHead& head) {
     return std::nullopt;
 }
 
-Admission Service::admit(const RequestHead& head) {
+Admission PanelService::admit(const RequestHead& head) {
     Admission out;
     const auto answer = [&](HttpAnswer one) {
         out.answer = std::move(one);
@@ -98,7 +98,7 @@ Admission Service::admit(const RequestHead& head) {
     };
     if (const std::string problem = guard_.problem(head); !problem.empty())
         return answer(http_error(403, "denied", problem));
-    const Result<Target> target = read_target(head.target);
+    const Result<RequestTarget> target = read_target(head.target);
     if (!target) return answer(http_answer(panel::error_answer(target.error())));
     if (target->path == "/api/stop") {
         if (head.method != "POST")
@@ -114,7 +114,7 @@ Admission Service::admit(const RequestHead& head) {
     return answer(file_answer(page_, head.method, target->path));
 }
 
-Admission Service::admit_api(const RequestHead& head, const Target& target) {
+Admission PanelService::admit_api(const RequestHead& head, const RequestTarget& target) {
     Admission out;
     const auto answer = [&](HttpAnswer one) {
         out.answer = std::move(one);
@@ -171,7 +171,7 @@ Admission Service::admit_api(const RequestHead& head, const Target& target) {
     return out;
 }
 
-std::optional<HttpAnswer> Service::refuse_stream(const RequestHead& head) {
+std::optional<HttpAnswer> PanelService::refuse_stream(const RequestHead& head) {
     if (const std::string problem = guard_.problem(head); !problem.empty()) return http_error(403, "denied", problem);
     if (auto refused = refuse(head)) return refused;
     if (head.target != "/api/stream") return http_error(404, "invalid_input", "The WebSocket is at /api/stream.");
@@ -180,10 +180,10 @@ std::optional<HttpAnswer> Service::refuse_stream(const RequestHead& head) {
 
 // ---- with the body
 
-void Service::handle(const RequestHead& head, const Admission& admission, const std::string& body,
-                     std::function<void(HttpAnswer)> reply) {
+void PanelService::handle(const RequestHead& head, const Admission& admission, const std::string& body,
+                          std::function<void(HttpAnswer)> reply) {
     if (admission.row == nullptr) return reply(pair(head, body));
-    const Target target = *read_target(head.target);
+    const RequestTarget target = *read_target(head.target);
     Result<json> fields = json::object();
     if (head.method == "GET")
         fields = panel::fields_of_texts(*admission.row, target.texts);
@@ -194,7 +194,7 @@ void Service::handle(const RequestHead& head, const Admission& admission, const 
         [reply = std::move(reply)](const panel::Answer& answer) { reply(http_answer(answer)); });
 }
 
-HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
+HttpAnswer PanelService::pair(const RequestHead& head, const std::string& body) {
     const Result<json> fields = read_object(body, "The body");
     if (!fields) return http_answer(panel::error_answer(fields.error()));
     const auto text = [&](const char* key) {
@@ -223,7 +223,7 @@ HttpAnswer Service::pair(const RequestHead& head, const std::string& body) {
 }
 
 /// Revokes the token of a browser at its request.
-HttpAnswer Service::forget(const RequestHead& head) {
+HttpAnswer PanelService::forget(const RequestHead& head) {
     const auto who = this->authenticate(token_of(head), head.peer);
     if (!who) return http_error(401, "denied", who.error().sentence);
     const Result<void> gone = door_.forget(who->id);
@@ -232,7 +232,7 @@ HttpAnswer Service::forget(const RequestHead& head) {
     return http_answer(answer);
 }
 
-auth::AuthResult<auth::Identity> Service::authenticate(const std::string& token, const Peer& peer) {
+auth::AuthResult<auth::Identity> PanelService::authenticate(const std::string& token, const Peer& peer) {
     auto who = door_.authenticate(token, now().wall);
     if (!who) audit("", peer.address, "token", panel::refused_answer(401, "denied", who.error().sentence), false);
     return who;
@@ -240,8 +240,8 @@ auth::AuthResult<auth::Identity> Service::authenticate(const std::string& token,
 
 // ---- commands and queries
 
-void Service::ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row, const json& fields,
-                  std::function<void(panel::Answer)> reply) {
+void PanelService::ask(panel::Caller caller, const std::string& address, const panel::OperationSpec& row,
+                       const json& fields, std::function<void(panel::Answer)> reply) {
     // The motion thread answers queries: many connections together must not overload it.
     if (is_query(row) && !requests_.take("queries of " + network_of(address), now().steady))
         return reply(panel::refused_answer(
@@ -261,20 +261,20 @@ void Service::ask(panel::Caller caller, const std::string& address, const panel:
                });
 }
 
-void Service::stop(panel::Caller caller, const std::string& address) {
+void PanelService::stop(panel::Caller caller, const std::string& address) {
     caller.address = address;
     panel_.stop(caller);
     audit(caller.user, address, "stop", panel::done(), !caller.user.empty());
 }
 
-void Service::left(const std::string& session) {
+void PanelService::left(const std::string& session) {
     panel_.left(session);
     lease_.left(session);
 }
 
 /// Skips an equal entry of the same user within a second.
-void Service::audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
-                    bool is_known) {
+void PanelService::audit(const std::string& user, const std::string& address, std::string what,
+                         const panel::Answer& answer, bool is_known) {
     if (!settings_.audit) return;
     const auto at = now().steady;
     if (is_known && !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), at)) return;

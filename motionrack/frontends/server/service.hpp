@@ -53,10 +53,10 @@ struct Admission {
 
 bool is_query(const panel::OperationSpec& row);
 
-class Service {
+class PanelService {
   public:
-    Service(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
-            Page page, std::shared_ptr<Post> post);
+    PanelService(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
+                 Page page, std::shared_ptr<Post> post);
 
     // ---- HTTP
     Admission admit(const RequestHead& head);
@@ -94,7 +94,7 @@ class Service {
 
   private:
     std::optional<HttpAnswer> refuse(const RequestHead& head);
-    Admission admit_api(const RequestHead& head, const Target& target);
+    Admission admit_api(const RequestHead& head, const RequestTarget& target);
     HttpAnswer pair(const RequestHead& head, const std::string& body);
     HttpAnswer forget(const RequestHead& head);
 

@@ -66,7 +66,7 @@ class SiteConnection final : public std::enable_shared_from_this<SiteConnection>
     HttpAnswer answer_to(const RequestHead& head) const {
         if (const std::string problem = site_->guard.problem(head); !problem.empty())
             return http_error(403, "denied", problem);
-        const Result<Target> target = read_target(head.target);
+        const Result<RequestTarget> target = read_target(head.target);
         if (!target) return http_answer(panel::error_answer(target.error()));
         return file_answer(site_->page, head.method, target->path);
     }

@@ -24,23 +24,23 @@ class Done {
     template <class Handler>
     explicit Done(Handler handler) : held_(std::make_unique<Held<Handler>>(std::move(handler))) {}
     void operator()(error_code error, std::size_t bytes = 0) {
-        Holder& held = *held_;
+        HandlerHolder& held = *held_;
         held.call(std::move(held_), error, bytes);
     }
 
   private:
-    struct Holder {
-        Holder() = default;
-        Holder(const Holder&) = delete;
-        Holder& operator=(const Holder&) = delete;
-        virtual ~Holder() = default;
+    struct HandlerHolder {
+        HandlerHolder() = default;
+        HandlerHolder(const HandlerHolder&) = delete;
+        HandlerHolder& operator=(const HandlerHolder&) = delete;
+        virtual ~HandlerHolder() = default;
         /// Destroys `self` before running the handler, which may start the next operation.
-        virtual void call(std::unique_ptr<Holder> self, error_code error, std::size_t bytes) = 0;
+        virtual void call(std::unique_ptr<HandlerHolder> self, error_code error, std::size_t bytes) = 0;
     };
     template <class Handler>
-    struct Held final : Holder {
+    struct Held final : HandlerHolder {
         explicit Held(Handler one) : handler(std::move(one)) {}
-        void call(std::unique_ptr<Holder> self, error_code error, std::size_t bytes) override {
+        void call(std::unique_ptr<HandlerHolder> self, error_code error, std::size_t bytes) override {
             Handler own = std::move(handler);
             self.reset();
             if constexpr (std::is_invocable_v<Handler&, error_code, std::size_t>)
@@ -50,7 +50,7 @@ class Done {
         }
         Handler handler;
     };
-    std::unique_ptr<Holder> held_;
+    std::unique_ptr<HandlerHolder> held_;
 };
 
 /// The first buffers of a sequence of any type: a read or a write transfers some bytes, not all.

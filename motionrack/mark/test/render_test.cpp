@@ -101,11 +101,11 @@ TEST(Plot, PutsTheMiddleOfTheBoxInItsMiddleAtOneScale) {
 
 TEST(Plot, ThinsWhatNobodySeesAndCutsWhatIsOutside) {
     const Plot plot({{0, 0}, {10, 10}}, 200, 200, 0);
-    std::vector<Node> line = {{{-1e6, 5}, true}};
+    std::vector<StrokePoint> line = {{{-1e6, 5}, true}};
     for (int i = 0; i <= 1000; ++i) line.push_back({{i * 0.01, 5 + 1e-4 * (i % 2)}, false});
     EXPECT_EQ(plot.strokes(line, "x"), "<path class=\"x\" d=\"M-50 100L200 100\"/>\n");
-    EXPECT_EQ(plot.strokes(std::vector<Node>{{{20, 20}, true}, {{30, 30}, false}}, "x"), "");
-    const std::vector<Node> apart = {{{1, 1}, true}, {{2, 1}, false}, {{3, 1}, true}, {{4, 1}, false}};
+    EXPECT_EQ(plot.strokes(std::vector<StrokePoint>{{{20, 20}, true}, {{30, 30}, false}}, "x"), "");
+    const std::vector<StrokePoint> apart = {{{1, 1}, true}, {{2, 1}, false}, {{3, 1}, true}, {{4, 1}, false}};
     EXPECT_EQ(plot.strokes(apart, "x"), "<path class=\"x\" d=\"M20 180L40 180M60 180L80 180\"/>\n");
 }
 

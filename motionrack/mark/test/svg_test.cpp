@@ -42,7 +42,7 @@ TEST(SvgReader, CurvesAreWithinTheToleranceOfTheirFormula) {
     const Drawing d = path("M0 0C0 10 20 -10 20 0");
     double worst = 0;
     const auto segments = segments_of(d);
-    const parts::Nearest nearest(segments);
+    const parts::NearestSegment nearest(segments);
     for (int i = 0; i <= 1000; ++i) {
         const double t = i / 1000.0, s = 1 - t;
         worst =
@@ -65,7 +65,7 @@ TEST(SvgReader, ArcsOfCirclesStayArcsAndThoseOfEllipsesAreOnThem) {
     EXPECT_NEAR(length_of(path("M0 0A5 5 0 1 1 5 5")), 2 * 3.141592653589793 * 5 * 0.75, 1e-6);
     EXPECT_NEAR(length_of(path("M0 0a5 5 0 005 5")), 2 * 3.141592653589793 * 5 * 0.25, 1e-6) << "flags without blanks";
     EXPECT_NEAR(length_of(path("M0 0A1 1 0 0 0 10 0")), 3.141592653589793 * 5, 1e-6) << "radii that are too small grow";
-    for (const parts::Segment& s : segments_of(path("M10 0A10 4 0 0 1 0 4")))
+    for (const parts::DrawnSegment& s : segments_of(path("M10 0A10 4 0 0 1 0 4")))
         EXPECT_NEAR(s.to.x * s.to.x / 100 + s.to.y * s.to.y / 16, 1, 1e-9);
 }
 

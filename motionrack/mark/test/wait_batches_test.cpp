@@ -36,7 +36,7 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
             before = batch.at_mm;
             length += length_of({batch.strokes});
             for (const double way : {batch.at_mm, batch.until_mm})
-                for (const parts::Segment& s : segments_of({batch.strokes})) {
+                for (const parts::DrawnSegment& s : segments_of({batch.strokes})) {
                     EXPECT_LE(std::fabs(s.to.x + way * movement.x), 59.01);
                     EXPECT_LE(std::fabs(s.to.y + way * movement.y), 59.01);
                 }

@@ -246,7 +246,7 @@ TEST(AHost, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
     const Driven driven = drive_with(config, "G1 X200 F6000\nM2\n", {{asked, "flag"}}, [&](Rack& rack) {
         seconds = to_seconds(rack.kernel().now()) - asked;
         const auto& inputs = rack.input_log().inputs();
-        reads = static_cast<double>(std::count_if(inputs.begin(), inputs.end(), [&](const sim::Input& input) {
+        reads = static_cast<double>(std::count_if(inputs.begin(), inputs.end(), [&](const sim::LoggedInput& input) {
             return input.kind == sim::InputKind::register_read && to_seconds(input.at) >= asked;
         }));
     });

@@ -90,7 +90,7 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
                                      {at.x + 10 - 2 * late, at.y + 10},
                                      {at.x - 3 * late, at.y + 10},
                                      {at.x - 4 * late, at.y}};
-        std::vector<parts::Segment> drawing;
+        std::vector<parts::DrawnSegment> drawing;
         for (int i = 0; i < 4; ++i) drawing.push_back({corners[i], corners[i + 1]});
         const parts::Deviation off = marked.compare(drawing);
         EXPECT_LT(off.worst_mm, 0.003) << corrected;

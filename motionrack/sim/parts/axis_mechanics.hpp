@@ -56,7 +56,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     sim::PositionFunction& encoder();
     bool has_encoder() const { return encoder_.present(); }
     /// The lines A and B at `t`.
-    Lines encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
+    QuadratureLevels encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
     /// Sets the listener for the edges of the pulses. The pulses have only one edge listener, which is this machine if
     /// it generates edges.
     void listen_pulse_edges(sim::EdgeListener* listener);

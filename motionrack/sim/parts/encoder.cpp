@@ -8,7 +8,7 @@ namespace motionrack::parts {
 namespace {
 
 // Counts modulo 4 by the lines 2*B + A, and back.
-constexpr Lines lines_of_phase[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+constexpr QuadratureLevels lines_of_phase[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 constexpr int phase_of_lines[4] = {0, 1, 3, 2};
 
 int phase_of(std::int64_t disc) {
@@ -17,7 +17,7 @@ int phase_of(std::int64_t disc) {
 
 /// Phase of the lines with the fault, for the disc in `phase`.
 int faulty_phase(LineFault fault, int phase) {
-    Lines l = lines_of_phase[phase];
+    QuadratureLevels l = lines_of_phase[phase];
     if (fault == LineFault::broken_a) l.a = 0;
     if (fault == LineFault::broken_b) l.b = 0;
     if (fault == LineFault::swapped) l = {l.b, l.a};
@@ -55,7 +55,7 @@ double Encoder::rate(double rotor_rate) const {
     return state_.fault == LineFault::swapped ? -counts : counts;
 }
 
-Lines Encoder::lines(std::int64_t rotor) const {
+QuadratureLevels Encoder::lines(std::int64_t rotor) const {
     return lines_of_phase[faulty_phase(state_.fault, phase_of(disc(rotor)))];
 }
 

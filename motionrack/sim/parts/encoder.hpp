@@ -27,10 +27,10 @@ struct EncoderState {
 };
 
 /// Levels of the two lines.
-struct Lines {
+struct QuadratureLevels {
     int a = 0;
     int b = 0;
-    friend constexpr bool operator==(const Lines&, const Lines&) = default;
+    friend constexpr bool operator==(const QuadratureLevels&, const QuadratureLevels&) = default;
 };
 
 class Encoder {
@@ -44,7 +44,7 @@ class Encoder {
     std::int64_t count(std::int64_t rotor) const { return seen(disc(rotor)); }
     /// Rate of the count, counts/s, at `rotor_rate` microsteps/s.
     double rate(double rotor_rate) const;
-    Lines lines(std::int64_t rotor) const;
+    QuadratureLevels lines(std::int64_t rotor) const;
     /// The index line: not affected by faults of A and B.
     int index(std::int64_t rotor) const { return floor_mod(disc(rotor), settings_.counts_per_rev) == 0; }
 

@@ -19,7 +19,7 @@ Result<LaserGate> LaserGate::make(const LaserSettings& s) {
 void LaserGate::change(std::int64_t half_us, bool on) {
     const double at = static_cast<double>(half_us) / 20 + (on ? settings_.on_delay_us : settings_.off_delay_us) / 10;
     State& s = state_;
-    const auto last = [&]() -> Edge& {
+    const auto last = [&]() -> LightEdge& {
         return s.edges[static_cast<std::size_t>((s.head + s.count - 1) % max_waiting)];
     };
     // A pulse shorter than the difference of the delays gives no light; a shorter gap disappears.

@@ -53,15 +53,15 @@ class LaserGate {
     static constexpr std::int64_t max_waiting = 4096;
 
   private:
-    struct Edge {
+    struct LightEdge {
         double at = 0;  ///< in ticks
         std::int64_t on = 0;
     };
     struct State {
-        std::array<Edge, max_waiting> edges{};  ///< ring buffer from `head`
+        std::array<LightEdge, max_waiting> edges{};  ///< ring buffer from `head`
         std::int64_t head = 0, count = 0, on = 0;
     };
-    const Edge& first() const { return state_.edges[static_cast<std::size_t>(state_.head)]; }
+    const LightEdge& first() const { return state_.edges[static_cast<std::size_t>(state_.head)]; }
     void take_first() {
         state_.on = first().on;
         state_.head = (state_.head + 1) % max_waiting;

@@ -72,24 +72,24 @@ void Workpiece::flush() {
     state_.collecting = false;
 }
 
-std::optional<Segment> Workpiece::collecting() const {
+std::optional<DrawnSegment> Workpiece::collecting() const {
     if (!state_.collecting) return std::nullopt;
-    return Segment{state_.start, state_.end};
+    return DrawnSegment{state_.start, state_.end};
 }
 
 void Workpiece::finish() {
     flush();
 }
 
-Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm,
+Deviation compare(std::span<const MarkedPoint> points, std::span<const DrawnSegment> drawing, double step_mm,
                   double near_mm) {
     Deviation out;
-    std::vector<Segment> marked;
-    const Nearest wanted(drawing);
+    std::vector<DrawnSegment> marked;
+    const NearestSegment wanted(drawing);
     double weights = 0, squares = 0;
     for (std::size_t i = 1; i < points.size(); ++i) {
         if (points[i].first) continue;
-        const Segment s{points[i - 1].at, points[i].at};
+        const DrawnSegment s{points[i - 1].at, points[i].at};
         marked.push_back(s);
         const sim::Spot way = minus(s.to, s.from);
         const double mm = length_of(way);
@@ -104,8 +104,8 @@ Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> 
         }
     }
     if (weights > 0) out.rms_mm = std::sqrt(squares / weights);
-    const Nearest found(marked);
-    for (const Segment& s : drawing) {
+    const NearestSegment found(marked);
+    for (const DrawnSegment& s : drawing) {
         const sim::Spot way = minus(s.to, s.from);
         const double mm = length_of(way), looks = std::max(1.0, std::ceil(mm / step_mm));
         for (double k = 0; k < looks; ++k) {
@@ -117,11 +117,11 @@ Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> 
     return out;
 }
 
-Nearest::Nearest(std::span<const Segment> segments) : segments_(segments.begin(), segments.end()) {
+NearestSegment::NearestSegment(std::span<const DrawnSegment> segments) : segments_(segments.begin(), segments.end()) {
     if (segments_.empty()) return;
     sim::Spot high = low_ = segments_[0].from;
     double sum = 0;
-    for (const Segment& s : segments_) {
+    for (const DrawnSegment& s : segments_) {
         sum += length_of(minus(s.to, s.from));
         for (const sim::Spot& p : {s.from, s.to}) {
             low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
@@ -134,7 +134,7 @@ Nearest::Nearest(std::span<const Segment> segments) : segments_(segments.begin()
     rows_ = static_cast<std::int64_t>(height / side_) + 1;
     const auto each_square = [&](auto&& f) {
         for (std::size_t i = 0; i < segments_.size(); ++i) {
-            const Segment& s = segments_[i];
+            const DrawnSegment& s = segments_[i];
             for (std::int64_t r = row(std::min(s.from.y, s.to.y)); r <= row(std::max(s.from.y, s.to.y)); ++r)
                 for (std::int64_t c = column(std::min(s.from.x, s.to.x)); c <= column(std::max(s.from.x, s.to.x)); ++c)
                     f(static_cast<std::size_t>(r * columns_ + c), static_cast<std::uint32_t>(i));
@@ -148,14 +148,14 @@ Nearest::Nearest(std::span<const Segment> segments) : segments_(segments.begin()
     each_square([&](std::size_t square, std::uint32_t i) { members_[next[square]++] = i; });
 }
 
-std::int64_t Nearest::column(double x) const {
+std::int64_t NearestSegment::column(double x) const {
     return static_cast<std::int64_t>(std::clamp((x - low_.x) / side_, 0.0, static_cast<double>(columns_ - 1)));
 }
-std::int64_t Nearest::row(double y) const {
+std::int64_t NearestSegment::row(double y) const {
     return static_cast<std::int64_t>(std::clamp((y - low_.y) / side_, 0.0, static_cast<double>(rows_ - 1)));
 }
 
-double Nearest::distance(sim::Spot p) const {
+double NearestSegment::distance(sim::Spot p) const {
     double best2 = std::numeric_limits<double>::infinity();
     if (segments_.empty()) return best2;
     const std::int64_t c0 = column(p.x), r0 = row(p.y);
@@ -181,9 +181,9 @@ double Nearest::distance(sim::Spot p) const {
     return std::sqrt(best2);
 }
 
-void Nearest::look_in(std::size_t square, sim::Spot p, double& best2) const {
+void NearestSegment::look_in(std::size_t square, sim::Spot p, double& best2) const {
     for (std::uint32_t k = begins_[square]; k < begins_[square + 1]; ++k) {
-        const Segment& s = segments_[members_[k]];
+        const DrawnSegment& s = segments_[members_[k]];
         const sim::Spot way = minus(s.to, s.from), to = minus(p, s.from);
         const double square_mm = way.x * way.x + way.y * way.y;
         const double part = square_mm > 0 ? std::clamp((to.x * way.x + to.y * way.y) / square_mm, 0.0, 1.0) : 0;

@@ -28,7 +28,7 @@ struct MarkedPoint {
 };
 
 /// A straight segment of a drawing, mm.
-struct Segment {
+struct DrawnSegment {
     sim::Spot from, to;
 };
 
@@ -41,7 +41,7 @@ struct Deviation {
 };
 
 /// Compares marked points with the drawing and the reverse, at steps of `step_mm`.
-Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm = 0.05,
+Deviation compare(std::span<const MarkedPoint> points, std::span<const DrawnSegment> drawing, double step_mm = 0.05,
                   double near_mm = 0.1);
 
 class Workpiece {
@@ -57,12 +57,12 @@ class Workpiece {
         return std::span(points_).first(static_cast<std::size_t>(state_.points));
     }
     /// The segment being collected, if any.
-    std::optional<Segment> collecting() const;
+    std::optional<DrawnSegment> collecting() const;
     std::uint64_t lost_points() const { return static_cast<std::uint64_t>(state_.lost); }
     double length_mm() const { return state_.length; }
     double energy_j() const { return state_.energy; }
     /// Compares the marks with a drawing.
-    Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const {
+    Deviation compare(std::span<const DrawnSegment> drawing, double step_mm = 0.05, double near_mm = 0.1) const {
         return parts::compare(points(), drawing, step_mm, near_mm);
     }
 
@@ -91,9 +91,9 @@ class Workpiece {
 };
 
 /// Finds the nearest of many segments, which are sorted into squares.
-class Nearest {
+class NearestSegment {
   public:
-    explicit Nearest(std::span<const Segment> segments);
+    explicit NearestSegment(std::span<const DrawnSegment> segments);
     /// mm from `p` to the nearest segment; infinity if there is none.
     double distance(sim::Spot p) const;
 
@@ -103,7 +103,7 @@ class Nearest {
     /// Lowers `best2`, a squared distance, to that of the nearest segment of the square.
     void look_in(std::size_t square, sim::Spot p, double& best2) const;
 
-    std::vector<Segment> segments_;
+    std::vector<DrawnSegment> segments_;
     sim::Spot low_;
     double side_ = 1;
     std::int64_t columns_ = 1, rows_ = 1;

@@ -108,7 +108,7 @@ RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
         const std::int64_t exact = rotor * counts;
         const std::int64_t shown = w.encoder();
         RC_ASSERT(shown * 3200 <= exact && exact < (shown + 1) * 3200);
-        const Lines lines = w.machine.encoder_lines(w.kernel.now());
+        const QuadratureLevels lines = w.machine.encoder_lines(w.kernel.now());
         RC_ASSERT(lines.a + 2 * lines.b == sim::lines_of(shown));
     }
 }
@@ -266,7 +266,7 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
         w.kernel.run_until(microseconds(20) * i - (i % 2 ? Duration{0} : Duration{1}));
         if (i % 1000 == 400 || i % 1000 == 800) {
             broken = !broken;
-            const Lines before = w.machine.encoder_lines(w.kernel.now());
+            const QuadratureLevels before = w.machine.encoder_lines(w.kernel.now());
             decoder.lines(static_cast<std::uint8_t>(before.a + 2 * before.b));
             RC_ASSERT(w.machine.fault(name, broken, w.kernel.now()));
             if (name == "swapped" && before.a != before.b) {  // both lines change at once: the machine counts two
@@ -274,7 +274,7 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
                 decoder.set_count(decoder.count() + 2);
             }
         }
-        const Lines lines = w.machine.encoder_lines(w.kernel.now());
+        const QuadratureLevels lines = w.machine.encoder_lines(w.kernel.now());
         decoder.lines(static_cast<std::uint8_t>(lines.a + 2 * lines.b));
         RC_ASSERT(decoder.illegal() == both_changed);
         RC_ASSERT(decoder.count() == w.encoder());

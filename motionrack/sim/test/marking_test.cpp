@@ -181,7 +181,7 @@ TEST(Workpiece, MorePointsThanItMayKeepAreCounted) {
 }
 
 TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
-    const std::vector<Segment> square = {
+    const std::vector<DrawnSegment> square = {
         {{0, 0}, {10, 0}}, {{10, 0}, {10, 10}}, {{10, 10}, {0, 10}}, {{0, 10}, {0, 0}}};
     Workpiece piece;
     piece.add({0, 0}, {10, 0.3}, 1, 0);
@@ -195,18 +195,18 @@ TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
     EXPECT_GT(d.rms_mm, 0.05);
     EXPECT_NEAR(d.missing_mm, 10 + 6.4,
                 0.5);  // the left side, and the part of the slanted one with a deviation above 0.1 mm
-    EXPECT_DOUBLE_EQ(Nearest(square).distance({-30, 5}), 30);
-    EXPECT_DOUBLE_EQ(Nearest(square).distance({5, 5}), 5);
+    EXPECT_DOUBLE_EQ(NearestSegment(square).distance({-30, 5}), 30);
+    EXPECT_DOUBLE_EQ(NearestSegment(square).distance({5, 5}), 5);
     for (int i = 0; i < 500; ++i) {
         const sim::Spot p{std::fmod(i * 7.13, 40) - 15, std::fmod(i * 3.77, 40) - 15};
         double best = 1e9;
-        for (const Segment& s : square) best = std::min(best, Nearest(std::span(&s, 1)).distance(p));
-        EXPECT_DOUBLE_EQ(Nearest(square).distance(p), best);
+        for (const DrawnSegment& s : square) best = std::min(best, NearestSegment(std::span(&s, 1)).distance(p));
+        EXPECT_DOUBLE_EQ(NearestSegment(square).distance(p), best);
     }
 }
 
 TEST(Nearest, IsThatOfASearchThroughAllOfThemToTheLastBit) {
-    std::vector<Segment> many;
+    std::vector<DrawnSegment> many;
     const auto place = [](int i, double size) {
         return sim::Spot{std::fmod(i * 7.13, size), std::fmod(i * i * 0.377, size)};
     };
@@ -214,12 +214,12 @@ TEST(Nearest, IsThatOfASearchThroughAllOfThemToTheLastBit) {
         const sim::Spot at = place(i, 50), to = i % 40 == 0 ? place(i + 7, 50) : sim::Spot{at.x + 0.3, at.y - 0.2};
         many.push_back({at, to});
     }
-    const Nearest all(many);
+    const NearestSegment all(many);
     for (int i = 0; i < 2000; ++i) {
         const sim::Spot p = i % 3 == 0 ? many[static_cast<std::size_t>(i) % many.size()].to
                                        : sim::Spot{place(i, 90).x - 20, place(i + 1, 90).y - 20};
         double best = std::numeric_limits<double>::infinity();
-        for (const Segment& s : many) best = std::min(best, Nearest(std::span(&s, 1)).distance(p));
+        for (const DrawnSegment& s : many) best = std::min(best, NearestSegment(std::span(&s, 1)).distance(p));
         ASSERT_EQ(all.distance(p), best) << p.x << ' ' << p.y;
     }
 }

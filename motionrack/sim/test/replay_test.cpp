@@ -52,7 +52,7 @@ parts::AxisMechanicsSettings settings() {
 
 struct World {
     World() { machine.connect(pulses), kernel.start(); }
-    void apply(const Input& input) {
+    void apply(const LoggedInput& input) {
         switch (input.kind) {
             case InputKind::register_write:
                 card.write(input.offset, input.value);
@@ -81,7 +81,7 @@ TEST(InputLog, ReplayingWhatWasRecordedGivesTheSameHistory) {
     World live;
     InputLog log;
     VirtualPort port(live.kernel, live.card, live.card.id, live.card.interrupt, nanoseconds(250), &log);
-    auto from_outside = [&](const Input& input) {
+    auto from_outside = [&](const LoggedInput& input) {
         log.add(input);
         live.apply(input);
         live.kernel.settle();
@@ -103,7 +103,7 @@ TEST(InputLog, ReplayingWhatWasRecordedGivesTheSameHistory) {
     EXPECT_FALSE(live.kernel.conditions().empty());
 
     World again;
-    replay(again.kernel, log.inputs(), live.kernel.now(), [&again](const Input& input) { again.apply(input); });
+    replay(again.kernel, log.inputs(), live.kernel.now(), [&again](const LoggedInput& input) { again.apply(input); });
     EXPECT_EQ(again.kernel.now(), live.kernel.now());
     EXPECT_EQ(again.kernel.trace_hash(), live.kernel.trace_hash());
     EXPECT_EQ(again.kernel.state_hash(), live.kernel.state_hash());

@@ -225,12 +225,12 @@ TEST(Recording, RefusesWhatIsNone) {
     EXPECT_THAT(RecordingReader::open(scratch.path("head")).error().message, HasSubstr("damaged"));
     EXPECT_EQ(RecordingReader::open(scratch.path("nowhere")).error().kind, ErrorKind::io);
     EXPECT_EQ(RecordingReader::open(scratch.path("")).error().kind, ErrorKind::io) << "a folder";
-    auto other = hdf5::File::create(scratch.path("other.h5"));
+    auto other = hdf5::Hdf5File::create(scratch.path("other.h5"));
     ASSERT_TRUE(other && other->close());
     EXPECT_THAT(RecordingReader::open(scratch.path("other.h5")).error().message,
                 HasSubstr("not a recording of motionrack"));
     const auto of_format = [&](std::int64_t version) {
-        auto file = hdf5::File::create(scratch.path("version.h5"));
+        auto file = hdf5::Hdf5File::create(scratch.path("version.h5"));
         file->set("/", "format", "motionrack recording");
         file->set("/", "format_version", version);
         EXPECT_TRUE(file->close());

@@ -47,7 +47,7 @@ void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& fra
     if (auto here = driver_.position()) {
         counts_ = *here;
         way_ = static_cast<double>(counts_);
-        const Status status = driver_.status();
+        const StatusByte status = driver_.status();
         if (status.emergency())
             begun = failed("the emergency stop is active; release it");
         else
@@ -104,7 +104,7 @@ std::uint8_t HomeSearch::marks() const {
 
 Result<void> HomeSearch::drive(bool towards, int rate) {
     forward_ = towards == order_.towards_plus;
-    const Status status = driver_.status();
+    const StatusByte status = driver_.status();
     if (status.end_stop(forward_)) {
         stop_seen_ = host_.now();  // causes no edge
         return {};
@@ -197,7 +197,7 @@ Result<void> HomeSearch::look_at_events(Instant now) {
 /// Called when the contacts of a stop have settled: does the stop block the axis?
 Result<void> HomeSearch::look_at_stop(Instant now) {
     stop_seen_ = never;
-    const Status status = driver_.status();
+    const StatusByte status = driver_.status();
     if (status.emergency()) return failed("the emergency stop is active; release it");
     if (!(marking() || state_ == State::back) || !status.end_stop(forward_)) return {};
     if (state_ == State::search && order_.turn_at_limit && !turned_) {

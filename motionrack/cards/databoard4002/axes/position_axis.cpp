@@ -65,7 +65,7 @@ Result<int> PositionAxis::rate_of(const char* what, double speed) const {
 
 Result<void> PositionAxis::check_free(const char* what, bool forward) {
     if (busy()) return refuse(what, "it moves; stop it and wait for standstill");
-    const Status status = driver_.status();
+    const StatusByte status = driver_.status();
     if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
     if (status.end_stop(forward))
         return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction",

@@ -34,7 +34,7 @@ void PositionAxis::look_at_events(Instant now) {
 /// Called when the contacts of a stop have settled: does the stop block the axis? A stop on the other side does not.
 void PositionAxis::look_at_stop() {
     stop_seen_ = never;
-    const Status status = driver_.status();
+    const StatusByte status = driver_.status();
     std::string why = status.emergency() || status.end_stop(forward_) ? status.stops() : std::string();
     if (why.empty()) {
         const auto rate = driver_.rate();

@@ -12,7 +12,7 @@ Driver::Driver(BytePort& port, Interrupt& interrupt, const DriverSettings& setti
                       settings.counts_per_mm > 0);
 }
 
-std::string Status::stops() const {
+std::string StatusByte::stops() const {
     std::string out;
     auto add = [&out](bool active, const char* what) {
         if (active) out += out.empty() ? what : std::string(" and ") + what;
@@ -26,7 +26,7 @@ std::string Status::stops() const {
 
 // ---- handshake
 
-Status Driver::status() {
+StatusByte Driver::status() {
     port_.out(ports::CS, settings_.select);
     return {port_.in(ports::STAT)};
 }

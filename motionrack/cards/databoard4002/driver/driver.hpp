@@ -26,7 +26,7 @@ struct DriverSettings {
 };
 
 /// STAT, decoded.
-struct Status {
+struct StatusByte {
     std::uint8_t word = 0;
     bool ready() const { return (word & stat::READY) != 0; }
     bool event() const { return (word & stat::EVENT) != 0; }
@@ -63,7 +63,7 @@ class Driver {
     Result<int> connect();
     /// C3: hardware reset; clears position, rate and table.
     void reset();
-    Status status();
+    StatusByte status();
 
     // ---- commands, one each; counts and rates in the card's units. Common errors: refused (out of range, nothing was
     // written), machine (not Ready in time)

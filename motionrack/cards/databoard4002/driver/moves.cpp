@@ -22,7 +22,7 @@ Result<Events> Driver::enable_events(std::uint8_t enables) {
 Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting how) {
     const Instant until = later(interrupt_.now(), timeout);
     while (true) {
-        const Status now = status();
+        const StatusByte now = status();
         if (now.event()) {
             MOTIONRACK_TRY(const Events seen, enable_events(enables_));
             if (seen.was_reset())
@@ -66,7 +66,7 @@ Result<void> Driver::end_move(const Error& error) {
 /// Returns whether a stop blocks the move; called after its edge.
 Result<bool> Driver::held(bool forward) {
     interrupt_.pass(settings_.bounce);
-    const Status now = status();
+    const StatusByte now = status();
     if (now.event()) return false;  // further events are handled first
     if (now.emergency() || now.end_stop(forward)) return true;
     MOTIONRACK_TRY(const int present, rate());
@@ -74,7 +74,7 @@ Result<bool> Driver::held(bool forward) {
 }
 
 Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how) {
-    if (const Status now = status(); now.emergency())
+    if (const StatusByte now = status(); now.emergency())
         return fail(ErrorKind::machine,
                     fmt::format("Card {} was not started: {}. Release it first.", settings_.select, now.stops()));
     const auto wake = static_cast<std::uint8_t>(how == Waiting::interrupt ? event::ON_EVENT : 0);

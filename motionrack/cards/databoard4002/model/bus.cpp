@@ -10,20 +10,20 @@ Bus::Bus(sim::Kernel& kernel, const std::string& name)
 
 void Bus::plug(Card& card, std::uint8_t select) {
     MOTIONRACK_ASSERT(slots_.size() < max_cards);
-    for (const Slot& slot : slots_) MOTIONRACK_ASSERT(slot.select != select);
+    for (const AddressSlot& slot : slots_) MOTIONRACK_ASSERT(slot.select != select);
     kernel_.listen(card.interrupt_wire(), id_, static_cast<int>(slots_.size()));
     slots_.push_back({&card, select, kernel_.find_wire(kernel_.device_name(card.id()) + ".csb")});
 }
 
 Card* Bus::chosen() const {
-    for (const Slot& slot : slots_)
+    for (const AddressSlot& slot : slots_)
         if (slot.select == state_.chosen) return slot.card;
     return nullptr;
 }
 
 std::uint8_t Bus::in(std::uint8_t port) {
     if (port == ports::RST) {
-        for (const Slot& slot : slots_) (void)slot.card->in(port);
+        for (const AddressSlot& slot : slots_) (void)slot.card->in(port);
         return 0xFF;
     }
     Card* card = chosen();
@@ -38,7 +38,7 @@ std::uint8_t Bus::peek(std::uint8_t port) const {
 void Bus::out(std::uint8_t port, std::uint8_t value) {
     if (port == ports::CS) {
         state_.chosen = value;
-        for (const Slot& slot : slots_) kernel_.set_wire(slot.csb, slot.select == value);
+        for (const AddressSlot& slot : slots_) kernel_.set_wire(slot.csb, slot.select == value);
         return;
     }
     if (Card* card = chosen()) card->out(port, value);
@@ -50,7 +50,7 @@ void Bus::on_scheduled(Instant now) {
 
 void Bus::on_wire(int, int, Instant) {
     bool asked = false;
-    for (const Slot& slot : slots_) asked = asked || kernel_.level(slot.card->interrupt_wire()) != 0;
+    for (const AddressSlot& slot : slots_) asked = asked || kernel_.level(slot.card->interrupt_wire()) != 0;
     kernel_.set_wire(interrupt_, asked);
 }
 

@@ -36,7 +36,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    struct Slot {
+    struct AddressSlot {
         Card* card = nullptr;
         std::uint8_t select = 0;
         sim::WireId csb{};  ///< chip select of the card
@@ -49,7 +49,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     sim::Kernel& kernel_;
     sim::DeviceId id_{};
     sim::WireId interrupt_{};
-    std::vector<Slot> slots_;
+    std::vector<AddressSlot> slots_;
     State state_;
 };
 

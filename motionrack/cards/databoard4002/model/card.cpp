@@ -38,7 +38,7 @@ void Card::reschedule() {
     Instant next = std::min({state_.watchdog_at, state_.reset_pulse_end, train_.next(now)});
     if (!state_.hung) next = std::min(next, state_.pass_at);
     if (state_.fout_wanted) next = std::min(next, state_.fout_at);
-    for (const Line& line : state_.counter.lines)
+    for (const OutputLine& line : state_.counter.lines)
         if (line.changes > 0) next = std::min(next, line.free_at);
     kernel_.schedule(id_, next);
 }
@@ -50,7 +50,7 @@ void Card::begin() {
     state_.begun = 1;
     for (std::size_t i = 0; i < 2; ++i) {
         kernel_.subscribe(wires_[i], id_, !connected());
-        Line& line = state_.counter.lines[i];
+        OutputLine& line = state_.counter.lines[i];
         line.raw = line.taken = kernel_.level(wires_[i]) != 0;
     }
     if (encoder_) rate_changed(0, encoder_->rate(now), now);

@@ -91,7 +91,7 @@ void Card::rate_changed(double, double rate, Instant now) {
 // ---- lines driven as wires
 
 void Card::line_changed(int line, int level, Instant now) {
-    Line& l = state_.counter.lines[static_cast<std::size_t>(line)];
+    OutputLine& l = state_.counter.lines[static_cast<std::size_t>(line)];
     if (connected() || l.raw == (level != 0)) return;
     if (l.changes > 0 && l.free_at <= now) look_at_lines(now);
     l.raw = level != 0;
@@ -103,7 +103,7 @@ void Card::line_changed(int line, int level, Instant now) {
 
 void Card::look_at_lines(Instant now) {
     for (int i = 0; i < 2; ++i) {
-        Line& l = state_.counter.lines[static_cast<std::size_t>(i)];
+        OutputLine& l = state_.counter.lines[static_cast<std::size_t>(i)];
         if (l.changes == 0 || l.free_at > now) continue;
         if (l.changes > 1) report(CardCondition::line_too_quick, i + 1);
         l.changes = 0;
@@ -115,7 +115,7 @@ void Card::look_at_lines(Instant now) {
 void Card::take_line(int line, Instant at) {
     auto& lines = state_.counter.lines;
     const auto before = static_cast<std::uint8_t>(lines[0].taken | lines[1].taken << 1);
-    Line& l = lines[static_cast<std::size_t>(line)];
+    OutputLine& l = lines[static_cast<std::size_t>(line)];
     l.taken = l.raw;
     l.free_at = at + half_period();
     int change = 0;

@@ -111,7 +111,7 @@ void Card::aim(Instant now) {
     const std::int64_t u = counter(now);
     std::int64_t below = f.turn * whole_turn - half_turn - 1, above = (f.turn + 1) * whole_turn - half_turn;
     if (f.move.on) {
-        const Move& move = f.move;
+        const TargetMove& move = f.move;
         const std::int64_t to_go = signed24(move.target - u) * move.direction;
         std::int64_t forward = to_go, back = half_turn - to_go;  // beyond it the 24-bit difference changes its sign
         if (move.sloped) {

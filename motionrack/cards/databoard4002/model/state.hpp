@@ -22,7 +22,7 @@ enum class Work : std::uint8_t { none, in_data, out_data, command, enables };
 /// Meaning of the next access to DATA.
 enum class Collecting : std::uint8_t { idle, either, collecting, answering };
 
-struct Move {
+struct TargetMove {
     std::int64_t target = 0;  ///< -8,388,608 .. 8,388,607
     std::int64_t start = 0;   ///< start of the move by the counter
     std::int32_t direction = 1;
@@ -53,7 +53,7 @@ struct Firmware {
     std::int32_t rate = 0;
     std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G was executed
     SlopeTable table;
-    Move move;
+    TargetMove move;
     // events
     std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
     std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
@@ -65,7 +65,7 @@ struct Firmware {
 };
 
 /// A line O1 or O2 that is driven as a wire.
-struct Line {
+struct OutputLine {
     std::uint8_t taken = 0;     ///< the counted level
     std::uint8_t raw = 0;       ///< the level of the wire
     std::uint16_t changes = 0;  ///< changes since the line was last counted
@@ -79,7 +79,7 @@ struct CounterState {
     std::int64_t frozen_from = 0;   ///< count of the motion when it exceeded the rate limit
     std::uint32_t frozen = 0;
     std::uint32_t cut = 0;  ///< the motion is disconnected; the wires are counted instead
-    std::array<Line, 2> lines{};
+    std::array<OutputLine, 2> lines{};
 };
 
 struct State {

@@ -22,7 +22,7 @@ struct CardInfo {
     int scales = 0;                               ///< N
     int first = 0;                                ///< address of the first scale
     std::array<std::uint8_t, max_scales> list{};  ///< addresses of the card's own list
-    Timing timing;
+    BusTiming timing;
     Duration period{};
     /// The card's own list: address of the scale of each word.
     std::span<const std::uint8_t> addresses() const { return {list.data(), static_cast<std::size_t>(scales)}; }

@@ -95,11 +95,11 @@ class Bus final : public sim::Device {
     void show();
     const CardSettings& host() const { return cards_[static_cast<std::size_t>(host_)]->settings(); }
     /// The decoder's present or last output at `now` of the span, and the instant of the next count.
-    struct Output {
+    struct DecoderOutput {
         std::uint32_t out;
         Instant next;
     };
-    Output span_output(Instant now) const;
+    DecoderOutput span_output(Instant now) const;
     std::uint32_t span_level(Line line, Instant now) const;
     std::uint32_t wire_level(int pin, Instant now) const;
 

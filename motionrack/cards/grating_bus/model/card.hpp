@@ -67,8 +67,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     const CardSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return int_wire_; }
-    bool is_host() const { return settings_.role == Role::host; }
-    bool is_remote() const { return settings_.role == Role::remote; }
+    bool is_host() const { return settings_.role == CardRole::host; }
+    bool is_remote() const { return settings_.role == CardRole::remote; }
     /// The frame published last; nullptr: none yet, or it is being overwritten.
     const Frame* last() const { return state_.buffers.last(); }
     bool stale() const { return state_.stale != 0; }

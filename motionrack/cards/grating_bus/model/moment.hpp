@@ -15,7 +15,7 @@ struct Moment {
 };
 
 /// Duration of a state; S0 has no end.
-constexpr Duration time_in(const Timing& timing, State state) {
+constexpr Duration time_in(const BusTiming& timing, State state) {
     switch (state) {
         case State::S1:
         case State::S7:
@@ -48,7 +48,7 @@ constexpr State after(State state, bool words_left) {
 }
 
 /// Computes the state at `elapsed` >= 0 after entering S1, in a frame of `words`.
-constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
+constexpr Moment moment_of(const BusTiming& timing, int words, Duration elapsed) {
     const Duration word_time = timing.word_time();
     const auto word = static_cast<int>(elapsed / word_time);
     const Duration begin = word * word_time;

@@ -73,7 +73,7 @@ void Card::advance(Instant now) {
 }
 
 void Card::clock_rose(Instant now) {
-    if (settings_.role != Role::slave || state_.off != 0) return;
+    if (settings_.role != CardRole::slave || state_.off != 0) return;
     if (state_.miss != 0) {
         --state_.miss;
         return;

@@ -11,17 +11,17 @@
 namespace motionrack::grating_bus {
 
 /// remote: a slave whose bus is in another crate; its frames arrive through Card::take.
-enum class Role : std::uint8_t { host, slave, remote };
+enum class CardRole : std::uint8_t { host, slave, remote };
 /// Direction of a level shifter; as_role: out on a host, in on a slave.
 enum class Shifter : std::uint8_t { as_role, out, in };
 
 /// Settings of a motion card.
 struct CardSettings {
-    Role role = Role::slave;
+    CardRole role = CardRole::slave;
     int scales = 4;              ///< N, 1 .. 128: scales in a frame
     int first = 0;               ///< 0 .. 128 - N: address of the first scale, without a list
     std::vector<int> addresses;  ///< the list: N different addresses, 0 .. 127; empty: consecutive from `first`
-    Timing timing;               ///< waits and clock, 0.1 ns .. 6 us each
+    BusTiming timing;            ///< waits and clock, 0.1 ns .. 6 us each
     Duration period = microseconds(200);         ///< frame period, 1 us .. 100 ms
     Duration offset{0};                          ///< host: instant of its first pulse, 0 .. period
     Shifter clock_shifter = Shifter::as_role;    ///< direction for clk, hold and read_n
@@ -36,13 +36,13 @@ struct CardSettings {
     int last_address() const;
 
     bool clock_out() const {
-        return clock_shifter == Shifter::as_role ? role == Role::host : clock_shifter == Shifter::out;
+        return clock_shifter == Shifter::as_role ? role == CardRole::host : clock_shifter == Shifter::out;
     }
     bool address_out() const {
-        return address_shifter == Shifter::as_role ? role == Role::host : address_shifter == Shifter::out;
+        return address_shifter == Shifter::as_role ? role == CardRole::host : address_shifter == Shifter::out;
     }
     bool wrong_direction() const {
-        return clock_out() != (role == Role::host) || address_out() != (role == Role::host);
+        return clock_out() != (role == CardRole::host) || address_out() != (role == CardRole::host);
     }
 };
 

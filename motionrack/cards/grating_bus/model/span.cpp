@@ -49,9 +49,9 @@ void Bus::publish_span(Instant now) {
     state_.published = 1;
 }
 
-Bus::Output Bus::span_output(Instant now) const {
+Bus::DecoderOutput Bus::span_output(Instant now) const {
     const Decoder& decoder = *decoders_[0];
-    const Timing& timing = host().timing;
+    const BusTiming& timing = host().timing;
     const Instant first = state_.start + timing.t1 + decoder.settings().output;  // instant of word 0
     if (now < first) return {decoder.state_.out, first};
     const auto words = std::min<std::int64_t>(host().scales, (now - first) / timing.word_time() + 1);
@@ -74,7 +74,7 @@ void Bus::interrupt_span(Instant now) {
     if (state_.span == 0) return;
     if (state_.published == 0 && now >= state_.done) publish_span(now);
     Decoder& decoder = *decoders_[0];
-    const Output output = span_output(now);
+    const DecoderOutput output = span_output(now);
     const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host());
     decoder.state_.out = output.out;
     decoder.state_.valid = state_.start + decoder.settings().latch;

@@ -38,10 +38,10 @@ TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
         for (CardSettings& s : settings) s.addresses = list;
         Crate crate(settings, 128);
         if (watched) crate.watch_wires();
-        crate.run(frame_period + nanoseconds(20) + Timing{}.word_time());
+        crate.run(frame_period + nanoseconds(20) + BusTiming{}.word_time());
         for (const int address : {2, 9, 127}) {
             EXPECT_EQ(crate.kernel.level(crate.kernel.find_wire("bus.addr")), address);
-            crate.run(Timing{}.word_time());
+            crate.run(BusTiming{}.word_time());
         }
         EXPECT_EQ(crate.cards[2]->peek(list_at), 5);
         EXPECT_EQ(crate.cards[2]->peek(list_at + 6), 127);

@@ -41,7 +41,7 @@ TEST_P(GratingBusOf, ManySlavesHaveTheFramesOfTheHostWhichAreTrueAtHold) {
         crate.run(20 * period - nanoseconds(1));
         expect_true_frames(crate, 20, 6);
         EXPECT_TRUE(crate.sentences().empty()) << crate.sentences()[0];
-        EXPECT_EQ(crate.heard(0)[3].at, 3 * period + Timing{}.frame_time(6) - nanoseconds(10))
+        EXPECT_EQ(crate.heard(0)[3].at, 3 * period + BusTiming{}.frame_time(6) - nanoseconds(10))
             << "complete on entering S12";
     }
 }
@@ -277,7 +277,7 @@ TEST(GratingBus, ADecoderThatDoesNotLatchGivesEveryWordAnInstantOfItsOwn) {
     ASSERT_TRUE(crate.decoder->fault("no_latch", 1, crate.kernel.now()));
     crate.run(3 * period);
     const Frame& frame = crate.heard(1).back().frame;
-    const Timing timing;
+    const BusTiming timing;
     for (int k = 0; k < 4; ++k) {
         const Instant out = frame.instant() + timing.sample_at(k) - timing.t2 + nanoseconds(20);
         EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(crate.truth(k, out))) << k;
@@ -287,7 +287,7 @@ TEST(GratingBus, ADecoderThatDoesNotLatchGivesEveryWordAnInstantOfItsOwn) {
 TEST(GratingBus, ARemoteCardHoldsWhatComesFromOutsideAndNothingElse) {
     std::vector<CardSettings> settings = crew(1);
     settings.push_back(slave_settings());
-    settings[2].role = Role::remote;
+    settings[2].role = CardRole::remote;
     Crate crate(settings);
     crate.run(3 * period + microseconds(50));
     EXPECT_EQ(crate.heard(0).size(), 4u) << "it disturbs nobody";

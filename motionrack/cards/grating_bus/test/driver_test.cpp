@@ -42,7 +42,7 @@ TEST(GratingCardLibrary, KnowsHowTheCardIsSet) {
     EXPECT_EQ(host->scales, 6);
     EXPECT_EQ(host->addresses().size(), 6u);
     EXPECT_EQ(host->addresses()[5], 5);
-    EXPECT_EQ(host->timing, Timing{});
+    EXPECT_EQ(host->timing, BusTiming{});
     EXPECT_EQ(host->period, driver_period);
 }
 

@@ -61,7 +61,7 @@ TEST(GratingFrame, IsTheSameWhateverIsBeyondItsWords) {
 }
 
 TEST(GratingFrame, LastsAsLongAsTheSourceSays) {
-    constexpr Timing timing;
+    constexpr BusTiming timing;
     EXPECT_EQ(timing.frame_time(4), nanoseconds(450));
     EXPECT_EQ(timing.frame_time(8), nanoseconds(890));
     EXPECT_EQ(timing.frame_time(16), nanoseconds(1770));

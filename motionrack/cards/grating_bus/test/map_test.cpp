@@ -75,7 +75,7 @@ TEST(GratingBusMap, TheSequenceTakesTheDeclaredSteps) {
 
 TEST(GratingBusMap, AnyMomentOfAFrameIsWhatItsStepsComeTo) {
     for (const int words : {1, 2, 7, 128}) {
-        const Timing timing{nanoseconds(17), nanoseconds(29), Duration{3}, nanoseconds(8)};
+        const BusTiming timing{nanoseconds(17), nanoseconds(29), Duration{3}, nanoseconds(8)};
         State state = State::S1;
         int word = 0;
         Duration at{};

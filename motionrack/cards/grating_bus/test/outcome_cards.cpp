@@ -49,7 +49,7 @@ class Changes final : public sim::Kernel::WireObserver {
 
 grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t seed) {
     grating_bus::CardSettings out;
-    out.role = from.host ? Role::host : Role::slave;
+    out.role = from.host ? CardRole::host : CardRole::slave;
     out.scales = from.words, out.first = from.first, out.addresses = from.list;
     out.timing = {Duration{from.t1}, Duration{from.t2}, Duration{from.t3}, Duration{from.clock}};
     out.period = Duration{from.period}, out.offset = Duration{from.offset};

@@ -37,11 +37,11 @@ Program Maker::make() {
     return program_;
 }
 
-Timing Maker::timing() {
+BusTiming Maker::timing() {
     return {Duration{time(1, 30)}, Duration{time(2, 40)}, Duration{time(1, 40)}, Duration{time(1, 12)}};
 }
 
-void Maker::set(CardSettings& card, const Timing& timing) {
+void Maker::set(CardSettings& card, const BusTiming& timing) {
     card.t1 = timing.t1.count(), card.t2 = timing.t2.count(), card.t3 = timing.t3.count(),
     card.clock = timing.clock.count();
 }
@@ -58,7 +58,7 @@ std::vector<int> Maker::list(int words) {
 void Maker::add_cards() {
     const std::int64_t count = 1 + below(one_in(5) ? 11 : 4);
     const bool alike = healthy_ || !one_in(3);
-    const Timing common = timing();
+    const BusTiming common = timing();
     const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)),
               first = one_in(3) ? static_cast<int>(below(6)) : 0;
     const std::vector<int> common_list = one_in(3) ? list(words) : std::vector<int>();
@@ -70,7 +70,7 @@ void Maker::add_cards() {
         if (!healthy_ && one_in(15)) card.clock_out = !card.clock_out;
         if (!healthy_ && one_in(15)) card.address_out = !card.address_out;
         card.checks = !one_in(3);
-        const Timing own = alike || one_in(2) ? common : timing();
+        const BusTiming own = alike || one_in(2) ? common : timing();
         set(card, own);
         card.words = alike || one_in(2) ? words : static_cast<int>(1 + below(6));
         card.first = alike || one_in(2) ? first : static_cast<int>(below(4));
@@ -116,7 +116,7 @@ void Maker::add_decoder() {
 Ticks Maker::instant() {
     const CardSettings& card =
         program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];
-    const Timing timing{Duration{card.t1}, Duration{card.t2}, Duration{card.t3}, Duration{card.clock}};
+    const BusTiming timing{Duration{card.t1}, Duration{card.t2}, Duration{card.t3}, Duration{card.clock}};
     const Ticks begin = card.offset + below(program_.end / card.period + 1) * card.period;
     const Ticks frame = timing.frame_time(card.words).count();
     Ticks at = 0;

@@ -111,7 +111,7 @@ struct Crate {
 
 inline CardSettings host_settings(int scales = 4) {
     CardSettings out;
-    out.role = Role::host;
+    out.role = CardRole::host;
     out.scales = scales;
     return out;
 }

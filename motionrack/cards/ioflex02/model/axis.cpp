@@ -14,13 +14,13 @@ sim::Edges edges_of(std::uint16_t word) {
     return edges == 0 ? sim::Edges::all : edges == 1 ? sim::Edges::both_of_a : sim::Edges::rising_a;
 }
 
-void calibrate(AxisState& axis, CalEvent event) {
+void calibrate(EncoderAxisState& axis, CalEvent event) {
     const CalStep step = calibration_step(axis.cal, event);
     axis.cal = step.next;
     if (step.zero) axis.position = 0;
 }
 
-void count(AxisState& axis, unsigned before, unsigned after, std::int64_t sample) {
+void count(EncoderAxisState& axis, unsigned before, unsigned after, std::int64_t sample) {
     const unsigned changed = before ^ after;
     if (changed & 1) ++axis.edges_a;
     if (changed & 2) ++axis.edges_b;
@@ -41,7 +41,7 @@ void count(AxisState& axis, unsigned before, unsigned after, std::int64_t sample
 }
 
 /// The sample at which the next change may happen, `none` if no change is pending.
-std::int64_t next_of(const AxisState& axis, std::int64_t none) {
+std::int64_t next_of(const EncoderAxisState& axis, std::int64_t none) {
     const auto filter = static_cast<std::int64_t>(mode::FILTER.get(axis.mode));
     std::int64_t next = none;
     for (const LineState& line : axis.lines) {
@@ -51,7 +51,7 @@ std::int64_t next_of(const AxisState& axis, std::int64_t none) {
     return next;
 }
 
-void take(AxisState& axis, std::int64_t sample) {
+void take(EncoderAxisState& axis, std::int64_t sample) {
     const auto filter = static_cast<std::int64_t>(mode::FILTER.get(axis.mode));
     const unsigned before = lines_word(axis);
     for (LineState& line : axis.lines) {
@@ -75,28 +75,28 @@ void take(AxisState& axis, std::int64_t sample) {
 
 }  // namespace
 
-std::uint16_t lines_word(const AxisState& axis) {
+std::uint16_t lines_word(const EncoderAxisState& axis) {
     unsigned out = 0;
     for (std::size_t i = 0; i < line_count; ++i) out |= unsigned{axis.lines[i].taken} << i;
     return static_cast<std::uint16_t>(out);
 }
 
-void begin_axis(AxisState& axis, std::uint16_t mode, std::int64_t done) {
-    AxisState fresh;
+void begin_axis(EncoderAxisState& axis, std::uint16_t mode, std::int64_t done) {
+    EncoderAxisState fresh;
     for (std::size_t i = 0; i < line_count; ++i) fresh.lines[i].raw = axis.lines[i].raw;
     fresh.mode = mode & mode::all;
     fresh.done = done;
     axis = fresh;
 }
 
-void wire_changed(AxisState& axis, int line, bool level, std::int64_t sample) {
+void wire_changed(EncoderAxisState& axis, int line, bool level, std::int64_t sample) {
     LineState& l = axis.lines[static_cast<std::size_t>(line)];
     advance(axis, sample - 1);
     l.raw = level ? 1 : 0;
     axis.pending = sample;
 }
 
-void advance(AxisState& axis, std::int64_t sample) {
+void advance(EncoderAxisState& axis, std::int64_t sample) {
     if (sample <= axis.done) return;
     if (!axis.begun) {
         axis.begun = 1;
@@ -113,7 +113,7 @@ void advance(AxisState& axis, std::int64_t sample) {
     axis.done = std::max(axis.done, sample);
 }
 
-std::int64_t illegal_from(const AxisState& axis, std::int64_t none) {
+std::int64_t illegal_from(const EncoderAxisState& axis, std::int64_t none) {
     const auto changes = [&](Line line) {
         const LineState& l = axis.lines[line];
         return l.raw != l.taken || l.sampled != l.taken;
@@ -121,7 +121,7 @@ std::int64_t illegal_from(const AxisState& axis, std::int64_t none) {
     return axis.begun != 0 && changes(a_line) && changes(b_line) ? next_of(axis, none) : none;
 }
 
-void command_axis(AxisState& axis, tIOFlexCmd command) {
+void command_axis(EncoderAxisState& axis, tIOFlexCmd command) {
     calibrate(axis, static_cast<CalEvent>(command));
 }
 

@@ -25,7 +25,7 @@ struct LineState {
 };
 
 /// State of an axis; sample k is at k * 100 ns since power-up.
-struct AxisState {
+struct EncoderAxisState {
     std::array<LineState, line_count> lines{};
     std::int64_t pending = 0;       ///< the first sample with the raw levels
     std::int64_t done = no_sample;  ///< processed samples
@@ -44,20 +44,20 @@ struct AxisState {
     std::uint8_t told = 0;   ///< the illegal transitions were reported
     std::array<std::uint8_t, 2> reserved{};
 };
-static_assert(std::has_unique_object_representations_v<AxisState>, "padding would get into the state's hash");
+static_assert(std::has_unique_object_representations_v<EncoderAxisState>, "padding would get into the state's hash");
 
 /// Clears all counts and keeps the lines' levels. The next sample is the first after `done`; it only initialises the
 /// state.
-void begin_axis(AxisState& axis, std::uint16_t mode, std::int64_t done);
+void begin_axis(EncoderAxisState& axis, std::uint16_t mode, std::int64_t done);
 /// Records a new level of a wire. Its first sample is `sample`, or the next one if that is already processed.
-void wire_changed(AxisState& axis, int line, bool level, std::int64_t sample);
+void wire_changed(EncoderAxisState& axis, int line, bool level, std::int64_t sample);
 /// Processes the samples up to `sample`.
-void advance(AxisState& axis, std::int64_t sample);
+void advance(EncoderAxisState& axis, std::int64_t sample);
 /// The first sample at which A and B may be accepted together, `none` if the present wires exclude it.
-std::int64_t illegal_from(const AxisState& axis, std::int64_t none);
+std::int64_t illegal_from(const EncoderAxisState& axis, std::int64_t none);
 /// Executes a calibration command after the samples up to now.
-void command_axis(AxisState& axis, tIOFlexCmd command);
+void command_axis(EncoderAxisState& axis, tIOFlexCmd command);
 /// The word LINES.
-std::uint16_t lines_word(const AxisState& axis);
+std::uint16_t lines_word(const EncoderAxisState& axis);
 
 }  // namespace motionrack::ioflex02

@@ -30,7 +30,7 @@ void catch_up(State& state, Instant now, bool access) {
     }
     if (c.array != ArrayState::running || !c.known) return;
     const std::int64_t last = access ? now / sample_time : sample_from(now) - 1;
-    for (AxisState& axis : state.axes) advance(axis, last);
+    for (EncoderAxisState& axis : state.axes) advance(axis, last);
 }
 
 Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
@@ -75,7 +75,7 @@ void Card::catch_up(Instant now, bool access) {
 
 void Card::tell_illegal() {
     for (std::size_t i = 0; i < axis_count; ++i) {
-        AxisState& axis = state_.axes[i];
+        EncoderAxisState& axis = state_.axes[i];
         if (axis.illegal == 0 || axis.told) continue;
         axis.told = 1;
         report(CardCondition::illegal_transition, static_cast<std::int64_t>(i), axis.illegal_sample * 100);
@@ -97,7 +97,7 @@ void Card::on_scheduled(Instant now) {
 void Card::await_illegal() {
     if (!has_project()) return;
     std::int64_t next = never.count();
-    for (const AxisState& axis : state_.axes) next = std::min(next, illegal_from(axis, next));
+    for (const EncoderAxisState& axis : state_.axes) next = std::min(next, illegal_from(axis, next));
     if (next != never.count()) kernel_.schedule(id_, Instant{next * sample_time.count() + 1});
 }
 
@@ -110,7 +110,7 @@ void Card::on_wire(int pin, int level, Instant now) {
     begin();
     catch_up(now, false);
     const auto number = static_cast<std::size_t>(pin);
-    AxisState& axis = state_.axes[number % axis_count];
+    EncoderAxisState& axis = state_.axes[number % axis_count];
     if (!has_project()) {
         axis.lines[number / axis_count].raw = level != 0;
         return;

@@ -57,7 +57,7 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
 
     void begin();
     State seen() const;
-    AxisState axis_of(int axis) const { return seen().axes[static_cast<std::size_t>(axis)]; }
+    EncoderAxisState axis_of(int axis) const { return seen().axes[static_cast<std::size_t>(axis)]; }
     void catch_up(Instant now, bool access);
     void tell_illegal();
     void await_illegal();

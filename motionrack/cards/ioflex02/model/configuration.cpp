@@ -19,7 +19,7 @@ void Card::control(std::uint16_t word) {
         put_out(0);
     }
     if (!field("CONTROL", "CLEAR_ERRORS").test(word)) return;
-    for (AxisState& axis : state_.axes) {
+    for (EncoderAxisState& axis : state_.axes) {
         axis.illegal = 0;
         axis.told = 0;
     }

@@ -153,7 +153,7 @@ void Card::strobe(std::uint16_t word) {
     if (field("STROBE", "CAPTURE").test(word)) {
         state_.captured.time = static_cast<std::uint32_t>(ticks - state_.cleared) & mask_24;
         for (std::size_t i = 0; i < axis_count; ++i) {
-            const AxisState& axis = state_.axes[i];
+            const EncoderAxisState& axis = state_.axes[i];
             CapturedAxis& out = state_.captured.axes[i];
             const std::int64_t age =
                 axis.edge == no_sample ? mask_24 : ticks - ticks_at(state_, sample_time * axis.edge);

@@ -43,7 +43,7 @@ struct State {
     Configuration configuration;
     Instant origin{};          ///< start of the project: phase of the time
     std::int64_t cleared = 0;  ///< ticks since origin at the last CLEAR_TIME
-    std::array<AxisState, axis_count> axes{};
+    std::array<EncoderAxisState, axis_count> axes{};
     Captured captured;
     std::uint16_t outputs = 0;
     std::uint16_t axis = 0;  ///< selected by AXIS

@@ -83,7 +83,7 @@ TEST(Ioflex02Card, AnIllegalTransitionIsToldWithAxisAndInstant) {
 TEST(Ioflex02Card, ThePositionWrapsAt24Bits) {
     Rig rig;
     rig.start();
-    AxisState axis;
+    EncoderAxisState axis;
     begin_axis(axis, 0, -1);
     axis.position = 8'388'607;
     wire_changed(axis, 0, true, 5);

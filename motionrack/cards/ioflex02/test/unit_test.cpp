@@ -95,7 +95,7 @@ TEST(Flex2Pos, AScaleOfTwoMetresEitherWayFitsIntoThePosition) {
     EXPECT_DOUBLE_EQ(scale.of_counts(signed24(0x800000)), -4096);
     EXPECT_NEAR(scale.of_counts(signed24(0x7FFFFF)), 4096, 1e-3);
     for (const double metres : {2.0, -2.0}) {
-        AxisState axis;
+        EncoderAxisState axis;
         begin_axis(axis, 0, -1);
         axis.position = static_cast<std::int64_t>(scale.to_counts(1000 * metres));
         wire_changed(axis, 0, true, 5);

@@ -49,7 +49,7 @@ double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
     return std::max(tolerated_angle(map, path.radius), shortest_angle(map, path)) / 2;
 }
 
-void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
+void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
     const double count = chords_of(map_, work.path, work.move.cruise_velocity, min_seconds_);
     const double half = arc ? std::fabs(work.path.sweep) / count / 2 : 0;
@@ -111,7 +111,7 @@ void Segmenter::emit_chords(const PendingMove& work, const Speeds& speeds) {
 }
 
 /// Assigns the remaining pulses of the auxiliary after the last pulse of the others to their last segment.
-void Segmenter::add_rest(const PendingMove& work, const Speeds& speeds) {
+void Segmenter::add_rest(const PendingMove& work, const MoveSpeeds& speeds) {
     if (at_ == work.to) return;
     const auto c = static_cast<std::size_t>(std::max(0, work.auxiliary));
     if (work.auxiliary >= 0 && chain_open_ && !ready_.empty() && ready_.back().companion_channel == work.auxiliary) {

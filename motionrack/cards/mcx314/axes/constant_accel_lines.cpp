@@ -41,7 +41,7 @@ void Segmenter::look_at_next(PendingMove& work, const PendingMove& next) const {
 
 /// Computes the acceleration from the previous segment's final V to its own V, over its true pulses: on a curved path
 /// the basic pulses per mm differ from segment to segment.
-void Segmenter::make_even(const PendingMove& work, Speeds& speeds) {
+void Segmenter::make_even(const PendingMove& work, MoveSpeeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
     const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.max_at_end);
     const Pulses4 way = way_between(work, at_, work.to);

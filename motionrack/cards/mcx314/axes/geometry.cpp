@@ -28,9 +28,9 @@ bool has_part(const AxisMap& map, const control::Geometry& path, const control::
 
 }  // namespace
 
-Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
+DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
     const control::Point worst = control::max_tangent_components(path);
-    Drawing out;
+    DriveMotion out;
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;
     double scale = 0, least = 1e300;
@@ -49,7 +49,7 @@ Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8
     return out;
 }
 
-double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent) {
+double basic_pulses_along(const AxisMap& map, const DriveMotion& drawing, const control::Point& tangent) {
     double most = 0, second = 0;
     for (std::size_t i = 0; i < tangent.size(); ++i) {
         if (map.channel[i] < 0 || map.channel[i] == drawing.auxiliary) continue;

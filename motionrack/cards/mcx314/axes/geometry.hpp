@@ -38,14 +38,14 @@ struct AxisMap {
 /// Basic pulses of the chip per mm (degree) along `tangent` of a path. The longest of the moving axes in `path`
 /// determines them; with constant vector speed, a pulse of two axes counts 1.414. `auxiliary`: a fourth moving axis
 /// that is not interpolated, or -1.
-struct Drawing {
+struct DriveMotion {
     bool constant_vector = false;
     int auxiliary = -1;         ///< channel
     std::uint8_t channels = 0;  ///< the moving channels, one bit each
 };
 /// `axes`: the axes that may move, one bit each; 0: those that do.
-Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);
-double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent);
+DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);
+double basic_pulses_along(const AxisMap& map, const DriveMotion& drawing, const control::Point& tangent);
 
 /// Maximum angle between an arc's tangent at its ends and its first or last chord, radians; 0: not drawn with chords.
 double turn_of_first_chord(const AxisMap& map, const control::Geometry& path);

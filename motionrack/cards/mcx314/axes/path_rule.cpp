@@ -42,7 +42,7 @@ double PathRule::speed_ratio(const control::Geometry& before, const control::Geo
 /// chip's acceleration maintains the path velocity.
 double PathRule::constant_velocity_length(const control::Geometry& path) const {
     constexpr double pulses = 2, of_chords = 0.06;
-    const Drawing drawing = drawing_of(map_, path);
+    const DriveMotion drawing = drawing_of(map_, path);
     const double in = basic_pulses_along(map_, drawing, path.tangent_in),
                  out = basic_pulses_along(map_, drawing, path.tangent_out);
     double spent = pulses / std::min(in, out);

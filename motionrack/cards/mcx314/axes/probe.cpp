@@ -98,7 +98,7 @@ bool ChipAxisGroup::probe_hit() {
 
 bool ChipAxisGroup::stopped_by_other() {
     for (int c = 0; c < channel_count; ++c) {
-        const AxisStatus status = driver_.axis_status(c);
+        const DriveStatus status = driver_.axis_status(c);
         if (status.at_limit() || status.alarm() || status.emergency()) return true;
     }
     return false;

@@ -73,7 +73,7 @@ Segmenter::PendingMove Segmenter::classify(const control::PlannedMove& move) {
         work.shape = Shape::pause;
         return work;
     }
-    const Drawing drawing = drawing_of(map_, work.path, move.axes);
+    const DriveMotion drawing = drawing_of(map_, work.path, move.axes);
     work.auxiliary = drawing.auxiliary;
     work.channels = drawing.channels;
     // From segment to segment of a trajectory the basic pulse must stay the same: the pulses of the longest axis.
@@ -116,7 +116,7 @@ Pulses4 Segmenter::pulses_at(const PendingMove& work, double s) const {
 
 /// Length at the end of a move for the deceleration from `top` to `exit` (V units). It includes the pulses for the
 /// chip's whole steps, the host's register accesses and the rounding to pulses.
-double Segmenter::fall_length(double units, const Speeds& speeds) const {
+double Segmenter::fall_length(double units, const MoveSpeeds& speeds) const {
     if (speeds.top <= speeds.exit) return 0;
     const double top = speeds.top, exit = speeds.exit;
     const double ticks_per_step = speed_carry / speeds.acceleration;
@@ -127,7 +127,7 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
 
 /// Position at which a move is divided so that its second segment decelerates to the exit speed. Both segments take the
 /// host's minimum time; otherwise the move is not divided and has the exit speed from its start.
-double Segmenter::fall_from(const PendingMove& work, double units, const Speeds& speeds) const {
+double Segmenter::fall_from(const PendingMove& work, double units, const MoveSpeeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
     const double least = min_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
@@ -153,7 +153,7 @@ void Segmenter::emit(const PendingMove& work, std::optional<double> next_units) 
     const bool rests = !next_units || work.move.exit_velocity <= 0 || work.turns_back;
     if (rests && !chain_open_ && work.move.jerk > 0 && emit_s_curve(work)) return;
     const double units = std::min(work.units_in, work.units_out);
-    Speeds speeds;
+    MoveSpeeds speeds;
     speeds.top = speed_units(units, work.move.cruise_velocity);
     speeds.exit = rests ? speed_units(work.units_out, start_speed(work.path.tangent_out))
                         : speed_units(std::min(work.units_out, *next_units), work.move.exit_velocity);
@@ -196,7 +196,7 @@ void Segmenter::close_chain() {
     chain_open_ = false;
 }
 
-void Segmenter::emit_straight(const PendingMove& work, const Speeds& speeds) {
+void Segmenter::emit_straight(const PendingMove& work, const MoveSpeeds& speeds) {
     if (work.auxiliary >= 0 && !work.move.constant_accel) return emit_chords(work, speeds);
     if (speeds.fall_from > 0) {
         const Pulses4 middle = pulses_at(work, speeds.fall_from);

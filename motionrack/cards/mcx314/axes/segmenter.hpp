@@ -76,7 +76,7 @@ class Segmenter {
         bool turns_back = false;                     ///< the next segment reverses
     };
     /// Division of a move: drives at `top` until `fall_from` along it, then at `exit`.
-    struct Speeds {
+    struct MoveSpeeds {
         double fall_from = 0;
         std::int32_t top = 1;
         std::int32_t exit = 1;
@@ -94,14 +94,14 @@ class Segmenter {
     static Pulses4 way_between(const PendingMove& work, const Pulses4& from, const Pulses4& to);
     static std::int64_t basic_pulses(const Pulses4& way);
     void look_at_next(PendingMove& work, const PendingMove& next) const;
-    void make_even(const PendingMove& work, Speeds& speeds);
+    void make_even(const PendingMove& work, MoveSpeeds& speeds);
     void emit_pause(const PendingMove& work);
     bool emit_s_curve(const PendingMove& planned);
-    void emit_straight(const PendingMove& work, const Speeds& speeds);
+    void emit_straight(const PendingMove& work, const MoveSpeeds& speeds);
     void emit_arcs(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration);
     bool emit_fitted_arc(const PendingMove& work, double from, double to, std::int32_t v, std::int32_t acceleration);
-    void emit_chords(const PendingMove& work, const Speeds& speeds);
-    void add_rest(const PendingMove& work, const Speeds& speeds);
+    void emit_chords(const PendingMove& work, const MoveSpeeds& speeds);
+    void add_rest(const PendingMove& work, const MoveSpeeds& speeds);
     void emit_line(const PendingMove& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
     std::size_t waits_for_room(const PendingMove& work, const Pulses4& to) const;
     void append(Segment segment, const PendingMove& work, const Pulses4& to);
@@ -109,8 +109,8 @@ class Segmenter {
     void note_split(const PendingMove& work, const char* why, double deviation_mm);
     Pulses4 pulses_at(const PendingMove& work, double s) const;
     double units_along(const PendingMove& work, const control::Point& tangent) const;
-    double fall_length(double units, const Speeds& speeds) const;
-    double fall_from(const PendingMove& work, double units, const Speeds& speeds) const;
+    double fall_length(double units, const MoveSpeeds& speeds) const;
+    double fall_from(const PendingMove& work, double units, const MoveSpeeds& speeds) const;
     bool leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;

@@ -56,14 +56,14 @@ Result<void> SingleAxis::check_speed(const char* what, double speed) const {
 
 Result<void> SingleAxis::check_free(const char* what) {
     if (busy()) return refuse(what, "it moves; stop it and wait for standstill");
-    const AxisStatus status = driver_.axis_status(settings_.channel);
+    const DriveStatus status = driver_.axis_status(settings_.channel);
     if (field("RR2", "EMG").test(status.rr2)) return refuse(what, "the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse(what, "its drive reports an alarm; clear it");
     return {};
 }
 
 Result<void> SingleAxis::check_into_limit(const char* what, bool negative) {
-    const AxisStatus status = driver_.axis_status(settings_.channel);
+    const DriveStatus status = driver_.axis_status(settings_.channel);
     if (!(negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2)) return {};
     return refuse(what, fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+",
                                     negative ? "+" : "-"));
@@ -304,7 +304,7 @@ void SingleAxis::stop_now() {
 
 /// Handles the end of a drive: checks whether the cause was an immediate stop.
 void SingleAxis::note_end() {
-    const AxisStatus status = driver_.axis_status(settings_.channel);
+    const DriveStatus status = driver_.axis_status(settings_.channel);
     if (trusted_ && (status.alarm() || status.emergency())) trust(false);
 }
 
@@ -370,7 +370,7 @@ control::AxisState SingleAxis::state() {
             break;
     }
     if (driver_.moving(mask())) return stopping_ ? AxisState::stopping : AxisState::moving;
-    const AxisStatus status = driver_.axis_status(settings_.channel);
+    const DriveStatus status = driver_.axis_status(settings_.channel);
     return field("RR2", "EMG").test(status.rr2) || field("RR2", "ALARM").test(status.rr2) ? AxisState::error
                                                                                           : AxisState::standstill;
 }

@@ -6,7 +6,7 @@
 
 namespace motionrack::mcx314 {
 
-struct HomeSearch {
+struct HomingSequence {
     std::int32_t hmst = 0;   ///< 0: none
     bool found = false;      ///< the event that the step waits for has occurred
     bool seen = false;       ///< HMST 12: IN1 was active
@@ -33,7 +33,7 @@ struct Extension {
     std::uint32_t buffer = 0;              ///< BR
     std::int64_t clear_until = 0;          ///< tick at which the clear pulse ends
     std::array<std::int64_t, 10> since{};  ///< filtered pins: first sample with a different wire level, -1: none
-    HomeSearch home;
+    HomingSequence home;
 
     Extension() { since.fill(-1); }
 };

@@ -40,7 +40,7 @@ bool Chip::home_input(int a, int step) const {
 
 /// In step 1 of a tick: true if the drive of a home search must stop, as by a stop input.
 bool Chip::home_found(int a) {
-    HomeSearch& home = state_.extension[a].home;
+    HomingSequence& home = state_.extension[a].home;
     const map::HomeDrive& drive = map::home_drive(home.hmst);
     if (drive.step == 4) return false;
     const bool active = home_input(a, drive.step);
@@ -63,7 +63,7 @@ void Chip::go_home(int a, int hmst) {
 /// Starts the first enabled step from `step` on; returns false if there is none, or on an error.
 bool Chip::next_home_step(int a, int step) {
     Extension& ext = state_.extension[a];
-    HomeSearch& home = ext.home;
+    HomingSequence& home = ext.home;
     if (step <= 1 && step_enabled(ext, 1) && !home_input(a, 1)) return go_home(a, 3), true;
     if (step <= 2 && step_enabled(ext, 2)) {
         home.seen = home_input(a, 2);
@@ -98,7 +98,7 @@ void Chip::end_home(int a) {
 /// Continues after the drive of a step.
 void Chip::end_home_drive(int a) {
     Extension& ext = state_.extension[a];
-    HomeSearch& home = ext.home;
+    HomingSequence& home = ext.home;
     const Axis& axis = state_.axis[a];
     const map::HomeDrive& drive = map::home_drive(home.hmst);
     if (home.cancelled) return end_home(a);

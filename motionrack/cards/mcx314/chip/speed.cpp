@@ -85,8 +85,8 @@ void Chip::s_turn_final(int a) {
     if (gen.ramp == 0) return;
     gen.aim = target(state_.axis[a]);
     if (gen.speed <= gen.aim) return over();
-    if (gen.phase == Phase::decreasing) {
-        gen.phase = Phase::increasing;
+    if (gen.phase == RatePhase::decreasing) {
+        gen.phase = RatePhase::increasing;
         gen.rate_part = 0;
     }
 }

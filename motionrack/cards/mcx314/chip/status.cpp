@@ -109,7 +109,7 @@ std::uint16_t Chip::status2(int a) const {
     if (limit_active(axis, -1)) v |= rr2::HLMTM.mask;
     if (alarm_active(axis)) v |= rr2::ALARM.mask;
     if (!state_.emergency_high) v |= rr2::EMG.mask;
-    const HomeSearch& home = state_.extension[a].home;
+    const HomingSequence& home = state_.extension[a].home;
     if (home.error) v |= rr2::HOME.mask;
     return rr2::HMST.set(v, static_cast<unsigned>(home.hmst));
 }

@@ -168,7 +168,7 @@ class Walk {
         if (law_.ramp == 0) return;
         direction_ = law_.ramp;
         if (rules::s_tick(law_, jerk_ticks_, limit())) ramp_over();
-        straight_middle_ |= law_.phase == Phase::constant;
+        straight_middle_ |= law_.phase == RatePhase::constant;
     }
 
     /// Ends a span at a change of the speed.

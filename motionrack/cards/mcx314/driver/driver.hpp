@@ -219,7 +219,7 @@ class Driver {
     std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at standstill; in paths only of AX1
     std::int32_t ReadCA(int axis);  ///< present acceleration, A units; at constant speed the last value
     MainStatus status();
-    AxisStatus axis_status(int axis);
+    DriveStatus axis_status(int axis);
     bool moving(unsigned axes) { return status().driving(axes); }
     /// Complete report of an axis for messages.
     AxisReport report(int axis);
@@ -284,7 +284,7 @@ class Driver {
         std::int64_t segments = 0;
         FourAxes at = {};  ///< LP at the end of all segments given
     };
-    struct Pattern {
+    struct PatternPulses {
         unsigned axes = 0;
         int count = 0;
         std::int64_t words = 0;
@@ -379,7 +379,7 @@ class Driver {
     unsigned path_axes_ = 0;            ///< axes of the last interpolation
     std::array<Piece, 2> pieces_ = {};  ///< the last two segments: running and queued, or previous and running
     Chain chain_;
-    Pattern pattern_;
+    PatternPulses pattern_;
     double arc_tolerance_ = 0.01;
     int vector_axes_ = 1;
 };

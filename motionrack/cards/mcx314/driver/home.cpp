@@ -21,8 +21,8 @@ constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2"
 
 // ---- polling
 
-Home::Look Home::look() {
-    Look out;
+Home::PollData Home::look() {
+    PollData out;
     out.driving = driver_.status().driving(mask());
     out.status = driver_.axis_status(axis_);
     const InputLevels levels = driver_.inputs(axis_);
@@ -33,12 +33,12 @@ Home::Look Home::look() {
     return out;
 }
 
-bool Home::limit_in_way(const Look& look, SearchDirection way) const {
+bool Home::limit_in_way(const PollData& look, SearchDirection way) const {
     return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
 /// The first change of the awaited home input is its edge; every later change is bounce.
-void Home::note_switch(const Look& look, Instant now) {
+void Home::note_switch(const PollData& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
     steady_since_ = now;
@@ -53,12 +53,12 @@ void Home::note_switch(const Look& look, Instant now) {
 
 /// The chip decelerates at the first contact, independent of bounce at the instant of a poll: the deceleration locates
 /// the edge.
-void Home::note_braking(const Look& look, Instant now) {
+void Home::note_braking(const PollData& look, Instant now) {
     if (braking_ || state_->until != HomingStopInput::on || !(look.switch_on || look.status.decelerating())) return;
     braking_ = edge_here(look, now);
 }
 
-ChipHomingEdge Home::edge_here(const Look& look, Instant now) {
+ChipHomingEdge Home::edge_here(const PollData& look, Instant now) {
     // At constant speed the chip stops at the edge itself; otherwise the edge was after the last poll, or within its
     // accesses.
     const bool exact = state_->pace != HomingSpeed::fast;
@@ -104,7 +104,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     running_ = true;
     stop_asked_ = turned_ = again_ = false;
     failed_in_ = {};
-    const Look first = look();
+    const PollData first = look();
     switch_on_ = first.switch_on;
     last_lp_ = first.lp;
     state_ = nullptr;
@@ -116,7 +116,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
 
 void Home::step(Instant now) {
     if (!running_) return;
-    const Look seen = look();
+    const PollData seen = look();
     note_switch(seen, now);
     // RR1 describes the last drive; it is valid only after a drive of this homing.
     const unsigned ended_by = state_->does == HomingAction::wait_end ? seen.status.rr1 : 0u;
@@ -139,7 +139,7 @@ void Home::step(Instant now) {
     last_cv_ = seen.cv;
 }
 
-void Home::enter(std::string_view name, const Look& look, Instant now) {
+void Home::enter(std::string_view name, const PollData& look, Instant now) {
     if (state_ != nullptr && !report_.stays.empty()) {
         report_.stays.back().took = now - report_.stays.back().from;
         report_.stays.back().to_lp = look.lp;
@@ -150,7 +150,7 @@ void Home::enter(std::string_view name, const Look& look, Instant now) {
     if (state_->does == HomingAction::end) finish(look, now);
 }
 
-bool Home::leave_by(HomingTransition cause, const Look& look, Instant now) {
+bool Home::leave_by(HomingTransition cause, const PollData& look, Instant now) {
     for (const HomeExit& exit : state_->exits) {
         if (exit.to.empty() || exit.cause != cause) continue;
         enter(exit.to, look, now);
@@ -159,7 +159,7 @@ bool Home::leave_by(HomingTransition cause, const Look& look, Instant now) {
     return false;
 }
 
-void Home::run(const Look& look, Instant now) {
+void Home::run(const PollData& look, Instant now) {
     switch (state_->does) {
         case HomingAction::look:
             if (look.switch_on)
@@ -216,7 +216,7 @@ std::int64_t Home::speed() const {
                                                : settings_.slow_v;
 }
 
-void Home::drive(const Look& look, Instant now) {
+void Home::drive(const PollData& look, Instant now) {
     if (state_->until == HomingStopInput::index && look.index_on && settings_.type != 5)
         return fail(HomeFault::index_at_switch, look, now);
     if (state_->until == HomingStopInput::distance) {
@@ -242,7 +242,7 @@ void Home::drive(const Look& look, Instant now) {
 }
 
 /// Ends a WAIT state at the end of the drive, by its cause.
-void Home::wait_end(const Look& look, Instant now) {
+void Home::wait_end(const PollData& look, Instant now) {
     if (look.driving) {
         at_speed_ = at_speed_ || (look.cv >= settings_.v && !look.switch_on);
         note_braking(look, now);
@@ -273,7 +273,7 @@ void Home::wait_end(const Look& look, Instant now) {
 }
 
 /// The awaited input has ended the drive. Its present level may be bounce; the chip's stop flag is decisive.
-void Home::drive_reached(const Look& look, Instant now) {
+void Home::drive_reached(const PollData& look, Instant now) {
     const ChipHomingEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
     report_.edges.push_back(edge);
     if (state_->until == HomingStopInput::index) {
@@ -318,7 +318,7 @@ bool Home::stopped_early() const {
     return state_->pace == HomingSpeed::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
 }
 
-void Home::zero(const Look& look, Instant now) {
+void Home::zero(const PollData& look, Instant now) {
     report_.zero_lp = look.lp;
     report_.zero_ep = driver_.ReadEPS(axis_);
     static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has checked the ranges
@@ -334,7 +334,7 @@ void Home::stop() {
     driver_.SlowStop(mask());
 }
 
-void Home::fail(HomeFault fault, const Look& look, Instant now) {
+void Home::fail(HomeFault fault, const PollData& look, Instant now) {
     report_.fault = fault;
     failed_in_ = state_->name;
     failed_after_ = distance(look);
@@ -344,7 +344,7 @@ void Home::fail(HomeFault fault, const Look& look, Instant now) {
     if (!look.driving) leave_by(HomingTransition::done, look, now);
 }
 
-void Home::finish(const Look& look, Instant now) {
+void Home::finish(const PollData& look, Instant now) {
     running_ = false;
     report_.homed = report_.fault == HomeFault::none;
     report_.took = now - report_.from;
@@ -357,7 +357,7 @@ void Home::finish(const Look& look, Instant now) {
 // ---- arithmetic
 
 /// Pulses made by the present drive.
-std::int64_t Home::distance(const Look& look) const {
+std::int64_t Home::distance(const PollData& look) const {
     return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp));
 }
 

@@ -109,7 +109,7 @@ Result<void> Home::check_ready() {
         return refuse("the pulses per unit must be a number other than 0");
     if (running_) return refuse("it is being homed already; stop that first");
     if (driver_.status().driving(mask())) return refuse("it moves; stop it and wait for standstill");
-    const AxisStatus status = driver_.axis_status(axis_);
+    const DriveStatus status = driver_.axis_status(axis_);
     if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     if (field("RR2", "HLMTP").test(status.rr2) && field("RR2", "HLMTM").test(status.rr2))
@@ -177,7 +177,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
 }
 
 /// The failure, its position, the present position and the remedy; or the home position.
-std::string Home::why_failed(const Look& look) const {
+std::string Home::why_failed(const PollData& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
     if (report_.homed)
         return settings_.unit == "pulses"

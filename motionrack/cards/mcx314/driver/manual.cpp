@@ -83,7 +83,7 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
         return refuse(fmt::format("it is {}; stop that first", state_name()));
     if (state_ == ManualState::standing && driver_.moving(mask()))
         return refuse("it moves already, by another command; stop that first");
-    const AxisStatus status = driver_.axis_status(axis_);
+    const DriveStatus status = driver_.axis_status(axis_);
     if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     const bool negative = v < 0;

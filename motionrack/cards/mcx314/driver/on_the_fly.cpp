@@ -25,7 +25,7 @@ std::string Driver::not_changeable(int axis, MainStatus main) {
     if (main.interpolating() && (path_axes_ >> axis & 1) && axis != (chain_.running ? chain_.generator : generator))
         return fmt::format("{} is interpolated with main axis {}", name,
                            axes_text(1u << (chain_.running ? chain_.generator : generator)));
-    const AxisStatus state = axis_status(axis);
+    const DriveStatus state = axis_status(axis);
     if (state.in_s_ramp()) return name + " is in a ramp of an S-curve, and the chip takes changes only after it";
     const std::int64_t speed = ReadCV(axis), wanted = written(axis, cmd::V).value_or(0),
                        low = written(axis, cmd::SV).value_or(0);

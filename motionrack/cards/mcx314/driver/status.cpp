@@ -97,7 +97,7 @@ constexpr Cause causes[] = {
     {"RR1", field("RR1", "IN3").mask, "input IN3 stopped it"},
 };
 
-const Cause* cause_of(const AxisStatus& status) {
+const Cause* cause_of(const DriveStatus& status) {
     for (const Cause& cause : causes)
         if (((cause.reg == "RR1" ? status.rr1 : status.rr2) & cause.mask) != 0) return &cause;
     return nullptr;
@@ -121,12 +121,12 @@ std::string explain(std::string_view reg, std::uint16_t word) {
     return out;
 }
 
-std::string AxisStatus::why_stopped() const {
+std::string DriveStatus::why_stopped() const {
     const Cause* cause = cause_of(*this);
     return cause ? cause->text : "";
 }
 
-std::string AxisStatus::what_next() const {
+std::string DriveStatus::what_next() const {
     const Cause* cause = cause_of(*this);
     if (!cause) return {};
     for (const StatusBit& bit : bits)

@@ -22,7 +22,7 @@ struct MainStatus {
 };
 
 /// Status of one axis: RR1 and RR2, decoded.
-struct AxisStatus {
+struct DriveStatus {
     std::uint16_t rr1 = 0;
     std::uint16_t rr2 = 0;
     bool accelerating() const { return field("RR1", "ASND").test(rr1); }
@@ -54,7 +54,7 @@ struct AxisReport {
     std::int32_t lp = 0;
     std::int32_t ep = 0;
     std::int32_t cv = 0;
-    AxisStatus status = {};
+    DriveStatus status = {};
     /// "X stands at LP 1200, EP 1200: the + limit switch was reached (RR1 1000h, RR2 0004h). Move it off ..."
     std::string text() const;
 };

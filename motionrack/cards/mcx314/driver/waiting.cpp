@@ -18,10 +18,10 @@ MainStatus Driver::status() {
     return {port_.read(reg::RR0)};
 }
 
-AxisStatus Driver::axis_status(int axis) {
+DriveStatus Driver::axis_status(int axis) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
     command(1u << axis, cmd::NOP);
-    AxisStatus status;
+    DriveStatus status;
     status.rr1 = port_.read(reg::RR1);
     status.rr2 = port_.read(reg::RR2);
     return status;

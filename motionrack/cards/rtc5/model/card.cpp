@@ -73,7 +73,7 @@ void Card::sync(Instant now) {
 
 /// Wires that are driven by events.
 void Card::put_out() {
-    Lines& l = lines_;
+    WireLevels& l = lines_;
     std::int64_t done = 0;
     for (; done < l.change_count && l.changes[static_cast<std::size_t>(done)] <= kernel_.now().count(); ++done)
         l.laser = !l.laser;

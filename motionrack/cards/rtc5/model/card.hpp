@@ -45,7 +45,7 @@ class Card final : public sim::DeferringDevice, private Sink {
 
   private:
     /// State of the input wires, and pending changes of the laser's wire.
-    struct Lines {
+    struct WireLevels {
         std::array<std::int64_t, encoder_count> levels{};  ///< A, B of an encoder as bits 0, 1
         std::array<std::int64_t, encoder_count> changed_at{-1, -1}, last_step{};
         std::int64_t change_count = 0;
@@ -70,7 +70,7 @@ class Card final : public sim::DeferringDevice, private Sink {
     Engine engine_;
     sim::DeviceId id_{};
     std::array<sim::WireId, std::size(map::pins)> wires_{};
-    Lines lines_;
+    WireLevels lines_;
     Sink* watcher_ = nullptr;
     sim::SnapshotState lists_, inputs_;
 };

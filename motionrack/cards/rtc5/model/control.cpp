@@ -120,7 +120,7 @@ Result<void> Engine::set_encoder_speed(int encoder, double counts_ms, double smo
     s.speed_encoder = encoder;
     s.speed_target = std::clamp(counts_ms, 100.0, 16000.0);
     s.speed_smooth = smooth;
-    for (Encoder& e : s.encoders) e.slow1 = e.slow2 = 0;
+    for (BeltCounter& e : s.encoders) e.slow1 = e.slow2 = 0;
     return {};
 }
 

@@ -51,10 +51,10 @@ CorrectionFile one_to_one();
 
 /// Interpolation table of the card: both coordinates of a node side by side, signed.
 struct Table {
-    struct Node {
+    struct GridNode {
         float x, y;  ///< 20-bit whole numbers, exact in a float
     };
-    std::array<Node, grid_nodes> nodes;
+    std::array<GridNode, grid_nodes> nodes;
     std::array<std::int32_t, 16> header{};  ///< header of the file
     std::string note;                       ///< note of the file
 };

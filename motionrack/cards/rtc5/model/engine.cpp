@@ -186,7 +186,7 @@ bool Engine::skip(std::int64_t limit) {
         if (n > limit) n = limit, over = false;
     }
     if (s.fly.on()) {
-        const std::optional<Extent> extent = steady_extent(a, n);
+        const std::optional<PlanExtent> extent = steady_extent(a, n);
         if (!extent) return false;
         extent_.take(*extent);
     }

@@ -198,11 +198,11 @@ class Engine {
     /// Counts/ms after the filters; 0 while not watched.
     double encoder_speed() const;
     /// x, y of head A in the last tick.
-    const Output& output() const { return state_.output; }
+    const HeadOutput& output() const { return state_.output; }
     const State& state() const { return state_; }
     /// Extent of the corrected position (before clipping) while a correction was on, since clear_extent: the margin of
     /// a job in the field. Not part of the state.
-    const Extent& extent() const { return extent_; }
+    const PlanExtent& extent() const { return extent_; }
     void clear_extent() { extent_ = {}; }
     State& mutable_state() { return state_; }
     std::span<Command> memory() { return {memory_.get(), static_cast<std::size_t>(settings_.list_memory)}; }
@@ -310,7 +310,7 @@ class Engine {
     void run_head(std::size_t number, std::size_t n);
     void keep_output(std::size_t n);
     void evaluate();
-    std::optional<Extent> steady_extent(const Activity& a, std::int64_t n) const;
+    std::optional<PlanExtent> steady_extent(const Activity& a, std::int64_t n) const;
 
     // recording.cpp
     void set_trigger(const Command& c, std::int64_t tick);
@@ -345,7 +345,7 @@ class Engine {
     Sink* sink_ = nullptr;     // sink of the run
     std::int64_t filled_ = 0;  // the laser's samples are complete up to this tick
     bool until_rest_ = false;  // the run ends when the card is idle
-    Extent extent_;
+    PlanExtent extent_;
     double block_z_ = 0;     // Z of the block's last tick
     bool evaluated_ = true;  // the output is that of the last tick
 };

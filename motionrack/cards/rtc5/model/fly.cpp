@@ -235,7 +235,7 @@ void Engine::end_online() {
 }
 
 void Engine::zero_encoder(std::size_t encoder) {
-    Encoder& e = state_.encoders[encoder];
+    BeltCounter& e = state_.encoders[encoder];
     if (state_.control_mode & control_reset_at_start)
         e.reset_at_start = 1;
     else

@@ -14,7 +14,7 @@ std::int32_t wrapped(std::int64_t v) {
 
 void Engine::sample_inputs() {
     for (int number = 0; number < encoder_count; ++number) {
-        Encoder& e = state_.encoders[static_cast<std::size_t>(number)];
+        BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
         e.previous = e.count();
         std::int32_t raw = wrapped(state_.input[static_cast<std::size_t>(number)]);
         if (inputs_ != nullptr) inputs_->counts(number, state_.tick, {&raw, 1});
@@ -34,7 +34,7 @@ void Engine::sample_inputs() {
 void Engine::filter_speed(std::size_t first, std::size_t n) {
     const double through = 1 - state_.speed_smooth;
     for (std::size_t number = 0; number < encoder_count; ++number) {
-        Encoder& e = state_.encoders[number];
+        BeltCounter& e = state_.encoders[number];
         const auto& counts = scratch_->counts[number];
         for (std::size_t i = first; i < n; ++i) {
             const std::int64_t before = i == 0 ? e.previous : counts[i - 1];
@@ -102,7 +102,7 @@ bool Engine::load_words(std::size_t n) {
 
 /// Encoder counts of n ticks from now on.
 void Engine::load_counts(int encoder, std::size_t n) {
-    const Encoder& e = state_.encoders[static_cast<std::size_t>(encoder)];
+    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(encoder)];
     std::int32_t* const out = scratch_->counts[encoder].data();
     const auto begin = static_cast<std::uint32_t>(e.count());
     if (e.simulated) {
@@ -138,7 +138,7 @@ void Engine::effective_counts(int encoder, std::size_t n) {
 }
 
 double Engine::effective(int encoder) const {
-    const Encoder& e = state_.encoders[static_cast<std::size_t>(encoder)];
+    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(encoder)];
     return e.count() + static_cast<double>(wrapped(e.count() - e.previous)) *
                            static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
 }
@@ -199,7 +199,7 @@ bool Engine::met_at(std::size_t i) const {
 bool Engine::met_now() const {
     const Activity& a = state_.activity;
     if (a.kind == ActivityKind::wait_encoder) {
-        const Encoder& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+        const BeltCounter& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
         return met(e.previous, e.count());
     }
     if (a.kind == ActivityKind::wait_range) {
@@ -236,7 +236,7 @@ std::int64_t Engine::simple_wait(bool& over) const {
     if (a.kind == ActivityKind::wait_mcbsp) return endless;
     const bool one = a.kind == ActivityKind::wait_encoder;
     if (!one) return state_.encoders[0].simulated || state_.encoders[1].simulated ? -1 : endless;
-    const Encoder& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
     if (!e.simulated) return endless;
     const std::int64_t value = a.value[0], mode = a.value[2], count = e.count();
     const auto ticks_for = [](std::int64_t counts) { return (counts + simulated_counts - 1) / simulated_counts; };
@@ -259,7 +259,7 @@ void Engine::advance_encoders(std::int64_t n) {
         filter_speed(1, static_cast<std::size_t>(n));
     }
     for (int number = 0; number < encoder_count; ++number) {
-        Encoder& e = state_.encoders[static_cast<std::size_t>(number)];
+        BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
         std::int32_t raw[2] = {wrapped(e.raw), wrapped(e.raw)};
         if (inputs_ != nullptr) inputs_->counts(number, state_.tick + n - 2, raw);
         e.travel += e.simulated ? simulated_counts * (n - 2) : wrapped(raw[0] - e.raw);

@@ -34,7 +34,7 @@ void transform(double* __restrict x, double* __restrict y, std::size_t n, const 
     }
 }
 
-Extent extent(const double* x, const double* y, std::size_t n) {
+PlanExtent extent(const double* x, const double* y, std::size_t n) {
     // Four of each, so one comparison need not wait for the previous one.
     double lx[4], gx[4], ly[4], gy[4];
     for (int k = 0; k < 4; ++k) lx[k] = gx[k] = x[0], ly[k] = gy[k] = y[0];
@@ -60,7 +60,7 @@ namespace {
 using Pair = double __attribute__((vector_size(16)));
 using Whole = std::int64_t __attribute__((vector_size(16)));
 
-inline Pair node(const Table::Node& n) {
+inline Pair node(const Table::GridNode& n) {
     return Pair{static_cast<double>(n.x), static_cast<double>(n.y)};
 }
 inline double into_field(double v) {
@@ -79,8 +79,8 @@ void head_loop(const double* __restrict x, const double* __restrict y, std::int3
             const Pair u = (v + grid_zero) * (1 / grid_step);
             const int column = static_cast<int>(u[0]), row = static_cast<int>(u[1]);
             const double fx = u[0] - column, fy = u[1] - row;
-            const Table::Node *const low = table->nodes.data() + row * grid_side + column, *const high =
-                                                                                               low + grid_side;
+            const Table::GridNode *const low = table->nodes.data() + row * grid_side + column, *const high =
+                                                                                                   low + grid_side;
             const Pair a = node(low[0]), c = node(high[0]);
             const Pair below = a + (node(low[1]) - a) * fx, above = c + (node(high[1]) - c) * fx;
             v = below + (above - below) * fy;

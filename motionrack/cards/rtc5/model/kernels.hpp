@@ -15,7 +15,7 @@ void line(double* x, double* y, std::size_t n, Point from, Point step, std::int6
 void hold(double* x, double* y, std::size_t n, Point p);
 void add_scaled(double* x, const double* counts, std::size_t n, double scale);
 void transform(double* x, double* y, std::size_t n, const Transform& t);
-Extent extent(const double* x, const double* y, std::size_t n);
+PlanExtent extent(const double* x, const double* y, std::size_t n);
 /// Last steps of a head: clipping to the field of 20 bits, table (nullptr: none), gain * v + offset, rounding,
 /// clipping.
 void head(const double* x, const double* y, std::int32_t* to_x, std::int32_t* to_y, std::size_t n, const Table* table,

@@ -76,7 +76,7 @@ void Engine::raise(std::uint32_t bits, std::int64_t tick) {
 
 void Engine::check_flags(std::size_t n) {
     const Scratch& b = *scratch_;
-    const Extent e = kernels::extent(b.x.data(), b.y.data(), n);
+    const PlanExtent e = kernels::extent(b.x.data(), b.y.data(), n);
     extent_.take(e);
     const auto& m = state_.limits;
     struct Bound {
@@ -154,7 +154,7 @@ void Engine::run_head(std::size_t number, std::size_t n) {
 /// Output of the last of n ticks.
 void Engine::keep_output(std::size_t n) {
     const Scratch& b = *scratch_;
-    Output& o = state_.output;
+    HeadOutput& o = state_.output;
     o.a = {b.out[0][n - 1], b.out[1][n - 1]};
     o.b = state_.heads[1].table != 0 ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
                                      : std::array<std::int32_t, 2>{};
@@ -179,13 +179,13 @@ void Engine::evaluate() {
 
 /// Extent of n ticks of the activity, if it is far enough inside field and limits that no flag can be set. Positions
 /// and counts are linear in time, so their end points suffice.
-std::optional<Extent> Engine::steady_extent(const Activity& a, std::int64_t n) const {
+std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t n) const {
     const Fly& f = state_.fly;
     const bool encoders = f.kind == FlyKind::encoder;
     if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
         inputs_ != nullptr)
         return std::nullopt;
-    for (const Encoder& e : state_.encoders)
+    for (const BeltCounter& e : state_.encoders)
         if (encoders && e.simulated && e.count() + simulated_counts * std::min<std::int64_t>(n, 1 << 29) > 2147483647)
             return std::nullopt;
     if (n > 1 << 28) return std::nullopt;
@@ -198,12 +198,12 @@ std::optional<Extent> Engine::steady_extent(const Activity& a, std::int64_t n) c
     const Point words = mcbsp_now();
     const auto value = [&](std::size_t axis, std::int64_t i) {
         if (!encoders) return axis == 0 ? words.x : words.y;
-        const Encoder& e = state_.encoders[axis];
+        const BeltCounter& e = state_.encoders[axis];
         if (i == 0) return effective(static_cast<int>(axis));
         const double each = e.simulated ? simulated_counts : 0;
         return e.count() + each * static_cast<double>(i) + each * static_cast<double>(state_.tracking_error[axis]);
     };
-    Extent out;
+    PlanExtent out;
     for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {
         const Point p = moves ? position_of(a, a.done + i + 1) : state_.p;
         const Point q = {f.x ? p.x + f.scale_x * value(0, i) : p.x, f.y ? p.y + f.scale_y * value(1, i) : p.y};

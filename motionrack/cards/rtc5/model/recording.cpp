@@ -55,28 +55,28 @@ std::int32_t Engine::value_of(const SignalInfo& s) const {
     const bool no_head = s.head == 1 && head.table == 0;
     Point p = state_.output.corrected;
     switch (s.source) {
-        case Source::laser:
+        case SignalSource::laser:
             return state_.laser.on != 0;
-        case Source::corrected:
+        case SignalSource::corrected:
             return whole(s.axis == 0 ? p.x : p.y);
-        case Source::z:
+        case SignalSource::z:
             return whole(state_.output.z);
-        case Source::transformed:
-        case Source::table: {
+        case SignalSource::transformed:
+        case SignalSource::table: {
             if (no_head) return 0;
             if (!head.transform.neutral) kernels::transform(&p.x, &p.y, 1, head.transform);
-            if (s.source == Source::transformed) return whole(s.axis == 0 ? p.x : p.y);
+            if (s.source == SignalSource::transformed) return whole(s.axis == 0 ? p.x : p.y);
             std::array<std::int32_t, 2> out{};
             kernels::head(&p.x, &p.y, &out[0], &out[1], 1, table(head.table), {1, 1}, {0, 0});
             return out[s.axis];
         }
-        case Source::output:
+        case SignalSource::output:
             return (s.head == 0 ? state_.output.a : state_.output.b)[s.axis];
-        case Source::io:
+        case SignalSource::io:
             return static_cast<std::int32_t>(state_.io);
-        case Source::count:
+        case SignalSource::count:
             return encoder(s.head);
-        case Source::mark_speed:
+        case SignalSource::mark_speed:
             return whole(state_.mark_speed);
     }
     return 0;

@@ -56,7 +56,7 @@ void Engine::begin_start() {
         state_.startstop_info |= startstop_bit("START_LOST");
         return tell_start(StartFate::busy);
     }
-    for (Encoder& e : state_.encoders) {
+    for (BeltCounter& e : state_.encoders) {
         if (e.reset_at_start) e.zero = e.travel;
         e.reset_at_start = 0;
     }
@@ -74,7 +74,7 @@ void Engine::tell_start(StartFate fate) {
 /// Ticks from the present one to that of the first waiting start, at most `limit`.
 std::int64_t Engine::ticks_to_start(std::int64_t limit) {
     const Start& start = state_.starts.queue[0];
-    const Encoder& e = state_.encoders[static_cast<std::size_t>(start.encoder)];
+    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(start.encoder)];
     if (e.simulated) {
         if (start.delay < 0) return limit;
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);

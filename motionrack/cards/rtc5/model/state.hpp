@@ -20,12 +20,12 @@ struct Point {
 };
 
 /// Extent of positions; empty at first.
-struct Extent {
+struct PlanExtent {
     double min_x = std::numeric_limits<double>::infinity(), max_x = -std::numeric_limits<double>::infinity();
     double min_y = std::numeric_limits<double>::infinity(), max_y = -std::numeric_limits<double>::infinity();
 
     bool empty() const { return !(min_x <= max_x); }
-    void take(const Extent& e) {
+    void take(const PlanExtent& e) {
         min_x = std::min(min_x, e.min_x), max_x = std::max(max_x, e.max_x);
         min_y = std::min(min_y, e.min_y), max_y = std::max(max_y, e.max_y);
     }
@@ -59,7 +59,7 @@ struct Activity {
     Point direction;                      ///< direction at its end, for the corner
 };
 
-struct Encoder {
+struct BeltCounter {
     std::int64_t travel = 0, zero = 0, raw = 0;
     std::int64_t previous = 0;  ///< count of the previous tick
     std::int64_t simulated = 0, reset_at_start = 0;
@@ -177,7 +177,7 @@ struct Head {
     Point gain{1, 1}, offset;
 };
 
-struct Output {
+struct HeadOutput {
     std::array<std::int32_t, 2> a{}, b{};  ///< x, y of both heads
     double z = 0;
     Point corrected;  ///< after fly
@@ -192,7 +192,7 @@ struct State {
     Lists lists;
     double jump_speed = 1000, mark_speed = 1000;
     Delays delays;
-    std::array<Encoder, encoder_count> encoders{};
+    std::array<BeltCounter, encoder_count> encoders{};
     std::array<std::int64_t, encoder_count> input{};  ///< counts of the input lines
     std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
     std::array<std::int64_t, encoder_count> tracking_error{};
@@ -216,7 +216,7 @@ struct State {
     Wobbel wobbel;
     Recording recording;
     Sender sender;
-    Output output;
+    HeadOutput output;
     std::uint64_t memory_hash = 0;  ///< hash of the lists' memory: every command at its position; 0: empty
 };
 

@@ -308,7 +308,7 @@ TEST(Rtc5Fly, TheExtentSaysHowMuchRoomAJobLeavesWhetherOneLooksOrNot) {
         return rig.card.extent();
     };
     for (const double scale : {0.5, 100.0}) {
-        const Extent seen = extent(scale, true), unseen = extent(scale, false);
+        const PlanExtent seen = extent(scale, true), unseen = extent(scale, false);
         EXPECT_NEAR(seen.max_x, unseen.max_x, 1e-6);
         EXPECT_NEAR(seen.min_y, unseen.min_y, 1e-6);
         EXPECT_NEAR(seen.min_y, -7000, 1e-6);

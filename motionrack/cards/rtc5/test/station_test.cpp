@@ -41,7 +41,7 @@ class Machine final : public Sink, public Inputs {
         station.workpiece().finish();
         // The part's coordinates begin at the start of the correction: at the travel of the tick that zeroes the
         // encoder, which is tick 0.
-        const std::vector<parts::Segment> drawing = {
+        const std::vector<parts::DrawnSegment> drawing = {
             {{-5, -5}, {5, -5}}, {{5, -5}, {5, 5}}, {{5, 5}, {-5, 5}}, {{-5, 5}, {-5, -5}}};
         return station.workpiece().compare(drawing, 0.02, 0.03);
     }

@@ -142,7 +142,7 @@ std::string fault_of(const AxisProfile& travel, const Task& task, double within)
         if (!(std::fabs(accel - at.accel) <= 1e-12 * a_size + instant * m.jerk)) return "jump of the acceleration";
         return "";
     };
-    for (const AxisProfile::Phase& p : travel.phases()) {
+    for (const AxisProfile::CubicPhase& p : travel.phases()) {
         if (!(p.end > begin)) return "order of phases";
         if (p.jerk != 0 && std::fabs(p.jerk) != m.jerk) return "jerk";
         for (int i = 0; i <= 8; ++i) {
@@ -174,7 +174,7 @@ double entry_of(const AxisProfile& travel, const KinematicLimits& limits) {
         return std::fabs(s.accel) > limits.accel * (1 + 1e-9) || std::fabs(s.speed) > limits.speed * (1 + 1e-9);
     };
     double entry = 0, begin = 0;
-    for (const AxisProfile::Phase& p : travel.phases()) {
+    for (const AxisProfile::CubicPhase& p : travel.phases()) {
         const double length = p.end - begin;
         for (int i = 0; i < 64; ++i) {
             double out = begin + length * i / 64, in = begin + length * (i + 1) / 64;
@@ -210,7 +210,7 @@ std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
         const auto two = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
         for (const auto* out : {&one, &two}) {
             if (!*out) continue;
-            for (const AxisProfile::Phase& p : (*out)->phases())
+            for (const AxisProfile::CubicPhase& p : (*out)->phases())
                 for (const double x : {p.end, p.zero, p.seconds, p.position, p.speed, p.accel, p.jerk}) fold(x);
             fold((*out)->sample(0.3 * (*out)->duration()).position);
         }

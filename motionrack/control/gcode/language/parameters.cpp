@@ -27,7 +27,7 @@ std::size_t Parameters::room_for(std::string_view name) const {
 
 bool Parameters::enter(std::span<const double> arguments) {
     if (level() == max_call_depth) return false;
-    Call& call = calls_.emplace_back();
+    SubprogramCall& call = calls_.emplace_back();
     call.keeps = true;
     for (int i = 0; i < max_arguments; ++i) {
         const auto at = static_cast<std::size_t>(i);

@@ -47,7 +47,7 @@ class Parameters {
 
   private:
     using Names = std::map<std::string, double, std::less<>>;
-    struct Call {
+    struct SubprogramCall {
         std::array<double, max_arguments> kept = {};
         bool keeps = false;  ///< `kept` holds #1 .. #30 of the caller
         Names names;
@@ -60,7 +60,7 @@ class Parameters {
     std::vector<double> numbered_;  ///< empty until the first set()
     Names global_;
     Names main_;
-    std::vector<Call> calls_;
+    std::vector<SubprogramCall> calls_;
     std::optional<double> returned_;
 };
 

@@ -20,7 +20,7 @@ ProgramFlow::ProgramFlow(std::string_view text, const Settings& settings, std::s
       end_(settings.block_delete),
       max_lines_(settings.max_lines),
       subprogram_(settings.subprogram) {
-    sources_.push_back(std::make_unique<Source>());
+    sources_.push_back(std::make_unique<ProgramSource>());
     source_ = sources_.back().get();
     source_->text = text;
     source_->file = std::move(file);
@@ -53,7 +53,7 @@ bool ProgramFlow::fail(const OWordLocation& place, std::size_t column, std::stri
     return false;
 }
 
-bool ProgramFlow::make_index(Source& source) {
+bool ProgramFlow::make_index(ProgramSource& source) {
     source.index = index_owords(source.text, block_delete_);
     for (Problem& problem : source.index->problems) {
         problem.file = source.file;
@@ -83,7 +83,7 @@ bool ProgramFlow::within_budget(const OWordLocation& place) {
     furthest_ = highest_line();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
-    const Source& main = *sources_.front();
+    const ProgramSource& main = *sources_.front();
     if (walked_ <= max_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(place, place.column,

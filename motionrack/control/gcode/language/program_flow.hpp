@@ -32,7 +32,7 @@ class ProgramFlow {
     Outcome<void> line_accepted(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.percent || !end_.begun()) see_end(block.text);
-        if (block.flow) return follow(interpreter);
+        if (block.has_o_word) return follow(interpreter);
         if (block.has_m(m_program)) return follow_program(interpreter);
         if (interpreter.is_lathe_cycle()) return follow_contour(interpreter);
         if (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30)) end();
@@ -57,7 +57,7 @@ class ProgramFlow {
 
   private:
     /// A text with O words: the program or the file of a subprogram.
-    struct Source {
+    struct ProgramSource {
         std::string kept;  ///< storage of `text`, unless it is the program
         std::string_view text;
         std::string file;
@@ -65,7 +65,7 @@ class ProgramFlow {
     };
     struct CallFrame {
         ProgramLines back;
-        Source* source = nullptr;
+        ProgramSource* source = nullptr;
         std::size_t repeats = 0;
         std::int32_t called_at = 0;
         std::int32_t program = no_location;  ///< numbered program: its start
@@ -77,7 +77,7 @@ class ProgramFlow {
         std::int64_t left;
     };
     struct Target {
-        Source* source;
+        ProgramSource* source;
         std::int32_t place;
     };
 
@@ -96,7 +96,7 @@ class ProgramFlow {
     void back_to_caller();
     void see_end(std::string_view line);
     void place(Problem& problem) const;
-    bool make_index(Source& source);
+    bool make_index(ProgramSource& source);
     bool within_budget(const OWordLocation& place);
     bool execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
     bool choose(std::int32_t at, Interpreter& interpreter);
@@ -129,8 +129,8 @@ class ProgramFlow {
     std::int64_t walked_ = 0;        ///< lines, up to the last jump
     std::int32_t counted_from_ = 0;  ///< target line of the last jump
     SubprogramSource subprogram_;
-    std::vector<std::unique_ptr<Source>> sources_;
-    Source* source_;
+    std::vector<std::unique_ptr<ProgramSource>> sources_;
+    ProgramSource* source_;
     std::vector<CallFrame> frames_;
     std::vector<Repeat> repeats_;
     std::vector<Problem> faults_;

@@ -113,7 +113,7 @@ void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t
 }
 
 bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
-    const auto look = [&](Source* source) {
+    const auto look = [&](ProgramSource* source) {
         if (!source->index) return false;
         const auto& named = numbered ? source->index->programs : source->index->subs;
         const auto found = named.find(label);
@@ -160,11 +160,11 @@ bool ProgramFlow::load(const OWordLocation& place, const std::string& label, boo
         problem_.kind = text.error().kind;
         return false;
     }
-    auto source = std::make_unique<Source>();
+    auto source = std::make_unique<ProgramSource>();
     source->kept = std::move(*text);
     source->text = source->kept;
     source->file = name + ".ngc";
-    Source& kept = *sources_.emplace_back(std::move(source));
+    ProgramSource& kept = *sources_.emplace_back(std::move(source));
     if (!make_index(kept)) {
         problem_ = take_fault();
         return false;

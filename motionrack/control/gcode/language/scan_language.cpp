@@ -69,13 +69,13 @@ bool Scanner::assignment() {
 }
 
 /// An O word must be first on its line; ProgramFlow reads the rest.
-bool Scanner::flow(std::size_t column) {
+bool Scanner::o_word(std::size_t column) {
     if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 ||
         !block_.assignments.empty()) {
         return fail_at(column, GrblStatus::unsupported,
                        "an O word must be first on its line; put the words before it on a separate line");
     }
-    block_.flow = true;
+    block_.has_o_word = true;
     block_.flow_column = static_cast<std::uint16_t>(column);
     at_ = end_;
     return true;

@@ -23,7 +23,7 @@ class ALineWithEasedEnds : public testing::Test {
     }
 
     /// Reduces the jerk at one or both ends.
-    std::vector<LimitInterval> spans() {
+    std::vector<LimitInterval> intervals() {
         const double length = between(0.05, 100), speed = between(5, 200), accel = between(200, 5000),
                      jerk = between(5e3, 1e6);
         std::vector<LimitInterval> out(3, {0, speed, accel, jerk});
@@ -43,12 +43,12 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
     int written = 0;
     for (int n = 0; n < 2000; ++n) {
         SCOPED_TRACE(n);
-        const std::vector<LimitInterval> line = spans();
+        const std::vector<LimitInterval> line = intervals();
         std::vector<ProfileSegment> feed;
         if (!write_reduced_jerk_profile(line, feed)) continue;
         ++written;
         double length = 0, end = line[0].length;
-        for (const LimitInterval& span : line) length += span.length;
+        for (const LimitInterval& interval : line) length += interval.length;
         PathMotion before;
         std::size_t at = 0;
         for (const ProfileSegment& piece : feed) {

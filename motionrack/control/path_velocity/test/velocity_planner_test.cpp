@@ -21,10 +21,10 @@ class RandomSpans {
     /// Deceleration has the same limit as acceleration, or another one.
     std::vector<LimitInterval> next(int most, bool brakes_alike = true) {
         std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(most));
-        for (LimitInterval& span : out)
-            span = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
+        for (LimitInterval& interval : out)
+            interval = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
         if (!brakes_alike)
-            for (LimitInterval& span : out) span.brake = between(10, 1e4);
+            for (LimitInterval& interval : out) interval.brake = between(10, 1e4);
         return out;
     }
     double between(double least, double most) {
@@ -35,9 +35,9 @@ class RandomSpans {
     std::mt19937 random_;
 };
 
-double length_of(const std::vector<LimitInterval>& spans) {
+double length_of(const std::vector<LimitInterval>& intervals) {
     double length = 0;
-    for (const LimitInterval& span : spans) length += span.length;
+    for (const LimitInterval& interval : intervals) length += interval.length;
     return length;
 }
 
@@ -51,30 +51,32 @@ double seconds_of_feed(std::span<const ProfileSegment> pieces) {
 struct FeedPeaks {
     double speed = 0, accel = 0, jerk = 0, jump = 0;
 };
-FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<LimitInterval>& spans) {
+FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<LimitInterval>& intervals) {
     FeedPeaks out;
-    const double length = length_of(spans);
+    const double length = length_of(intervals);
     PathMotion last;
     const auto jump = [&](const PathMotion& state) {
         out.jump = std::max({out.jump, std::fabs(state.u - last.u) / length,
                              std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
-                             std::fabs(state.accel - last.accel) / spans.front().accel});
+                             std::fabs(state.accel - last.accel) / intervals.front().accel});
     };
     std::size_t k = 0;
-    double end = spans.front().length;
+    double end = intervals.front().length;
     for (const ProfileSegment& piece : pieces) {
         for (int i = 0; i <= 6; ++i) {
             const PathMotion state = piece.at(piece.seconds * i / 6);
             if (i == 0) jump(state);
-            while (k + 1 < spans.size() && state.u > end + 1e-10 * length) end += spans[++k].length;
+            while (k + 1 < intervals.size() && state.u > end + 1e-10 * length) end += intervals[++k].length;
             // Where two intervals meet, the limits of either one apply.
-            LimitInterval span = spans[k];
-            if (k + 1 < spans.size() && state.u > end - 1e-10 * length)
-                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel),
-                        std::max(span.jerk, spans[k + 1].jerk), std::max(span.brake, spans[k + 1].brake)};
-            out.speed = std::max(out.speed, state.speed / span.speed);
-            out.accel = std::max({out.accel, state.accel / span.accel, -state.accel / span.brake});
-            out.jerk = std::max(out.jerk, std::fabs(state.jerk) / span.jerk);
+            LimitInterval interval = intervals[k];
+            if (k + 1 < intervals.size() && state.u > end - 1e-10 * length)
+                interval = {0, std::max(interval.speed, intervals[k + 1].speed),
+                            std::max(interval.accel, intervals[k + 1].accel),
+                            std::max(interval.jerk, intervals[k + 1].jerk),
+                            std::max(interval.brake, intervals[k + 1].brake)};
+            out.speed = std::max(out.speed, state.speed / interval.speed);
+            out.accel = std::max({out.accel, state.accel / interval.accel, -state.accel / interval.brake});
+            out.jerk = std::max(out.jerk, std::fabs(state.jerk) / interval.jerk);
             last = state;
         }
     }
@@ -86,12 +88,12 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
         for (const double speed : {100.0, 5.0}) {
-            const std::vector<LimitInterval> spans = {{0.3 * length, speed, 1000, 20'000},
-                                                      {0.7 * length, speed, 1000, 20'000}};
-            const auto pieces = planner.plan(spans);
+            const std::vector<LimitInterval> intervals = {{0.3 * length, speed, 1000, 20'000},
+                                                          {0.7 * length, speed, 1000, 20'000}};
+            const auto pieces = planner.plan(intervals);
             EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(length, speed, 1000, 20'000).duration(), 1, 1e-12)
                 << length;
-            const FeedPeaks peaks = peaks_of(pieces, spans);
+            const FeedPeaks peaks = peaks_of(pieces, intervals);
             EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
             EXPECT_LE(peaks.jump, 1e-9) << length;
         }
@@ -101,10 +103,10 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
 TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
     VelocityPlanner planner;
     for (const double jerk : {1e9, 1e12, 1e15}) {
-        const std::vector<LimitInterval> spans = {{92, 50, 1000, jerk}};
-        const auto pieces = planner.plan(spans);
+        const std::vector<LimitInterval> intervals = {{92, 50, 1000, jerk}};
+        const auto pieces = planner.plan(intervals);
         EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
-        const FeedPeaks peaks = peaks_of(pieces, spans);
+        const FeedPeaks peaks = peaks_of(pieces, intervals);
         EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
         EXPECT_LE(peaks.jump, 1e-8) << jerk;  // rounding errors of 50 beside velocities of 1e-12
         for (const ProfileSegment& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
@@ -114,10 +116,10 @@ TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
 TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
-        const std::vector<LimitInterval> spans = {{0.5 * length, 100, 1000, 20'000},
-                                                  {0.5 * length, 100.000001, 1000, 20'000}};
+        const std::vector<LimitInterval> intervals = {{0.5 * length, 100, 1000, 20'000},
+                                                      {0.5 * length, 100.000001, 1000, 20'000}};
         const double quickest = SCurveProfile(length, 100, 1000, 20'000).duration();
-        const double seconds = seconds_of_feed(planner.plan(spans));
+        const double seconds = seconds_of_feed(planner.plan(intervals));
         EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
         EXPECT_LE(seconds, quickest * 1.01) << length;
     }
@@ -127,8 +129,8 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
     VelocityPlanner planner;
     RandomSpans random(20261122);
     for (int run = 0; run < 3000; ++run) {
-        const std::vector<LimitInterval> spans = random.next(12, run % 2 == 0);
-        const FeedPeaks peaks = peaks_of(planner.plan(spans), spans);
+        const std::vector<LimitInterval> intervals = random.next(12, run % 2 == 0);
+        const FeedPeaks peaks = peaks_of(planner.plan(intervals), intervals);
         ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
         ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
@@ -139,16 +141,16 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
 /// Acceleration and deceleration have separate limits.
 TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
     VelocityPlanner planner;
-    const std::vector<LimitInterval> spans = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
+    const std::vector<LimitInterval> intervals = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
     double up = 0, down = 0;
-    for (const ProfileSegment& piece : planner.plan(spans)) {
+    for (const ProfileSegment& piece : planner.plan(intervals)) {
         up = std::max(up, piece.at(0).accel);
         down = std::min(down, piece.at(0).accel);
     }
     EXPECT_NEAR(up, 1000, 1e-3);
     EXPECT_NEAR(down, -4000, 1e-3);
     const double peak = std::sqrt(200 / (1.0 / 2000 + 1.0 / 8000));
-    EXPECT_NEAR(seconds_of_feed(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
+    EXPECT_NEAR(seconds_of_feed(planner.plan(intervals)), peak / 1000 + peak / 4000, 1e-3);
 }
 
 /// A stop may be faster than passing a slow interval, because it needs no velocity for leaving it.
@@ -157,11 +159,11 @@ TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
     RandomSpans random(7);
     int slower = 0;
     for (int run = 0; run < 1000; ++run) {
-        const std::vector<LimitInterval> spans = random.next(6);
+        const std::vector<LimitInterval> intervals = random.next(6);
         double stopping = 0;
-        for (const LimitInterval& span : spans)
-            stopping += SCurveProfile(span.length, span.speed, span.accel, span.jerk).duration();
-        const double seconds = seconds_of_feed(planner.plan(spans));
+        for (const LimitInterval& interval : intervals)
+            stopping += SCurveProfile(interval.length, interval.speed, interval.accel, interval.jerk).duration();
+        const double seconds = seconds_of_feed(planner.plan(intervals));
         ASSERT_LE(seconds, 1.5 * stopping) << run;
         slower += seconds > 1.01 * stopping;
     }
@@ -170,9 +172,10 @@ TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
 
 TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
     VelocityPlanner planner;
-    const std::vector<LimitInterval> spans = {{50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
+    const std::vector<LimitInterval> intervals = {
+        {50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
     double slowest = 100, fastest = 0;
-    for (const ProfileSegment& piece : planner.plan(spans)) {
+    for (const ProfileSegment& piece : planner.plan(intervals)) {
         const PathMotion state = piece.at(0);
         if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.speed);
         fastest = std::max(fastest, state.speed);
@@ -184,24 +187,24 @@ TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
 /// A slalom: the velocity limit from its curvature rises and falls, and the profile follows it.
 TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
     VelocityPlanner planner;
-    std::vector<LimitInterval> spans;
+    std::vector<LimitInterval> intervals;
     double quickest = 0;
     for (int i = 0; i < 20'000; ++i) {
         const double speed = 100 + 50 * std::sin(i * 0.002);
-        spans.push_back({0.1, speed, 2000, 100'000});
+        intervals.push_back({0.1, speed, 2000, 100'000});
         quickest += 0.1 / speed;
     }
     const double ends = 2 * (SCurveProfile(1000, 100, 2000, 100'000).duration() - 10);
-    EXPECT_LE(seconds_of_feed(planner.plan(spans)), 1.003 * quickest + ends);
+    EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * quickest + ends);
 }
 
 TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
     VelocityPlanner used, fresh;
     RandomSpans random(3);
     for (int run = 0; run < 50; ++run) {
-        const std::vector<LimitInterval> spans = random.next(9);
+        const std::vector<LimitInterval> intervals = random.next(9);
         fresh = VelocityPlanner();
-        const auto a = used.plan(spans), b = fresh.plan(spans);
+        const auto a = used.plan(intervals), b = fresh.plan(intervals);
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i) {
             ASSERT_EQ(a[i].velocity2, b[i].velocity2);
@@ -214,12 +217,13 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
     VelocityPlanner planner;
     RandomSpans random(11);
     for (int run = 0; run < 2000; ++run) {
-        std::vector<LimitInterval> spans(1 + run % 5);
-        for (LimitInterval& span : spans)
-            span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7),
-                    random.between(1e-3, 1e10)};
-        for (LimitInterval& span : spans) span.brake = run % 2 == 0 ? span.accel : random.between(1e-3, 1e7);
-        const auto pieces = planner.plan(spans);
+        std::vector<LimitInterval> intervals(1 + run % 5);
+        for (LimitInterval& interval : intervals)
+            interval = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7),
+                        random.between(1e-3, 1e10)};
+        for (LimitInterval& interval : intervals)
+            interval.brake = run % 2 == 0 ? interval.accel : random.between(1e-3, 1e7);
+        const auto pieces = planner.plan(intervals);
         const double seconds = seconds_of_feed(pieces);
         ASSERT_TRUE(seconds > 0 && seconds < 1e12) << run << ": " << seconds;
         ASSERT_LT(pieces.size(), 2500U) << run;
@@ -228,12 +232,13 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
 }
 
 TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
-    std::vector<LimitInterval> spans;
+    std::vector<LimitInterval> intervals;
     for (int i = 0; i < 300; ++i)
-        spans.push_back({0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
+        intervals.push_back(
+            {0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
     std::uint64_t fold = 0;
     VelocityPlanner planner;
-    for (const ProfileSegment& piece : planner.plan(spans))
+    for (const ProfileSegment& piece : planner.plan(intervals))
         for (const double value : {piece.begin, piece.length, piece.seconds, piece.velocity2, piece.velocity2_slope,
                                    piece.velocity2_curvature, piece.jerk, piece.at(0.3 * piece.seconds).u})
             fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
@@ -258,14 +263,14 @@ TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
 }
 
 /// Returns the remaining intervals from a position on.
-std::vector<LimitInterval> spans_from(const std::vector<LimitInterval>& spans, double place) {
+std::vector<LimitInterval> intervals_from(const std::vector<LimitInterval>& intervals, double place) {
     std::vector<LimitInterval> out;
     double end = 0;
-    for (LimitInterval span : spans) {
-        end += span.length;
+    for (LimitInterval interval : intervals) {
+        end += interval.length;
         if (end <= place) continue;
-        span.length = std::min(span.length, end - place);
-        out.push_back(span);
+        interval.length = std::min(interval.length, end - place);
+        out.push_back(interval);
     }
     return out;
 }
@@ -275,16 +280,16 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
     RandomSpans random(77);
     int steady = 0, steady_found = 0, found = 0, all = 0;
     for (int n = 0; n < 1500; ++n) {
-        std::vector<LimitInterval> spans = random.next(20);
-        for (LimitInterval& span : spans)
-            span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000),
-                    random.between(5e3, 1e5)};
-        const std::span<const ProfileSegment> plan = planner.plan(spans);
+        std::vector<LimitInterval> intervals = random.next(20);
+        for (LimitInterval& interval : intervals)
+            interval = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000),
+                        random.between(5e3, 1e5)};
+        const std::span<const ProfileSegment> plan = planner.plan(intervals);
         double time = random.between(0.02, 0.9) * seconds_of_feed(plan), left = seconds_of_feed(plan) - time;
         std::size_t k = 0;
         while (time > plan[k].seconds) time -= plan[k++].seconds;
         const PathMotion state = plan[k].at(time);
-        const std::vector<LimitInterval> rest = spans_from(spans, state.u);
+        const std::vector<LimitInterval> rest = intervals_from(intervals, state.u);
         const std::span<const ProfileSegment> next =
             on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
         const bool is_steady = state.accel > -1 && state.jerk > -1;
@@ -308,8 +313,8 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
 
 TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
     VelocityPlanner planner;
-    const std::vector<LimitInterval> spans = {{0.2, 10, 1000, 20'000}};
-    EXPECT_TRUE(planner.plan_from({100, 0}, spans).empty());  // the jerk needs 0.2236 mm
+    const std::vector<LimitInterval> intervals = {{0.2, 10, 1000, 20'000}};
+    EXPECT_TRUE(planner.plan_from({100, 0}, intervals).empty());  // the jerk needs 0.2236 mm
     EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<LimitInterval>{{0.3, 10, 1000, 20'000}}).empty());
     EXPECT_TRUE(planner.plan_from({101, 0}, std::vector<LimitInterval>{{50, 10, 1000, 20'000}})
                     .empty());  // above the limit at the start

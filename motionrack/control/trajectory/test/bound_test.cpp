@@ -64,7 +64,7 @@ struct Seconds {
 Seconds seconds_of(const std::vector<Move>& moves, const MachineLimits& limits, int of_piece = 20) {
     Seconds out;
     for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, limits)) {
-        out.ride += kept.stretch.seconds;
+        out.ride += kept.section.seconds;
         out.bound += min_duration_s(kept.curve, limits);
         out.referee += ride_test::time_optimal_s(kept.curve, limits, of_piece);
     }
@@ -148,7 +148,7 @@ TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
     const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 6, 40);
     for (std::uint64_t seed = 1; seed <= count; ++seed)
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
-            EXPECT_GE(kept.stretch.seconds, ride_test::time_optimal_s(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
+            EXPECT_GE(kept.section.seconds, ride_test::time_optimal_s(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
 }
 
 struct Nearness {

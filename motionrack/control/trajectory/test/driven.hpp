@@ -59,23 +59,23 @@ inline std::vector<Move> program(std::mt19937& random) {
 class Driven {
   public:
     Driven(std::vector<Move> moves, TrajectoryGeneratorSettings settings)
-        : moves_(std::move(moves)), rider(machine(), {}, settings) {}
+        : moves_(std::move(moves)), generator(machine(), {}, settings) {}
 
     /// Returns false when everything is executed.
     bool step(double seconds, bool early) {
-        while (next_ < std::min(come, moves_.size()) && rider.has_room()) rider.push({moves_[next_++]});
-        if (next_ == moves_.size() && !flushed_ && rider.has_room()) flushed_ = (rider.flush(), true);
-        const NextMotion next = rider.next(early);
+        while (next_ < std::min(come, moves_.size()) && generator.has_room()) generator.push({moves_[next_++]});
+        if (next_ == moves_.size() && !flushed_ && generator.has_room()) flushed_ = (generator.flush(), true);
+        const NextMotion next = generator.next(early);
         if (next == NextMotion::nothing) return next_ < moves_.size() || !flushed_;
         if (next == NextMotion::dwell) {
-            const double wait = std::min(seconds, rider.dwell_seconds());
-            rider.advance_dwell(wait);
+            const double wait = std::min(seconds, generator.dwell_seconds());
+            generator.advance_dwell(wait);
             now += wait;
             return true;
         }
-        const double pass = std::min(seconds, rider.left());
+        const double pass = std::min(seconds, generator.left());
         for (const double part : {0.005, 0.505}) look(part * pass);
-        rider.advance(pass);
+        generator.advance(pass);
         now += pass;
         return true;
     }
@@ -89,7 +89,7 @@ class Driven {
   private:
     void look(double seconds) {
         const MachineLimits limits = machine();
-        const TrajectoryPoint state = rider.at(seconds);
+        const TrajectoryPoint state = generator.at(seconds);
         const double gap = now + seconds - at_;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const AxisLimits& most = limits[i];
@@ -110,7 +110,7 @@ class Driven {
     double at_ = 0;
 
   public:
-    TrajectoryGenerator rider;
+    TrajectoryGenerator generator;
 };
 
 inline void expect_limits(const Driven& driven) {

@@ -42,10 +42,10 @@ class RideChecks {
         for (std::size_t i = 0; i < ride.size() && fault_.name.empty(); ++i) {
             if (ride[i].curve.empty()) continue;
             std::size_t next = i + 1;
-            while (next < ride.size() && ride[next].curve.empty() && ride[next].stretch.rest_seconds == 0) ++next;
+            while (next < ride.size() && ride[next].curve.empty() && ride[next].section.rest_seconds == 0) ++next;
             // The remaining part is sampled together with the next section.
-            const double overlap = next < ride.size() ? ride[next].stretch.overlap : 0;
-            check(ride[i], ride[i].stretch.seconds - overlap, overlap == 0);
+            const double overlap = next < ride.size() ? ride[next].section.overlap : 0;
+            check(ride[i], ride[i].section.seconds - overlap, overlap == 0);
         }
         if (fault_.name.empty() && !program_.moves.empty()) check_end();
         return fault_;
@@ -67,18 +67,18 @@ class RideChecks {
         if (!(value <= most))
             fail(name, value / most,
                  fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time,
-                             kept.stretch.seconds, state.u, state.line));
+                             kept.section.seconds, state.u, state.line));
     }
 
     void check(const KeptStretch& kept, double until, bool ends) {
-        const PathSection stretch = kept.view();
-        if (!(stretch.seconds > 0 && stretch.seconds < 1e15))
-            return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
-        SectionSampler view(stretch);
+        const PathSection section = kept.view();
+        if (!(section.seconds > 0 && section.seconds < 1e15))
+            return fail("finite time", section.seconds, fmt::format("{}", section.seconds));
+        SectionSampler view(section);
         last_time_ = 0;
         looks_ = 0;
         const double hair_before = hair_;
-        hair_ = time_rounding * stretch.seconds;
+        hair_ = time_rounding * section.seconds;
         double begin = 0;
         std::size_t piece = 0;
         for (const ProfileSegment& feed : kept.feed) {
@@ -101,9 +101,9 @@ class RideChecks {
             last_ = view.at(until);
         if (ends) check_rest(kept);
         const double least = min_duration_s(kept.curve, limits_);
-        if (!(stretch.seconds >= least * (1 - bound_rounding)))
-            fail("bound", least / stretch.seconds,
-                 fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
+        if (!(section.seconds >= least * (1 - bound_rounding)))
+            fail("bound", least / section.seconds,
+                 fmt::format("{:.9g} s, the bound {:.9g} s, line {}", section.seconds, least, section.line));
     }
 
     void look(const KeptStretch& kept, SectionSampler& view, double time, double hair) {
@@ -142,8 +142,8 @@ class RideChecks {
     void check_feed(const KeptStretch& kept, const TrajectoryPoint& state, double time) {
         const std::size_t i = static_cast<std::size_t>(state.line - 1);
         double most = programmed(i);
-        if (time < kept.stretch.overlap)
-            most = std::max(most, programmed(static_cast<std::size_t>(kept.stretch.before.curve.line - 1)));
+        if (time < kept.section.overlap)
+            most = std::max(most, programmed(static_cast<std::size_t>(kept.section.before.curve.line - 1)));
         const Point& v = state.speed;
         const double xyz = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         if (paths_[i].shape == PathShape::nothing) return;
@@ -182,9 +182,9 @@ class RideChecks {
                  1e-7 * limits_[i].max_velocity + limits_[i].max_accel * hair_, kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
                  kept, last_time_, last_);
-            hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
+            hold("rest: place", std::fabs(last_.place[i] - kept.section.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
-            last_.place[i] = kept.stretch.end[i];
+            last_.place[i] = kept.section.end[i];
         }
     }
 

@@ -14,15 +14,15 @@ struct KeptStretch {
     std::vector<CubicSegment> curve;
     std::vector<ProfileSegment> feed;
     StoredRamp before;
-    PathSection stretch;
+    PathSection section;
 
     explicit KeptStretch(const PathSection& from)
-        : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {
+        : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), section(from) {
         before.keep(from.before);
     }
     /// Valid while this object exists.
     PathSection view() const {
-        PathSection out = stretch;
+        PathSection out = section;
         out.curve = curve;
         out.feed = feed;
         out.before = before.end();
@@ -33,7 +33,7 @@ struct KeptStretch {
 inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits,
                                           const Point& start = {}) {
     std::vector<KeptStretch> out;
-    OfflineTrajectory ride(limits, start, [&](const PathSection& stretch) { out.emplace_back(stretch); });
+    OfflineTrajectory ride(limits, start, [&](const PathSection& section) { out.emplace_back(section); });
     for (const Move& move : moves) ride.push(move);
     ride.flush();
     return out;
@@ -42,7 +42,7 @@ inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const 
 inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimits& limits) {
     double seconds = 0;
     for (const KeptStretch& kept : kept_ride(moves, limits))
-        seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
+        seconds += kept.section.seconds - kept.section.overlap + kept.section.rest_seconds;
     return seconds;
 }
 

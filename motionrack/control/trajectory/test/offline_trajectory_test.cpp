@@ -28,15 +28,15 @@ struct Ridden {
 Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
     Ridden out;
     const MachineLimits limits = machine();
-    OfflineTrajectory ride(limits, {}, [&](const PathSection& stretch) {
-        out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
-        out.rests += !stretch.curve.empty();
-        out.end = stretch.end;
-        if (stretch.curve.empty()) return;
-        SectionSampler view(stretch);
-        const int steps = std::clamp(static_cast<int>(stretch.seconds / step), 50, 4000);
+    OfflineTrajectory ride(limits, {}, [&](const PathSection& section) {
+        out.seconds += section.seconds - section.overlap + section.rest_seconds;
+        out.rests += !section.curve.empty();
+        out.end = section.end;
+        if (section.curve.empty()) return;
+        SectionSampler view(section);
+        const int steps = std::clamp(static_cast<int>(section.seconds / step), 50, 4000);
         for (int i = 0; i <= steps; ++i) {
-            const TrajectoryPoint state = view.at(stretch.seconds * i / steps);
+            const TrajectoryPoint state = view.at(section.seconds * i / steps);
             for (std::size_t axis = 0; axis < limits.size(); ++axis) {
                 out.speed = std::max(out.speed, std::fabs(state.speed[axis]) / limits[axis].max_velocity);
                 out.accel = std::max(out.accel, std::fabs(state.accel[axis]) / limits[axis].max_accel);

@@ -33,9 +33,9 @@ TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
             Driven driven(moves, {64});
             while (driven.now < when && driven.step(0.001, true)) {
             }
-            driven.rider.hold();
+            driven.generator.hold();
             double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it decelerates
-            while (driven.rider.next(true) == NextMotion::motion) {
+            while (driven.generator.next(true) == NextMotion::motion) {
                 const TrajectoryPoint before = driven.last;
                 const double at = driven.now;
                 driven.step(0.001, true);
@@ -60,14 +60,14 @@ TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
 TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     Driven driven({long_line(50)}, {});
     while (driven.now < 0.5) driven.step(0.001, true);
-    driven.rider.hold();
+    driven.generator.hold();
     const double asked = driven.now;
-    while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+    while (driven.generator.next(true) == NextMotion::motion) driven.step(0.001, true);
     // twice sqrt(velocity / jerk): the acceleration limit is not reached
     EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
-    EXPECT_TRUE(driven.rider.stands());
-    EXPECT_EQ(driven.rider.next(true), NextMotion::nothing);
-    driven.rider.resume();
+    EXPECT_TRUE(driven.generator.stands());
+    EXPECT_EQ(driven.generator.next(true), NextMotion::nothing);
+    driven.generator.resume();
     while (driven.step(0.001, true)) {
     }
     EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
@@ -90,11 +90,11 @@ TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
         const auto held_after = [&](double feed, double after) {
             Driven driven(way, {});
             while (driven.now < 0.5) driven.step(0.001, true);
-            driven.rider.set_overrides(feed, 1);
+            driven.generator.set_overrides(feed, 1);
             while (driven.now < 0.5 + after) driven.step(0.001, true);
-            driven.rider.hold();
+            driven.generator.hold();
             const double asked = driven.now;
-            while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+            while (driven.generator.next(true) == NextMotion::motion) driven.step(0.001, true);
             expect_limits(driven);
             return driven.now - asked;
         };
@@ -117,10 +117,10 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
         const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]),
                      all = std::sqrt(machine()[0].max_accel * 10);
         EXPECT_GT(speed, 0.9 * all);
-        driven.rider.hold();
+        driven.generator.hold();
         const double asked = driven.now,
                      alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
-        while (driven.rider.next(true) == NextMotion::motion) driven.step(0.001, true);
+        while (driven.generator.next(true) == NextMotion::motion) driven.step(0.001, true);
         EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
     }
@@ -138,10 +138,10 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
             while (held.now < when) held.step(0.001, true);
             while (slowed.now < when) slowed.step(0.001, true);
             const double speed = speed_of(held);
-            held.rider.hold();
-            while (held.rider.next(true) == NextMotion::motion) held.step(0.001, true);
+            held.generator.hold();
+            while (held.generator.next(true) == NextMotion::motion) held.step(0.001, true);
             EXPECT_LT(held.now - when, 0.5);
-            slowed.rider.set_overrides(0.5 * speed / circle.feed, 1);
+            slowed.generator.set_overrides(0.5 * speed / circle.feed, 1);
             while (speed_of(slowed) > 0.51 * speed && slowed.now < when + 1) slowed.step(0.001, true);
             EXPECT_LT(slowed.now - when, 0.8);
             expect_limits(held);
@@ -153,14 +153,14 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
 TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);
-    const double whole = driven.rider.seconds_to_standstill();
-    while (driven.rider.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
+    const double whole = driven.generator.seconds_to_standstill();
+    while (driven.generator.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
     ASSERT_LT(driven.now, 0.8 * whole);
-    driven.rider.hold();
-    while (!driven.rider.stands()) driven.step(0.0005, true);
+    driven.generator.hold();
+    while (!driven.generator.stands()) driven.step(0.0005, true);
     EXPECT_NEAR(driven.last.place[0], 10, 1e-3);
     EXPECT_NEAR(driven.last.place[1], 0, 1e-3);
-    driven.rider.resume();
+    driven.generator.resume();
     while (driven.step(0.0005, true)) {
     }
     expect_limits(driven);

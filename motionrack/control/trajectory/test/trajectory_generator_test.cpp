@@ -44,18 +44,18 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
         double wish = between(0.05, 0.5), resume = 1e9;
         for (int steps = 0; driven.step(between(0.0005, 0.0025), true) || resume < 1e9; ++steps) {
             ASSERT_LT(steps, 1'000'000);
-            if (driven.rider.stands()) driven.pass_time(0.001);
+            if (driven.generator.stands()) driven.pass_time(0.001);
             if (driven.now > wish && resume == 1e9) {
                 if (random() % 3 == 0) {
-                    driven.rider.hold();
+                    driven.generator.hold();
                     resume = driven.now + between(0, 0.6);
                 } else {
-                    driven.rider.set_overrides(between(0.05, 2), between(0.05, 1));
+                    driven.generator.set_overrides(between(0.05, 2), between(0.05, 1));
                 }
                 wish = driven.now + between(0.1, 0.6);
             }
             if (driven.now < resume) continue;
-            driven.rider.resume();
+            driven.generator.resume();
             resume = 1e9;
         }
         expect_limits(driven);
@@ -75,7 +75,7 @@ TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
         double more = 0;
         for (int steps = 0; driven.step(0.001, true); ++steps) {
             ASSERT_LT(steps, 1'000'000);
-            if (driven.rider.stands()) driven.pass_time(0.001);
+            if (driven.generator.stands()) driven.pass_time(0.001);
             if (driven.now < more) continue;
             driven.come += 1 + random() % 10;
             more = driven.now + between(0.01, 0.4);
@@ -96,8 +96,8 @@ TEST(ARider, GoesOnPastACornerToWhatCameBeforeIt) {
         driven.come = 60;
         while (driven.step(0.001, true)) {
             ASSERT_LT(driven.now, 60);
-            if (driven.rider.stands()) driven.pass_time(0.001);
-            if (driven.come != 60 || driven.rider.left() > left || driven.now < 0.1) continue;
+            if (driven.generator.stands()) driven.pass_time(0.001);
+            if (driven.come != 60 || driven.generator.left() > left || driven.now < 0.1) continue;
             late += driven.last.place[1] == 0;
             driven.come = moves.size();
         }
@@ -111,14 +111,14 @@ TEST(ARider, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
     Driven driven({long_line(20)}, {});
     const auto speed_after = [&](double seconds) {
         for (const double until = driven.now + seconds; driven.now < until;) driven.step(0.001, true);
-        return driven.rider.at(0).speed[0];
+        return driven.generator.at(0).speed[0];
     };
     EXPECT_NEAR(speed_after(0.5), 20, 1e-6);
-    driven.rider.set_overrides(0.5, 1);
+    driven.generator.set_overrides(0.5, 1);
     EXPECT_NEAR(speed_after(0.15), 10, 1e-6);
-    driven.rider.set_overrides(2, 1);
+    driven.generator.set_overrides(2, 1);
     EXPECT_NEAR(speed_after(0.2), 40, 1e-6);
-    driven.rider.set_overrides(0.01, 1);
+    driven.generator.set_overrides(0.01, 1);
     EXPECT_NEAR(speed_after(0.3), 0.2, 1e-6);
     expect_limits(driven);
 }
@@ -129,9 +129,9 @@ TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
     Driven driven(moves, {40});
     int looks = 0;
     while (driven.step(0.003, false)) {
-        if (driven.rider.stands() || driven.rider.left() < driven.rider.seconds_to_standstill())
+        if (driven.generator.stands() || driven.generator.left() < driven.generator.seconds_to_standstill())
             continue;  // the next section starts before the end of this one
-        const TrajectoryPoint end = driven.rider.at(driven.rider.seconds_to_standstill());
+        const TrajectoryPoint end = driven.generator.at(driven.generator.seconds_to_standstill());
         for (const double speed : end.speed) EXPECT_EQ(speed, 0);
         ++looks;
     }
@@ -144,15 +144,15 @@ TEST(ARider, TellsWhichMoveItIsOnAndKeepsNoOther) {
     Driven driven(moves, {500});
     std::int64_t last = 0;
     while (driven.step(0.02, false)) {
-        if (driven.rider.next(false) != NextMotion::motion) continue;
-        const std::int64_t number = driven.rider.move_of(driven.rider.at(0));
+        if (driven.generator.next(false) != NextMotion::motion) continue;
+        const std::int64_t number = driven.generator.move_of(driven.generator.at(0));
         EXPECT_GE(number, last);
-        EXPECT_EQ(driven.rider.move(number).move.end, moves[static_cast<std::size_t>(number)].end);
-        EXPECT_NEAR(driven.rider.at(0).place[0], 0.3 * static_cast<double>(number), 0.7);
+        EXPECT_EQ(driven.generator.move(number).move.end, moves[static_cast<std::size_t>(number)].end);
+        EXPECT_NEAR(driven.generator.at(0).place[0], 0.3 * static_cast<double>(number), 0.7);
         last = number;
     }
     EXPECT_GT(last, 2990);
-    EXPECT_EQ(driven.rider.first_pending_move(), 3000);
+    EXPECT_EQ(driven.generator.first_pending_move(), 3000);
 }
 
 }  // namespace

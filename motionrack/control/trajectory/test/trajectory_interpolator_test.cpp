@@ -142,19 +142,19 @@ TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
     double seconds = 0;
     for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
     double ride = 0;
-    TrajectoryGenerator rider(machine(), {});
+    TrajectoryGenerator generator(machine(), {});
     const auto drive = [&] {
-        while (rider.next(false) == NextMotion::motion) {
-            const double pass = std::min(0.01, rider.left());
-            rider.advance(pass);
+        while (generator.next(false) == NextMotion::motion) {
+            const double pass = std::min(0.01, generator.left());
+            generator.advance(pass);
             ride += pass;
         }
     };
     for (const Move& move : curvy()) {
-        if (!rider.has_room()) drive();
-        rider.push({move});
+        if (!generator.has_room()) drive();
+        generator.push({move});
     }
-    rider.flush();
+    generator.flush();
     drive();
     EXPECT_NEAR(seconds, ride, 0.01 * ride);
 }

@@ -74,8 +74,8 @@ TEST(ARideOfAnything, IsNeverQuickerThanWithAnyJerk) {
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(program.moves, program.limits, program.start)) {
             if (kept.curve.empty()) continue;
-            EXPECT_GE(kept.stretch.seconds, ride_test::time_optimal_s(kept.curve, program.limits) * (1 - 2e-3))
-                << seed << " line " << kept.stretch.line;
+            EXPECT_GE(kept.section.seconds, ride_test::time_optimal_s(kept.curve, program.limits) * (1 - 2e-3))
+                << seed << " line " << kept.section.line;
         }
     }
 }

@@ -123,8 +123,8 @@ TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
 /// A client from another computer: its address is not a loopback address.
 TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
     Running running(tls());
-    Service service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
-                    std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
+    PanelService service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
+                         std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
     RequestHead head;
     head.peer = {"192.0.2.7", "192.0.2.1", false, true, false};
     head.host = "192.0.2.1";
