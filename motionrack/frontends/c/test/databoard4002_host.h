@@ -51,13 +51,14 @@ static host host_open(void) {
 }
 
 static void pass(host* h, uint64_t ns) {
-    const uint64_t until = mr_now_ns(h->rack) + ns;
+    const uint64_t until = h->next != h->end ? mr_now_ns(h->rack) + ns : 0;
     for (; h->next != h->end && h->next->at_ns <= until; ++h->next) {
-        if (h->next->at_ns > mr_now_ns(h->rack))
-            CHECK(mr_advance_ns(h->rack, h->next->at_ns - mr_now_ns(h->rack)) == MR_OK);
+        const uint64_t now = mr_now_ns(h->rack);
+        if (h->next->at_ns > now) CHECK(mr_advance_ns(h->rack, h->next->at_ns - now) == MR_OK);
         CHECK(mr_wire_set(h->rack, h->next->wire, h->next->level) == MR_OK);
+        ns = until - mr_now_ns(h->rack);
     }
-    if (until > mr_now_ns(h->rack)) CHECK(mr_advance_ns(h->rack, until - mr_now_ns(h->rack)) == MR_OK);
+    if (ns > 0) CHECK(mr_advance_ns(h->rack, ns) == MR_OK);
 }
 
 static void tape(host* h, int kind, uint8_t value) {
