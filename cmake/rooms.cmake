@@ -107,21 +107,22 @@ function(motionrack_sources out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# motionrack_room(NAME [FAST] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME,
-# for others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the
-# latter have no library.
+# motionrack_room(NAME [FAST [READS_FILES]] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library
+# motionrack_NAME, for others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and
+# HEADERS_OF; the latter have no library.
 # FAST: the kernel and what it drives run some millions of times a second and are given numbers, no texts; checks would
-# take a tenth of their time.
+# take a tenth of their time. For the same reason fuzzers are told its branches, not its comparisons.
+# READS_FILES: it reads bytes that strangers wrote, too: the values it compares them with guide the fuzzers.
 # COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other rooms do not.
 function(motionrack_room name)
-  cmake_parse_arguments(ROOM "FAST" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
+  cmake_parse_arguments(ROOM "FAST;READS_FILES" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
   if(ROOM_SOURCES)
     add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
     target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
     if(NOT ROOM_FAST)
       motionrack_optimise(motionrack_${name} -O2)
       motionrack_harden(motionrack_${name})
-    elseif(MOTIONRACK_FUZZ)
+    elseif(MOTIONRACK_FUZZ AND NOT ROOM_READS_FILES)
       target_compile_options(motionrack_${name} PRIVATE -fno-sanitize-coverage=trace-cmp)
     endif()
     foreach(target IN LISTS ROOM_HEADERS_OF)
