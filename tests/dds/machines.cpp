@@ -162,6 +162,10 @@ void Machines::end_loss(int machine) {
     run(own_network, {"tc", "qdisc", "del", "dev", "p" + std::to_string(machine), "root"});
 }
 
+Child::Condition is_event(const std::string& kind) {
+    return [kind](const nlohmann::json& line) { return line.value("event", "") == kind; };
+}
+
 Child::Child(Child&& other) noexcept
     : process_(std::exchange(other.process_, -1)),
       output_(std::exchange(other.output_, -1)),
@@ -218,7 +222,7 @@ bool Child::wait_for_event(const std::string& kind) {
         last_ = events_[kind];
         return true;
     }
-    return wait_for([&](const nlohmann::json& line) { return line.value("event", "") == kind; });
+    return wait_for(is_event(kind));
 }
 
 int Child::finish() {

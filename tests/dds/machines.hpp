@@ -54,6 +54,9 @@ class Child {
     std::map<std::string, nlohmann::json> events_;  ///< the last line of each kind
 };
 
+/// Whether a line tells of an event of this kind.
+Child::Condition is_event(const std::string& kind);
+
 class Machines {
   public:
     /// Makes `count` machines; why_not() tells if that is not permitted here.

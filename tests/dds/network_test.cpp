@@ -93,9 +93,6 @@ class NetworkAt : public Network, public testing::WithParamInterface<int> {
 INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000),
                          [](const auto& each) { return "at_" + std::to_string(each.param) + "_Hz"; });
 
-bool is_event(const json& line, const char* kind) {
-    return line.value("event", "") == kind;
-}
 std::int64_t count_in(const json& line, const char* name) {
     return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1;
 }
@@ -178,7 +175,7 @@ TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndStartedAnew) {
         return line.value("stale", false) && line.value("age_ms", 0.0) > 600;
     })) << subscriber.said();
     Child again = publish(0);
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "restart"); })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for(is_event("restart"))) << subscriber.said();
     const json event = subscriber.last();
     EXPECT_EQ(event["source"]["host"], event["other"]["host"]);
     EXPECT_NE(event["source"]["id"], event["other"]["id"]);
@@ -199,7 +196,7 @@ TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
     Child second = publish(1, 500);
     ASSERT_TRUE(second.wait_for([](const json& line) { return line.contains("id"); })) << second.said();
     const std::string second_id = second.last()["id"];
-    const auto conflict = [](const json& line) { return is_event(line, "conflict"); };
+    const auto conflict = is_event("conflict");
     for (Child* each : subscribers) {
         EXPECT_TRUE(each->wait_for(conflict)) << each->said();
         EXPECT_EQ(each->last()["source"]["id"], first_id);
@@ -215,7 +212,7 @@ TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
     EXPECT_EQ(second.last()["other"], first_id);
     second.send(SIGKILL);
     for (Child* each : subscribers) {
-        EXPECT_TRUE(each->wait_for([](const json& line) { return is_event(line, "conflict_over"); })) << each->said();
+        EXPECT_TRUE(each->wait_for(is_event("conflict_over"))) << each->said();
         each->send(SIGINT);
         each->finish();
     }
@@ -263,10 +260,9 @@ TEST_F(Network, ARackOnOneMachineIsReadOnAnother) {
                                            "--interval", "0.02", "--scales", "6"});
     Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json",
                                           "--fault", "host.off=1@1s", "--fault", "host.off=0@2s", "--duration", "3"});
-    ASSERT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "joined"); })) << subscriber.said();
+    ASSERT_TRUE(subscriber.wait_for(is_event("joined"))) << subscriber.said();
     EXPECT_EQ(subscriber.last()["source"]["host"], "machine0");
-    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "stale"); }))
-        << "the host is off: " << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for(is_event("stale"))) << "the host is off: " << subscriber.said();
     EXPECT_TRUE(subscriber.wait_for([](const json& line) {
         return line.value("stale", true) == false && line.value("time_s", 0.0) > 2;
     })) << subscriber.said();
