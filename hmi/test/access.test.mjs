@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import test from 'node:test';
-import { openTab, RACKS, suite, takeControl, until } from './support.mjs';
+import { openTab, RACKS, show, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test, RACKS.all);
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -12,7 +12,7 @@ const CARDS = ['motion', 'positioner', 'glass', 'host', 'decoder', 'scan'];
 const VIEWS = ['operate', 'scope', 'cards', ...CARDS.map((card) => `cards/${card}`), 'registers', 'faults', 'events'];
 
 async function go(tab, view) {
-  await tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
+  await show(tab, view);
   await tab.page.waitForTimeout(400);
 }
 

@@ -2,14 +2,14 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { answered, call, choose, driveX, panel } from './library.mjs';
-import { named, openTab, picture, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
+import { named, openTab, picture, show, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test);
 
 test('functions are called in the service of the card, and STOP ends one that waits', async () => {
   const tab = await openTab(all.browser, all.server);
   await takeControl(tab);
-  await tab.page.evaluate(() => (location.hash = '#/cards/motion'));
+  await show(tab, 'cards/motion');
   await choose(tab, 'SetRange');
   const button = panel(tab).getByRole('button', { name: 'Call SetRange', exact: true });
   assert.equal(await button.getAttribute('aria-disabled'), 'true', 'not before the service');

@@ -1,7 +1,7 @@
 // The link to the program: ages, tabs, reloads, roles, pairing, the content policy.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { named, openTab, pause, state, stopAndRelease, suite, tabOf, takeControl, until } from './support.mjs';
+import { named, openTab, pause, show, state, stopAndRelease, suite, tabOf, takeControl, until } from './support.mjs';
 
 const all = suite(test);
 const PROGRAM = 'G21 G90\nG1 F600 X100\nG1 X0\nG1 X100\nM2\n';
@@ -140,7 +140,7 @@ test('the console sends lines, shows answers, and brings back what was sent', as
 test('SIMULATION is on every view and on the phone', async () => {
   const tab = await openTab(all.browser, all.server);
   for (const view of ['operate', 'scope', 'cards', 'registers', 'faults', 'events']) {
-    await tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
+    await show(tab, view);
     assert.ok(await tab.page.getByText('SIMULATION', { exact: true }).isVisible(), view);
   }
   await tab.context.close();
@@ -149,7 +149,7 @@ test('SIMULATION is on every view and on the phone', async () => {
 test('no request leaves the machine, and the content policy is kept', async () => {
   const tab = await openTab(all.browser, all.server);
   for (const view of ['scope', 'cards', 'registers', 'faults', 'events', 'operate']) {
-    await tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
+    await show(tab, view);
     await tab.page.waitForTimeout(300);
   }
   await tab.page.getByRole('button', { name: '3D' }).click();

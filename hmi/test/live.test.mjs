@@ -10,6 +10,7 @@ import {
   openTab,
   picture,
   RACKS,
+  show,
   startServer,
   state,
   stopAndRelease,
@@ -45,7 +46,7 @@ test('a real card says where it is, moves in service only, and STOP ends its pul
   try {
     const tab = await openTab(browser, server);
     await takeControl(tab);
-    await tab.page.evaluate(() => (location.hash = '#/cards'));
+    await show(tab, 'cards');
     const tile = tab.page.getByRole('link', { name: /bench/ });
     await tile.getByText(/real card at port:/).waitFor();
     await picture(tab, 'live-cards');

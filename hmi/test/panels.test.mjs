@@ -2,7 +2,7 @@
 // in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, picture, RACKS, startPart, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
+import { openTab, picture, RACKS, show, startPart, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
 
 const all = suite(test, RACKS.all);
 
@@ -18,7 +18,6 @@ async function done(tab) {
   await tab.context.close();
 }
 
-const show = (tab, view) => tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
 const panel = (tab, name) => tab.page.getByRole('region', { name });
 const number = (text) => Number(text.replace(/\u2009/g, '').replace('\u2212', '-'));
 
@@ -288,7 +287,7 @@ test('an alarm is told, survives a reload, and is acknowledged', async () => {
     .getByRole('alert')
     .getByText(/emergency stop/i)
     .waitFor();
-  await tab.page.evaluate(() => (location.hash = '#/events'));
+  await show(tab, 'events');
   await panel(tab, 'Alarms').getByText('active, unacknowledged').waitFor();
   // Each event is a row of the table, whatever its kind is called.
   const rows = await panel(tab, 'Events')

@@ -115,6 +115,9 @@ export async function until(look, what, ms = 5000) {
   }
 }
 
+/** Opens a view, as its address does. */
+export const show = (tab, view) => tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
+
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 export const named = (tab, command) => tab.sent.filter((one) => one.command === command);
 /** Waits for one of these states of the machine. */
