@@ -91,7 +91,7 @@ json card_facts(operate::Machine& machine, const rack::Card& card) {
                              {"fields", fields_of(reg)}});
     json pins = json::array(), values = json::array(), quantities = json::array();
     if (live == nullptr) values = card.value_names(), quantities = card.quantity_names();
-    for (const rack::CardPinName& pin : live == nullptr ? rack::pins_of(config) : std::vector<rack::CardPinName>())
+    for (const rack::CardPin& pin : live == nullptr ? rack::pins_of(config) : std::vector<rack::CardPin>())
         pins.push_back({{"name", pin.name},
                         {"direction", pin.direction == PinDirection::input ? "input" : "output"},
                         {"volts", pin.volts > 0},
@@ -178,7 +178,7 @@ json card_now(operate::Machine& machine, rack::Card& card) {
     for (const std::string_view name : card.quantity_names())
         if (const std::optional<double> value = card.quantity(name))
             quantities.push_back({{"name", name}, {"value", *value}});
-    for (const rack::CardPinName& pin : rack::pins_of(config))
+    for (const rack::CardPin& pin : rack::pins_of(config))
         if (const Result<double> level = machine.wires().get(card.name() + "." + pin.name)) pins[pin.name] = *level;
     return {{"name", card.name()},         {"at", to_seconds(machine.now())},     {"registers", std::move(registers)},
             {"values", std::move(values)}, {"quantities", std::move(quantities)}, {"pins", std::move(pins)}};

@@ -197,7 +197,7 @@ const CardType* find_card_type(std::string_view name) {
     return found != card_type_table().end() ? &*found : nullptr;
 }
 
-std::vector<CardPinName> pins_of(const RackCard& card) {
+std::vector<CardPin> pins_of(const RackCard& card) {
     const CardType* type = find_card_type(card.type);
     if (type == nullptr) return {};
     CardType own = *type;
@@ -205,8 +205,8 @@ std::vector<CardPinName> pins_of(const RackCard& card) {
     return pins_of(own);
 }
 
-std::vector<CardPinName> pins_of(const CardType& type) {
-    std::vector<CardPinName> out;
+std::vector<CardPin> pins_of(const CardType& type) {
+    std::vector<CardPin> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
             out.push_back({std::string(type.channel_name(channel)).append(pin.name),

@@ -104,7 +104,7 @@ std::span<const CardType> card_types();
 const CardType* find_card_type(std::string_view name);
 
 /// The pins of a card type by their full names: channel by channel, then the chip's own pins.
-struct CardPinName {
+struct CardPin {
     std::string name;
     PinDirection direction;
     int channel;   ///< index into `channels`, -1 for the chip's own
@@ -114,8 +114,8 @@ struct CardPinName {
     std::string_view doc;
     std::string_view same_as;  ///< see PinType (chip pins only)
 };
-std::vector<CardPinName> pins_of(const CardType& type);
+std::vector<CardPin> pins_of(const CardType& type);
 /// Returns the pins of this card; empty if its type is unknown.
-std::vector<CardPinName> pins_of(const RackCard& card);
+std::vector<CardPin> pins_of(const RackCard& card);
 
 }  // namespace motionrack::rack

@@ -101,7 +101,7 @@ class WireResolver {
             unjudged_.push_back(card.name);
             return;
         }
-        for (CardPinName& pin : pins_of(card)) {
+        for (CardPin& pin : pins_of(card)) {
             const std::string wire = pin.same_as.empty() ? pin.name : std::string(pin.same_as);
             known_[card.name + "." + pin.name] = {{EndOwner::card, index, wire},
                                                   pin.direction,

@@ -253,7 +253,7 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
 
 bool Rack::is_contact(const WireEnd& end) const {
     if (end.owner != EndOwner::card) return false;
-    for (const CardPinName& pin : pins_of(config_.cards[static_cast<std::size_t>(end.index)]))
+    for (const CardPin& pin : pins_of(config_.cards[static_cast<std::size_t>(end.index)]))
         if (pin.name == end.pin) return pin.kind == PinKind::contact;
     return false;
 }

@@ -15,7 +15,7 @@ constexpr double max_volts = 15;  // limit of an analog input
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
     std::map<std::string, double> out;
     for (const RackCard& card : config.cards)
-        for (const CardPinName& pin : pins_of(card))
+        for (const CardPin& pin : pins_of(card))
             if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
     for (const RackAxis& axis : config.axes)
         for (const AxisSignal& end : axis_ends())
@@ -38,7 +38,7 @@ WireAccess::WireAccess(Rack& rack) : rack_(rack) {
 
 void WireAccess::add_cards() {
     for (const RackCard& card : rack_.config().cards)
-        for (const CardPinName& pin : pins_of(card)) {
+        for (const CardPin& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
             AccessibleWire wire{WireKind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
             if (pin.volts > 0) wire.unit = pin.volts;
@@ -93,7 +93,7 @@ void WireAccess::add_encoders() {
         if (!joined.link || joined.to.owner != EndOwner::card) continue;
         const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
         int channel = -1;
-        for (const CardPinName& pin : pins_of(card))
+        for (const CardPin& pin : pins_of(card))
             if (pin.name == joined.to.pin) channel = pin.channel;
         for (const EncoderLink& link : config.encoder_links) {
             if (link.card != joined.to.index || link.channel != channel) continue;

@@ -104,7 +104,7 @@ py::dict describe(RackHandle& world, const std::string& name) {
         if (!type.channel_name(i).empty()) channels.append(text(type.channel_name(i)));
     for (const std::string& each : card.value_names()) values.append(each);
     for (const std::string_view each : card.quantity_names()) quantities.append(text(each));
-    for (const rack::CardPinName& pin : rack::pins_of(config)) pins.append(py::make_tuple(pin.name, text(pin.doc)));
+    for (const rack::CardPin& pin : rack::pins_of(config)) pins.append(py::make_tuple(pin.name, text(pin.doc)));
     out["channels"] = channels;
     out["values"] = values;
     out["quantities"] = quantities;

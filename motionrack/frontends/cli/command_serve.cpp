@@ -8,9 +8,9 @@
 #include <motionrack/auth/secrets.hpp>
 #include <motionrack/disk/outputs.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/console_output.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/interrupt_signal.hpp>
-#include <motionrack/frontends/cli/line_output.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/share_folder.hpp>
 #include <motionrack/frontends/cli/system_service.hpp>

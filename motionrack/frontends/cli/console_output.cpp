@@ -4,7 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
-#include <motionrack/frontends/cli/line_output.hpp>
+#include <motionrack/frontends/cli/console_output.hpp>
 #include <mutex>
 #include <thread>
 

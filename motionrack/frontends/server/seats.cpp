@@ -52,8 +52,8 @@ void Seats::leave(OpenConnection* open) {
 bool Seats::end_a_caller() {
     if (callers_.empty()) return false;
     const auto young = std::next(callers_.begin(), static_cast<std::ptrdiff_t>((callers_.size() + 3) / 4));
-    const auto of_its_network = [&](const OpenCall& caller) { return callers_of_.find(caller.network)->second; };
-    const auto ended = std::max_element(callers_.begin(), young, [&](const OpenCall& a, const OpenCall& b) {
+    const auto of_its_network = [&](const WaitingCaller& caller) { return callers_of_.find(caller.network)->second; };
+    const auto ended = std::max_element(callers_.begin(), young, [&](const WaitingCaller& a, const WaitingCaller& b) {
         return of_its_network(a) < of_its_network(b);
     });
     OpenConnection* const open = ended->open;
@@ -65,7 +65,7 @@ bool Seats::end_a_caller() {
 void Seats::end_all(std::string_view why) {
     std::vector<OpenConnection*> all;  // each removes itself when it ends
     for (const auto& [open, network] : seats_) all.push_back(open);
-    for (const OpenCall& caller : callers_) all.push_back(caller.open);
+    for (const WaitingCaller& caller : callers_) all.push_back(caller.open);
     for (OpenConnection* open : all) open->end(why);
 }
 

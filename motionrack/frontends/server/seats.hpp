@@ -47,7 +47,7 @@ class Seats {
     std::size_t open_connections() const { return seats_.size(); }
 
   private:
-    struct OpenCall {
+    struct WaitingCaller {
         OpenConnection* open;
         std::string network;
     };
@@ -55,8 +55,8 @@ class Seats {
     static void take_one(Counts& counts, const std::string& network);
 
     const Limits& limits_;
-    std::list<OpenCall> callers_;  ///< oldest first
-    std::map<OpenConnection*, std::list<OpenCall>::iterator> caller_of_;
+    std::list<WaitingCaller> callers_;  ///< oldest first
+    std::map<OpenConnection*, std::list<WaitingCaller>::iterator> caller_of_;
     std::map<OpenConnection*, std::string> seats_;
     Counts callers_of_, seats_of_;
 };

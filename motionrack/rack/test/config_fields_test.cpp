@@ -244,7 +244,7 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
     for (const CardType& type : card_types()) {
         std::set<std::string> names;
-        for (const CardPinName& pin : pins_of(type)) EXPECT_TRUE(names.insert(pin.name).second) << pin.name;
+        for (const CardPin& pin : pins_of(type)) EXPECT_TRUE(names.insert(pin.name).second) << pin.name;
         EXPECT_EQ(find_card_type(type.name), &type);
         for (const DefaultWire& wire : type.default_wires) {
             EXPECT_NE(find_axis_end(wire.end), nullptr);

@@ -7,13 +7,13 @@
 namespace motionrack::rtc5::map {
 
 /// A line and the value of its wire: a level, or a whole number of the given bits.
-struct CardPin {
+struct WidePin {
     PinInfo pin;
     int bits = 1;
 };
 
 inline constexpr PinDirection in = PinDirection::input, out = PinDirection::output;
-inline constexpr CardPin lines[] = {
+inline constexpr WidePin lines[] = {
     {{"enc0_a", in, false, "encoder 0 (X), line A"}},
     {{"enc0_b", in, false, "encoder 0 (X), line B"}},
     {{"enc1_a", in, false, "encoder 1 (Y), line A"}},
