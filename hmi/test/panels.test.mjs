@@ -2,7 +2,18 @@
 // in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, picture, RACKS, show, startPart, state, stopAndRelease, suite, takeControl, until } from './support.mjs';
+import {
+  openTab,
+  picture,
+  RACKS,
+  show,
+  startPart,
+  state,
+  stopAndRelease,
+  suite,
+  takeControl,
+  until,
+} from './support.mjs';
 
 const all = suite(test, RACKS.all);
 
