@@ -147,6 +147,7 @@ if(MOTIONRACK_TESTS)
   add_library(motionrack_source_dir STATIC ${PROJECT_SOURCE_DIR}/tests/source_root.cpp)
   target_include_directories(motionrack_source_dir PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(motionrack_source_dir PRIVATE MOTIONRACK_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_custom_target(deep_tests)
 endif()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]
@@ -156,8 +157,8 @@ endif()
 # that take long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one
 # state for the whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so
 # that it pays to optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts
-# no branches of tests for them, and does not have the deep ones. Programs whose sources draw random numbers have the
-# label random: a new seed shows more.
+# no branches of tests for them. Programs whose sources draw random numbers have the label random: a new seed shows
+# more. Programs with the label deep are not in `all` but in deep_tests: ./test without more runs none of them.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
@@ -190,9 +191,10 @@ function(motionrack_test name)
   endif()
   if(MOTIONRACK_FUZZ)
     target_compile_options(test_${name} PRIVATE -fno-sanitize=fuzzer-no-link)
-    if("deep" IN_LIST T_LABELS)
-      set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
-    endif()
+  endif()
+  if("deep" IN_LIST T_LABELS)
+    set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    add_dependencies(deep_tests test_${name})
   endif()
   set_target_properties(test_${name} PROPERTIES MOTIONRACK_SHADOW ${local_shadow})
   if(T_ALONE)
