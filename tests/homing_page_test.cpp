@@ -107,7 +107,7 @@ TEST(HomingPage, ItsPictureIsThatOfTheExample) {
 
 TEST(HomingPage, WhatItSaysTheCommandPrintsIsPrinted) {
     const std::string printed = text_of(source_root / "examples/08_homing/expected.txt"), text = page();
-    const std::size_t at = text.find("    axis X  type 4");
+    const std::size_t at = text.find("    axis X  method 4");
     ASSERT_NE(at, std::string::npos);
     std::istringstream shown(text.substr(at, text.find("\n\n[", at) - at));
     for (std::string line; std::getline(shown, line) && (line.empty() || line.rfind("    ", 0) == 0);) {

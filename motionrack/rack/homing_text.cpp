@@ -27,8 +27,8 @@ double rounded(double value) {
 
 std::string head_line(const HomedAxis& axis) {
     const control::HomingResult& o = axis.outcome;
-    std::string out = fmt::format("axis {}  type {}, {} direction, {:.4g} {}/s, slowly {:.4g} {}/s\n", axis.letter,
-                                  static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
+    std::string out = fmt::format("axis {}  method {}, {} direction, search at {:.4g} {}/s, latch at {:.4g} {}/s\n",
+                                  axis.letter, static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
                                   axis.order.speed, axis.unit, axis.order.slow_speed, axis.unit);
     if (!axis.begun) return out + "  not begun\n";
     return out + fmt::format("  {} after {:.3f} s, {}\n", o.homed ? "homed" : "not homed", o.took_s,
@@ -68,10 +68,10 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
     const control::HomingResult& o = axis.outcome;
     nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)},
                                 {"unit", axis.unit},
-                                {"type", static_cast<int>(axis.order.type)},
-                                {"direction", axis.order.towards_plus ? "plus" : "minus"},
-                                {"speed", axis.order.speed},
-                                {"slow_speed", axis.order.slow_speed},
+                                {"method", static_cast<int>(axis.order.type)},
+                                {"search_direction", axis.order.towards_plus ? "plus" : "minus"},
+                                {"search_velocity", axis.order.speed},
+                                {"latch_velocity", axis.order.slow_speed},
                                 {"begun", axis.begun},
                                 {"homed", o.homed},
                                 {"duration_s", rounded(o.took_s)},
@@ -87,10 +87,10 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
     for (const control::HomingEdge& edge : o.edges)
         j["edges"].push_back({{"what", edge.what},
                               {"state", edge.state},
-                              {"seconds", rounded(edge.seconds)},
+                              {"time_s", rounded(edge.seconds)},
                               {"position", rounded(edge.position)},
                               {"within", rounded(edge.within)},
-                              {"speed", rounded(edge.speed)}});
+                              {"velocity", rounded(edge.speed)}});
     j["switch_to_index"] =
         o.switch_to_index ? nlohmann::ordered_json(rounded(*o.switch_to_index)) : nlohmann::ordered_json(nullptr);
     j["bounces"] = o.bounces;

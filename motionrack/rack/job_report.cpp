@@ -116,7 +116,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
                     {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
-                    {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
+                    {"Max deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
     if (!rack.config().point_to_point())
         data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
@@ -171,7 +171,7 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time),
                        outcome.run.plan.seconds, count_noun(moves_of(config, outcome), "move"),
                        count_noun(outcome.run.plan.dwells, "dwell"), count_noun(outcome.run.plan.stops, "stop"));
-    out += fmt::format("  path        {:.3f} mm, worst deviation from the program {:.4f} mm", outcome.path_mm,
+    out += fmt::format("  path        {:.3f} mm, max deviation from the program {:.4f} mm", outcome.path_mm,
                        outcome.worst.mm);
     if (outcome.worst.line > 0)
         out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));

@@ -38,7 +38,7 @@ class Picture {
     Picture(const Sweep& sweep, const Results& results) : sweep_(sweep), results_(results) {
         for (std::int64_t i = 0; i < sweep.points(); ++i) values_.push_back(sweep.values(i));
         for (std::size_t p = 0; p < sweep.parameters().size(); ++p) look_at(p);
-        measures_ = {{"time, s", column("time_s")}, {"worst deviation, mm", column("max_deviation_mm")}};
+        measures_ = {{"time, s", column("time_s")}, {"max deviation, mm", column("max_deviation_mm")}};
         std::vector<double> lost = lost_pulses();
         if (std::any_of(lost.begin(), lost.end(), [](double one) { return one > 0; }))
             measures_.push_back({"lost pulses", std::move(lost)});

@@ -248,7 +248,7 @@ std::string marks(const ReportData& data, const Projection& at) {
     if (!path.empty() && finite(path.back())) out += mark(at(path.back()), "end", "End: " + position_text(path.back()));
     if (data.worst && finite(data.worst->at)) {
         out += mark(at(data.worst->at), "worst",
-                    fmt::format("Worst deviation {} mm at {} s", number(data.worst->mm), number(data.worst->seconds)));
+                    fmt::format("Max deviation {} mm at {} s", number(data.worst->mm), number(data.worst->seconds)));
     }
     if (data.stop && finite(data.stop->at)) out += mark(at(data.stop->at), "stop", "Stopped: " + data.stop->text);
     return out;

@@ -236,7 +236,7 @@ TEST(RackHomes, AnAxisThatTheGroupNeverHadIsNotTrusted) {
 TEST(RackHomes, TextJsonAndPictureTellTheSame) {
     const HomingOutcome out = homed(two_axes);
     const std::string text = homing_text(out);
-    EXPECT_THAT(text, HasSubstr("axis X  type 4, - direction"));
+    EXPECT_THAT(text, HasSubstr("axis X  method 4, - direction"));
     EXPECT_THAT(text, HasSubstr("INDEX_WAIT"));
     EXPECT_THAT(text, HasSubstr("from the switch to the index  2.0000 mm"));
     EXPECT_THAT(text, HasSubstr("all homed in"));

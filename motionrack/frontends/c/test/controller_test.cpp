@@ -201,7 +201,7 @@ TEST(CProgram, NullPointersAreBadCalls) {
 TEST(CHome, FindsTheSwitchesAndReportsAsTheCommandLine) {
     World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
-    EXPECT_THAT(mr_report(world), HasSubstr("axis X  type 2"));
+    EXPECT_THAT(mr_report(world), HasSubstr("axis X  method 2"));
     EXPECT_THAT(mr_report(world), HasSubstr("the position is trusted"));
     EXPECT_THAT(mr_report(world), HasSubstr("all homed in"));
     EXPECT_NEAR(world.part("X.position_mm"), 1, 0.01);
