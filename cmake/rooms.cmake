@@ -150,20 +150,26 @@ if(MOTIONRACK_TESTS)
   add_custom_target(deep_tests)
 endif()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE]
+# The folders of which tests read files.
+set(read_by_tests docs examples hdl motionrack tests)
+list(TRANSFORM read_by_tests PREPEND ${PROJECT_SOURCE_DIR}/)
+
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE] [ALWAYS]
 # [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 ..
 # NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are
 # filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those
 # that take long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one
-# state for the whole process. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so
-# that it pays to optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts
-# no branches of tests for them. Programs whose sources draw random numbers have the label random: a new seed shows
-# more. Programs with the label deep are not in `all` but in deep_tests: ./test without more runs none of them.
+# state for the whole process. ALWAYS: its result depends on other programs or libraries of the build, or on sources.
+# Without it only its program and the tree's other files decide, so that tests/unchanged knows whether it has to run
+# again. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so that it pays to optimise
+# it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts no branches of tests for
+# them. Programs whose sources draw random numbers have the label random: a new seed shows more. Programs with the label
+# deep are not in `all` but in deep_tests: ./test without more runs none of them.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "ALONE;COMPUTES;COMPUTES_MUCH" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE;ALWAYS;COMPUTES;COMPUTES_MUCH" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
@@ -203,14 +209,20 @@ function(motionrack_test name)
   endif()
   set(others --gtest_brief=1)
   set(elsewhere)
+  macro(of_program test labels)
+    set_tests_properties(${test} PROPERTIES TIMEOUT 1200 LABELS "${labels}")
+    if(NOT T_ALWAYS)
+      set_property(TEST ${test} PROPERTY REQUIRED_FILES ${read_by_tests})
+    endif()
+  endmacro()
   if(T_FAULTS)
     add_test(NAME ${name}.faults COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${T_FAULTS}")
-    set_tests_properties(${name}.faults PROPERTIES TIMEOUT 1200 LABELS "fault;${T_LABELS}")
+    of_program(${name}.faults "fault;${T_LABELS}")
     list(APPEND elsewhere ${T_FAULTS})
   endif()
   if(T_DEEP)
     add_test(NAME ${name}.deep COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${T_DEEP}")
-    set_tests_properties(${name}.deep PROPERTIES TIMEOUT 1200 LABELS "deep;${T_LABELS}")
+    of_program(${name}.deep "deep;${T_LABELS}")
     list(APPEND elsewhere ${T_DEEP})
   endif()
   if(elsewhere)
@@ -219,14 +231,15 @@ function(motionrack_test name)
   endif()
   if(NOT T_SHARDS)
     add_test(NAME ${name} COMMAND test_${name} ${others})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}")
+    of_program(${name} "${T_LABELS}")
     return()
   endif()
   foreach(shard RANGE 1 ${T_SHARDS})
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND test_${name} ${others})
+    of_program(${name}.${shard} "${T_LABELS}")
     # COST: what takes long begins first, also where no run before has measured it.
-    set_tests_properties(${name}.${shard} PROPERTIES TIMEOUT 1200 LABELS "${T_LABELS}" COST 30
+    set_tests_properties(${name}.${shard} PROPERTIES COST 30
                          ENVIRONMENT "GTEST_TOTAL_SHARDS=${T_SHARDS};GTEST_SHARD_INDEX=${index}")
   endforeach()
 endfunction()
