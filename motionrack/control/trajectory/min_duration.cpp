@@ -140,10 +140,11 @@ double ahead_over(const Cell& cell, double square, double cap, const MachineLimi
 double seconds_over(const Cell& cell, double from, double to) {
     const double begin = std::sqrt(from), end = std::sqrt(to);
     if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);
+    // The curvature helps to change the velocity by more.
+    if (!cell.straight && std::fabs(to - from) > 2 * cell.accel * cell.length) return 2 * cell.length / (begin + end);
     const double most = std::max({from, to, std::min(cell.cap, 0.5 * (from + to) + cell.accel * cell.length)});
     const double fast = std::sqrt(most);
     const double even = cell.length - ((most - from) + (most - to)) / (2 * cell.accel);
-    if (!cell.straight && even < 0) return 2 * cell.length / (begin + end);
     return (fast - begin + fast - end) / cell.accel + std::max(0.0, even) / fast;
 }
 
