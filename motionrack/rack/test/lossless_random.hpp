@@ -1,5 +1,5 @@
-// Random programs in chords from 2 um to 50 mm, with probing moves, on several racks, in both profiles. They are held,
-// slowed, resumed and stopped at random instants: no axis has a velocity step, and the end position is correct.
+// Random programs in chords from 2 um to 50 mm, with arcs and probing moves, on several racks, in both profiles. They
+// are held, slowed, resumed and stopped at random instants: no axis has a velocity step, and the end is correct.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,19 @@ class Chance {
 /// The probe triggers at and below this height; programs are above it, except for their probing moves.
 inline constexpr double probe_height = 60, program_height = 75;
 
-/// Paths of straight moves: smooth curves, sharp corners and reversals, each in chords of one length or of many.
+enum class Arcs { none, some };
+
+/// Paths of straight moves: smooth curves, sharp corners and reversals, each in chords of one length or of many. With
+/// arcs, half of the programs have stretches of arcs and helices between them.
 class ChordMaker : public Chance {
   public:
-    explicit ChordMaker(std::uint64_t seed)
-        : Chance(seed), probing_(~seed), probes_(probing_.pick(4) == 0), ramps_(seed ^ 0x7a4d) {}
+    explicit ChordMaker(std::uint64_t seed, Arcs arcs = Arcs::none)
+        : Chance(seed),
+          probing_(~seed),
+          probes_(probing_.pick(4) == 0),
+          ramps_(seed ^ 0x7a4d),
+          arcs_(seed ^ 0xa4c5),
+          has_arcs_(arcs == Arcs::some && arcs_.pick(2) == 0) {}
 
     struct Program {
         std::string text;
@@ -46,6 +54,7 @@ class ChordMaker : public Chance {
         for (int i = 0; i < stretches; ++i) {
             if (probes_ && probing_.pick(2) == 0) add_probing();
             add_stretch();
+            if (has_arcs_ && arcs_.pick(3) > 0) add_arcs();
         }
         out_.text += "M2\n";
         return out_;
@@ -102,11 +111,37 @@ class ChordMaker : public Chance {
         }
         out_.seconds += length / 60;
     }
+
+    /// Adds arcs, most of them tangential to what is before them, some of them helices.
+    void add_arcs() {
+        const int count = 1 + arcs_.pick(8);
+        const bool helices = arcs_.pick(3) == 0;
+        if (arcs_.pick(2) == 0) out_.text += fmt::format("F{:.0f}\n", arcs_.even_on_log(300, 9000));
+        for (int i = 0; i < count; ++i) {
+            if (arcs_.pick(4) == 0) heading_ += arcs_.number(-3.2, 3.2);
+            if (std::hypot(out_.x - 150, out_.y - 100) > 45) heading_ = std::atan2(100 - out_.y, 150 - out_.x);
+            const double radius = arcs_.even_on_log(0.05, 20), left = arcs_.pick(2) == 0 ? 1 : -1;
+            const double sweep = left * std::min(arcs_.even_on_log(0.02, 6), 60 / radius);
+            const double across = rounded(-left * radius * std::sin(heading_)),
+                         along = rounded(left * radius * std::cos(heading_));
+            const double x = out_.x + across, y = out_.y + along;
+            out_.x = rounded(x - across * std::cos(sweep) + along * std::sin(sweep));
+            out_.y = rounded(y - across * std::sin(sweep) - along * std::cos(sweep));
+            out_.text +=
+                fmt::format("G{} X{:.4f} Y{:.4f} I{:.4f} J{:.4f}{}\n", left > 0 ? 3 : 2, out_.x, out_.y, across, along,
+                            helices ? fmt::format(" Z{:.4f}", program_height + arcs_.number(-2, 2)) : "");
+            heading_ += sweep;
+            out_.seconds += radius * std::fabs(sweep) / 60;
+        }
+        out_.text += "G1\n";
+    }
+
     static double rounded(double x) { return std::round(x * 1e4) / 1e4; }
 
     Chance probing_;
     bool probes_;
-    Chance ramps_;
+    Chance ramps_, arcs_;
+    bool has_arcs_;
     Program out_;
     double heading_ = 0;
 };
@@ -176,8 +211,8 @@ inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
 }
 
 /// MOTIONRACK_SEED=N runs it alone, with MOTIONRACK_PROGRAMS=1.
-inline void drive_one(std::uint64_t seed) {
-    ChordMaker random(seed);
+inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
+    ChordMaker random(seed, arcs);
     const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
     const ChordMaker::Program program = random.make();
     const RackConfig config = rack_of(random, profile);
@@ -198,7 +233,8 @@ inline void drive_one(std::uint64_t seed) {
 /// A share of the programs, so that several processes run: every `shares`th from `share`, up to the first failure.
 inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", otherwise);
-    for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares) drive_one(first + i);
+    for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares)
+        drive_one(first + i, Arcs::some);
 }
 
 }  // namespace motionrack::rack
