@@ -229,6 +229,35 @@ TEST(Waves, AFileOfAnotherKindIsRefused) {
     EXPECT_NE(wave_format("a.txt").error().message.find(".h5"), std::string::npos);
 }
 
+TEST(Waves, TheUnitShowsEachEdgeThatAScaleOfItsCountRateHas) {
+    const auto unit_at = [](const std::string& megahertz) {
+        const std::string grating = "scales = 1\n[card.host]\ntype = \"grating_bus\"\nscales = 1\n";
+        Rack rack(
+            *read_rack_text(
+                 "[card.decoder]\ntype = \"grating_decoder\"\n" + grating +
+                 "[stage.mask]\ncard = \"host\"\ninput = 0\n[stage.mask.scale]\nmax_count_rate_mhz = " + megahertz)
+                 .config);
+        WireTap tap(rack.kernel());
+        WaveSettings waves;
+        waves.path =
+            (std::filesystem::temp_directory_path() / ("motionrack_unit_" + std::to_string(::getpid()) + ".vcd"))
+                .string();
+        waves.signals = {"mask.scale.?"};
+        waves.tap = &tap;
+        auto recorder = WaveRecorder::create(rack, waves);
+        rack.start();
+        (*recorder)->begin();
+        EXPECT_TRUE((*recorder)->finish());
+        const std::string text = text_of(waves.path);
+        std::filesystem::remove(waves.path);
+        const std::size_t at = text.find("$timescale ") + 11;
+        return text.substr(at, text.find(" $end", at) - at);
+    };
+    EXPECT_EQ(unit_at("10"), "100 ns");
+    EXPECT_EQ(unit_at("100"), "10 ns") << "an edge of a line each 15 ns";
+    EXPECT_EQ(unit_at("1000"), "1 ns");
+}
+
 TEST(Waves, AnUnknownSignalIsRefusedWithASentence) {
     Rack rack(*read_rack_text(*rack_template("single")).config);
     WaveSettings waves;

@@ -130,17 +130,17 @@ struct RackMotor {
 
 /// A servo amplifier with a DC motor and tachometer instead of a stepping motor: the axis follows a voltage.
 struct RackServo {
-    double speed_per_volt = 100;        ///< mm/s or degrees/s per volt
-    std::optional<double> top_speed;    ///< saturation of the amplifier; absent: the velocity at 10 V
-    double top_accel = 5000;            ///< acceleration at the amplifier's current limit, without a load
-    double friction = 50;               ///< deceleration without current, per second squared
-    double lag_ms = 10;                 ///< time constant of the velocity
-    double dead_band_v = 0.005;         ///< amplifier output is 0 below this voltage, V
-    double load = 0;                    ///< load inertia in units of the motor's own inertia
+    double speed_per_volt = 100;                ///< mm/s or degrees/s per volt
+    std::optional<double> saturation_velocity;  ///< saturation of the amplifier; absent: the velocity at 10 V
+    double current_limit_accel = 5000;          ///< acceleration at the amplifier's current limit, without a load
+    double friction = 50;                       ///< deceleration without current, per second squared
+    double lag_ms = 10;                         ///< time constant of the velocity
+    double dead_band_v = 0.005;                 ///< amplifier output is 0 below this voltage, V
+    double load = 0;                            ///< load inertia in units of the motor's own inertia
     std::optional<double> hold_within;  ///< position window that the card holds after a move; absent: no position hold
 
     /// Maximum velocity.
-    double fastest() const { return top_speed.value_or(10 * speed_per_volt); }
+    double saturation() const { return saturation_velocity.value_or(10 * speed_per_volt); }
 };
 
 /// Switches of an axis by the machine position (mm or degrees) at which they act; absent: not fitted.
@@ -220,8 +220,8 @@ RackAxis default_axis(char letter);
 
 // ---- Probe
 
-/// A touch probe and the block that it touches, in machine coordinates, mm. An axis without both bounds does not limit
-/// the block.
+/// A touch probe and the workpiece that it touches, in machine coordinates, mm. An axis without both bounds does not
+/// limit the workpiece.
 struct RackProbe {
     std::optional<double> x_from, x_to, y_from, y_to, z_from, z_to;
 
@@ -271,8 +271,8 @@ struct RackStage {
     std::int64_t output = 0;  ///< analog output of the card, 0 .. 3
     std::int64_t input = 0;   ///< number of the stage's scale at the decoder, 0 .. 127
     double accel_per_volt_m_s2 = 5;
-    double top_accel_m_s2 = 50;
-    double top_speed_m_s = 2;
+    double current_limit_accel_m_s2 = 50;
+    double saturation_velocity_m_s = 2;
     double viscous_per_s = 0;
     double coulomb_m_s2 = 0;
     double load = 0;

@@ -255,28 +255,28 @@ class AxisCheck {
         if (!source_.sound({"velocity_per_volt_{u}_s", "saturation_velocity_{u}_s", "current_limit_accel_{u}_s2",
                             "coulomb_friction_{u}_s2", "max_velocity_{u}_s"}))
             return;
-        if (servo.friction >= servo.top_accel)
+        if (servo.friction >= servo.current_limit_accel)
             error("coulomb_friction_{u}_s2", "servo",
                   fmt::format("coulomb_friction_{0}_s2 of axis {1} is {2}, not below current_limit_accel_{0}_s2, which "
                               "is {3}: its motor could never start.",
-                              u, axis_.letter, number_text(servo.friction), number_text(servo.top_accel)));
-        if (const double counts = servo.fastest() * axis_.pulses_per_unit(); counts > 1e6)
+                              u, axis_.letter, number_text(servo.friction), number_text(servo.current_limit_accel)));
+        if (const double counts = servo.saturation() * axis_.pulses_per_unit(); counts > 1e6)
             error("velocity_per_volt_{u}_s", "servo",
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
                               "saturation_velocity_{}_s or encoder_counts_per_rev.",
-                              axis_.letter, short_text(servo.fastest()), u, short_text(counts), u));
+                              axis_.letter, short_text(servo.saturation()), u, short_text(counts), u));
         const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
         if (axis_.max_velocity_step <= slowest)
             warn("max_velocity_step_{u}_s", {},
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
                              u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
-        if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
+        if (const double most = servo.current_limit_accel / (1 + servo.load); axis_.max_accel > most)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
                              u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
-        const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
+        const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.speed_per_volt);
         if (axis_.max_velocity > reach * rounding)
             warn("max_velocity_{u}_s", {},
                  fmt::format(

@@ -88,7 +88,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
         out.drive->add(*out.counts);
         parts::LineEncoderSettings lines;
         lines.index = false;
-        lines.fastest = from_seconds(1 / max_track_counts);
+        lines.min_edge_interval = from_seconds(1 / max_track_counts);
         out.encoder = std::make_unique<parts::LineEncoder>(kernel, config.name + ".encoder", *out.counts, lines);
         if (config.jitter_us > 0) out.encoder->fault("jitter", config.jitter_us * 1e-6, Instant{0});
     }

@@ -67,8 +67,8 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     const double counts = axis.counts_per_unit();
     parts::DcMotorSettings out;
     out.gain = servo.speed_per_volt * counts;
-    out.top_speed = servo.fastest() * counts;
-    out.top_accel = servo.top_accel * counts;
+    out.top_speed = servo.saturation() * counts;
+    out.top_accel = servo.current_limit_accel * counts;
     out.friction = servo.friction * counts;
     out.lag_s = servo.lag_ms * 1e-3;
     out.dead_band_v = servo.dead_band_v;
@@ -244,7 +244,7 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
         settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
         // A pulse may be many counts, and a rotor can jump when it locks elsewhere. Their edges keep a minimum
         // distance, and none is lost.
-        settings.fastest = nanoseconds(200);
+        settings.min_edge_interval = nanoseconds(200);
         settings.too_quick = parts::TooQuick::loses_by_fault;
         axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
     }

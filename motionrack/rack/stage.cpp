@@ -60,8 +60,8 @@ gb::Setpoint StageSetup::at(double seconds) const {
 parts::LinearStageSettings motor_settings(const RackStage& stage) {
     parts::LinearStageSettings out;
     out.accel_per_volt = stage.accel_per_volt_m_s2;
-    out.top_accel = stage.top_accel_m_s2;
-    out.top_speed = stage.top_speed_m_s;
+    out.top_accel = stage.current_limit_accel_m_s2;
+    out.top_speed = stage.saturation_velocity_m_s;
     out.viscous = stage.viscous_per_s;
     out.coulomb = stage.coulomb_m_s2;
     out.load = stage.load;
@@ -78,7 +78,7 @@ parts::LinearScaleSettings scale_settings(const RackStage& stage) {
     out.interpolation = s.interpolation;
     out.reversed = s.reversed;
     out.zero_nm = s.zero_mm * nm_per_mm;
-    out.fastest = s.max_count_rate_mhz * 1e6;
+    out.max_count_rate = s.max_count_rate_mhz * 1e6;
     if (s.index_mm) out.index_nm = *s.index_mm * nm_per_mm;
     out.dirt_at_nm = s.dirt_at_mm * nm_per_mm;
     return out;

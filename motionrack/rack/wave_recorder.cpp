@@ -162,12 +162,17 @@ std::size_t WaveRecorder::add(WaveSignal signal) {
     return signals_.size() - 1;
 }
 
-/// Lines of a bus shared by cards have edges as close as its timing allows.
+/// Lines of a bus shared by cards have edges as close as its timing allows, those of a scale as close as its count
+/// rate does.
 Duration WaveRecorder::coarsest_unit() const {
     Duration unit = nanoseconds(100);
     for (const auto& card : rack_.cards())
         for (const WaveSignal& signal : signals_)
             if (card->shows(signal.scope, signal.name)) unit = std::min(unit, card->edge_unit());
+    for (const RunningStage& stage : rack_.stages())
+        for (const WaveSignal& signal : signals_)
+            if (signal.scope == stage.config.name && signal.name.rfind("scale.", 0) == 0)
+                while (unit > 2 * parts::edge_spacing(scale_settings(stage.config))) unit = unit / 10;
     return unit;
 }
 

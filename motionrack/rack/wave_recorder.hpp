@@ -39,8 +39,9 @@ struct WaveSettings {
     WaveFormat format = WaveFormat::vcd;
     std::vector<std::string> signals;  ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp"); empty:
                                        ///< all except pins driven on demand
-    /// Time unit of a VCD file. 0: the coarsest unit that shows every edge of the signals: 100 ns, or that of a bus
-    /// whose lines are recorded (10 ns at most).
+    /// Time unit of a VCD file. 0: the coarsest unit that shows every edge that cards and parts drive: 100 ns, or less
+    /// where lines of a bus (10 ns at most) or of a scale with a high count rate are recorded. Wires forced from
+    /// outside at shorter intervals need a finer unit.
     Duration unit{0};
     Duration register_period = milliseconds(1);  ///< sampling period of LP and EP
     WireTap* tap = nullptr;                      ///< source of pins driven on demand

@@ -9,8 +9,9 @@
 namespace motionrack::rack {
 
 namespace {
-constexpr double max_volts = 15;  // limit of an analog input
-}
+constexpr double max_volts = 15;           // limit of an analog input
+constexpr double stage_drive_unit = 1e-6;  // V, see parts::LinearStage
+}  // namespace
 
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
     std::map<std::string, double> out;
@@ -20,6 +21,7 @@ std::map<std::string, double> volts_of_wires(const RackConfig& config) {
     for (const RackAxis& axis : config.axes)
         for (const AxisSignal& end : axis_ends())
             if (end.volts > 0 && end.present(axis)) out[fmt::format("{}.{}", axis.letter, end.name)] = end.volts;
+    for (const RackStage& stage : config.stages) out[stage.name + ".drive"] = stage_drive_unit;
     return out;
 }
 
@@ -32,8 +34,10 @@ WireAccess::WireAccess(Rack& rack) : rack_(rack) {
     add_cards();
     add_axes();
     add_tracks();
+    add_stages();
     add_encoders();
     add_ideal_encoders();
+    add_rest();
 }
 
 void WireAccess::add_cards() {
@@ -86,6 +90,23 @@ void WireAccess::add_tracks() {
                     WireKind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
 }
 
+void WireAccess::add_stages() {
+    for (const RackStage& stage : rack_.config().stages) {
+        const std::string drive = stage.name + ".drive";
+        wires_[drive] = {WireKind::plain, rack_.kernel().find_wire(drive), -1, 0, stage_drive_unit, 1, {}};
+        for (const char* line : {".scale.a", ".scale.b", ".scale.z"}) {
+            const std::string name = stage.name + line;
+            wires_[name] = {WireKind::plain,
+                            rack_.kernel().find_wire(name),
+                            -1,
+                            0,
+                            1,
+                            1,
+                            fmt::format("{} is the scale's own output; drive the decoder's input", name)};
+        }
+    }
+}
+
 /// The inputs at the end of a link are not separate wires unless they are forced.
 void WireAccess::add_encoders() {
     const RackConfig& config = rack_.config();
@@ -120,6 +141,19 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
     return fail(ErrorKind::invalid_input, fmt::format("Unknown wire {}{} Wires are called CARD.PIN, NAME.END or estop, "
                                                       "see the page of the rack file. Nothing was done.",
                                                       in_quotes(name), hint.empty() ? "." : hint));
+}
+
+/// Whatever a recording has can be read.
+void WireAccess::add_rest() {
+    const sim::Kernel& kernel = rack_.kernel();
+    for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
+        const auto wire = static_cast<sim::WireId>(i);
+        for (std::size_t which = 0; !kernel.wire_name(wire, which).empty(); ++which) {
+            const std::string& name = kernel.wire_name(wire, which);
+            wires_.try_emplace(name, AccessibleWire{WireKind::plain, wire, -1, 0, 1, kernel.wire_bits(wire),
+                                                    name + " is the output of a card or part; it can only be read"});
+        }
+    }
 }
 
 std::vector<WireAccess::Named> WireAccess::names() const {

@@ -68,8 +68,10 @@ class WireAccess {
     void add_cards();
     void add_axes();
     void add_tracks();
+    void add_stages();
     void add_encoders();
     void add_ideal_encoders();
+    void add_rest();
     const AccessibleWire* find(std::string_view name) const;
     tl::unexpected<Error> unknown(std::string_view name) const;
     unsigned lines_at(const EncoderInput& input) const;

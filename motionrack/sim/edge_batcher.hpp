@@ -13,7 +13,7 @@ class EdgeBatcher {
     /// if the edge does not fit into it.
     void add(EdgeListener& listener, Instant at, std::int64_t count, int step) {
         const bool fits =
-            batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
+            batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= max_batch_ticks;
         if (!fits) hand_over(listener);
         if (batch_.size == 0) {
             batch_.origin = at;
@@ -31,7 +31,7 @@ class EdgeBatcher {
 
   private:
     /// Ticks from the first to the last edge of a batch.
-    static constexpr std::int64_t longest = std::numeric_limits<decltype(EdgeBatch::at)::value_type>::max();
+    static constexpr std::int64_t max_batch_ticks = std::numeric_limits<decltype(EdgeBatch::at)::value_type>::max();
     EdgeBatch batch_{};
 };
 

@@ -7,6 +7,7 @@
 #include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/wire_access.hpp>
 
 namespace motionrack::rack {
 namespace {
@@ -119,6 +120,30 @@ struct Running {
     }
     Rack rack;
 };
+
+TEST(StageWires, EachWireOfTheRackCanBeReadInItsUnit) {
+    Running r;
+    Rack& rack = r.rack;
+    WireAccess wires(rack);
+    r.run(0.1);
+    const std::map<std::string, double> volts = volts_of_wires(rack.config());
+    for (std::size_t i = 0; i < rack.kernel().wire_count(); ++i) {
+        const auto wire = static_cast<sim::WireId>(i);
+        for (std::size_t which = 0; !rack.kernel().wire_name(wire, which).empty(); ++which) {
+            const std::string& name = rack.kernel().wire_name(wire, which);
+            const Result<double> value = wires.get(name);
+            ASSERT_TRUE(value) << value.error().message;
+            const auto unit = volts.find(name);
+            EXPECT_DOUBLE_EQ(*value, rack.kernel().level(wire) * (unit == volts.end() ? 1 : unit->second)) << name;
+        }
+    }
+    EXPECT_DOUBLE_EQ(*wires.get("mask.drive"), *wires.get("second.vout0"));
+    EXPECT_NE(*wires.get("mask.drive"), 0);
+    EXPECT_EQ(wires.force("mask.scale.a", 1).error().message,
+              "mask.scale.a is the scale's own output; drive the decoder's input. Nothing was done.");
+    EXPECT_TRUE(wires.force("mask.drive", 0));
+    EXPECT_EQ(*wires.get("mask.drive"), 0);
+}
 
 TEST(RunningStages, FollowTheirProfileThroughTheFrames) {
     Running r;

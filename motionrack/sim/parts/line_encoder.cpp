@@ -13,7 +13,7 @@ LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
     LineOutputSettings out;
     out.index_every = s.index ? s.counts_per_turn : 0;
     out.dirt_at = s.dirt_at;
-    out.fastest = s.fastest;
+    out.min_edge_interval = s.min_edge_interval;
     out.too_quick = s.too_quick;
     out.seed = s.seed;
     return out;

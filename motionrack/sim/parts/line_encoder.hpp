@@ -18,9 +18,9 @@ struct LineEncoderSettings {
     std::int64_t place_per_turn =
         4000;           ///< > 0: change of `place` per revolution; finer than the counts, so edges keep their distance
     bool index = true;  ///< a Z pulse per revolution, at count 0
-    double eccentricity = 0;              ///< counts, 0 .. counts_per_turn / 7
-    std::int64_t dirt_at = 100;           ///< count at which the dirt begins
-    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
+    double eccentricity = 0;                        ///< counts, 0 .. counts_per_turn / 7
+    std::int64_t dirt_at = 100;                     ///< count at which the dirt begins
+    Duration min_edge_interval = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
     TooQuick too_quick = TooQuick::loses_lines;
     std::uint64_t seed = 1;  ///< seed of jitter and noise
 };

@@ -20,8 +20,8 @@ LineOutput::LineOutput(sim::Kernel& kernel, const std::string& name, const LineO
                        LineOutputState& state)
     : kernel_(kernel), settings_(settings), state_(state) {
     MOTIONRACK_ASSERT(settings.index_every >= 0 && settings.index_every % 4 == 0);
-    MOTIONRACK_ASSERT(settings.fastest >= nanoseconds(10) && settings.fastest <= whole_seconds(1));
-    state_.fastest = settings.fastest.count();
+    MOTIONRACK_ASSERT(settings.min_edge_interval >= nanoseconds(10) && settings.min_edge_interval <= whole_seconds(1));
+    state_.min_edge_interval = settings.min_edge_interval.count();
     state_.random = settings.seed * 0x9E3779B97F4A7C15ull + 1;
     constexpr const char* names[] = {".a", ".b", ".z"};
     for (std::size_t i = 0; i < wires_.size(); ++i) wires_[i] = kernel.add_wire(name + names[i], 0);
@@ -66,7 +66,8 @@ void LineOutput::plan(Instant now) {
 
 bool LineOutput::loses_lines() const {
     return settings_.too_quick == TooQuick::loses_lines ||
-           (settings_.too_quick == TooQuick::loses_by_fault && state_.fastest != settings_.fastest.count());
+           (settings_.too_quick == TooQuick::loses_by_fault &&
+            state_.min_edge_interval != settings_.min_edge_interval.count());
 }
 
 void LineOutput::step(Instant now) {
@@ -78,7 +79,7 @@ void LineOutput::step(Instant now) {
         state_.lost += lost;
     }
     state_.shown += sign;
-    state_.free_at = now + Duration{state_.fastest};
+    state_.free_at = now + Duration{state_.min_edge_interval};
     state_.step_at = never;
     note_index();
     put_out();
@@ -173,7 +174,7 @@ bool LineOutput::fault(std::string_view name, double value, Instant now) {
         state_.dirt_lines = whole;
     } else if (name == "overspeed") {
         if (!within(1e8) || (value > 0 && value < 1)) return false;
-        state_.fastest = value > 0 ? spacing_of(value) : settings_.fastest.count();
+        state_.min_edge_interval = value > 0 ? spacing_of(value) : settings_.min_edge_interval.count();
     } else {
         return false;
     }

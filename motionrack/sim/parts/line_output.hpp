@@ -29,10 +29,10 @@ enum class TooQuick : std::uint8_t {
 };
 
 struct LineOutputSettings {
-    std::int64_t index_every = 0;         ///< counts from index to index, >= 0; 0: no index
-    std::int64_t index_at = 0;            ///< count of one index
-    std::int64_t dirt_at = 0;             ///< count at which the dirt of the fault "dirt" begins, within index_every
-    Duration fastest = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
+    std::int64_t index_every = 0;  ///< counts from index to index, >= 0; 0: no index
+    std::int64_t index_at = 0;     ///< count of one index
+    std::int64_t dirt_at = 0;      ///< count at which the dirt of the fault "dirt" begins, within index_every
+    Duration min_edge_interval = nanoseconds(200);  ///< 10 ns .. 1 s: minimum time between two edges
     TooQuick too_quick = TooQuick::loses_lines;
     std::uint64_t seed = 1;
 };
@@ -50,7 +50,7 @@ struct LineOutputState {
     std::int64_t second_index = 0;  ///< distance of the double index, counts; 0: none
     std::int64_t dirt_lines = 0;
     std::int64_t jitter = 0;               ///< maximum delay of an edge, ticks
-    std::int64_t fastest = 0;              ///< ticks
+    std::int64_t min_edge_interval = 0;    ///< ticks
     std::array<std::uint8_t, 3> broken{};  ///< 0: intact, 1: reads low, 2: reads high
     std::uint8_t inverted = 0;             ///< bit 0 A, 1 B, 2 Z
     std::uint8_t swapped = 0;

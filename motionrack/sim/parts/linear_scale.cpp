@@ -39,18 +39,22 @@ std::int64_t nearest(double x) {
 
 }  // namespace
 
+Duration edge_spacing(const LinearScaleSettings& settings) {
+    return Duration{std::max<std::int64_t>(1, static_cast<std::int64_t>(0.75e10 / settings.max_count_rate))};
+}
+
 LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
                          const LinearScaleSettings& s)
     : kernel_(kernel),
       place_(place),
       settings_(s),
-      spacing_(std::max<std::int64_t>(1, static_cast<std::int64_t>(0.75e10 / s.fastest))),
+      spacing_(edge_spacing(s)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       slot_(place.add_listener(*this)) {
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.pitch_pm >= 1'000 && s.pitch_pm <= 1'000'000'000);
     MOTIONRACK_ASSERT(s.interpolation >= 4 && s.interpolation <= 65'536 && s.interpolation % 4 == 0);
-    MOTIONRACK_ASSERT(s.fastest >= 1 && s.fastest <= 1e9 && std::fabs(s.zero_nm) <= 1e10);
+    MOTIONRACK_ASSERT(s.max_count_rate >= 1 && s.max_count_rate <= 1e9 && std::fabs(s.zero_nm) <= 1e10);
     MOTIONRACK_ASSERT(s.places >= 1 && s.places <= 1'000'000'000 && s.places_nm >= 1 && s.places_nm <= 1'000'000'000);
     const auto place_of = [&s](double nm) {
         return nearest(nm * static_cast<double>(s.places) / static_cast<double>(s.places_nm));
@@ -60,7 +64,7 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Posi
     set_ratio(0);
     dirt_at_ = grating(place_of(s.dirt_at_nm));
     index_at_ = s.index_nm ? grating(place_of(*s.index_nm)) : 0;
-    place.watch_rate(s.fastest / counts_per_place());
+    place.watch_rate(s.max_count_rate / counts_per_place());
     constexpr const char* names[] = {".a", ".b", ".z"};
     for (std::size_t i = 0; i < wires_.size(); ++i) {
         wires_[i] = kernel.add_wire(name + names[i], level_at(static_cast<int>(i), Instant{0}));
@@ -174,12 +178,12 @@ void LinearScale::on_scheduled(Instant now) {
 }
 
 void LinearScale::rate_changed(double before, double rate, Instant now) {
-    const bool was = state_.too_fast != 0, fast = std::fabs(rate) * counts_per_place() > settings_.fastest;
+    const bool was = state_.too_fast != 0, fast = std::fabs(rate) * counts_per_place() > settings_.max_count_rate;
     if (fast && !was) {
         state_.frozen = count(now);
         state_.too_fast = state_.untrusted = 1;
         const double counts = state_.direction * rate * counts_per_place();
-        report(AxisCondition::scale_too_fast, nearest(counts), nearest(settings_.fastest));
+        report(AxisCondition::scale_too_fast, nearest(counts), nearest(settings_.max_count_rate));
     } else if (was && !fast) {
         state_.too_fast = 0;
         const std::int64_t gone = count(now) - state_.frozen;

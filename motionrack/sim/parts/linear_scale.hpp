@@ -38,12 +38,15 @@ struct LinearScaleSettings {
     std::int64_t interpolation = 4'096;   ///< 4 .. 65536, a multiple of 4: counts per pitch
     bool reversed = false;                ///< counts down while the position increases
     double zero_nm = 0;                   ///< position of count 0, within 10 m
-    double fastest = 20e6;                ///< counts/s, 1 .. 1e9: maximum rate that is counted
+    double max_count_rate = 20e6;         ///< counts/s, 1 .. 1e9: maximum rate that is counted
     std::optional<double> index_nm;       ///< position of the reference mark: Z is high for its count
     double dirt_at_nm = 0;                ///< start of the dirt of the fault
     std::int64_t places = places_per_nm;  ///< 1 .. 1e9: this number of position counts ...
     std::int64_t places_nm = 1;           ///< ... corresponds to this number of nm, 1 .. 1e9
 };
+
+/// Minimum time between two edges of the lines of a scale; each line has every second one.
+Duration edge_spacing(const LinearScaleSettings& settings);
 
 class LinearScale final : public sim::DeferringDevice, public sim::PositionFunction, private sim::PositionListener {
   public:

@@ -13,7 +13,7 @@ constexpr double most = 0.3;
 LineOutputSettings lines_of_converter(const ResolverSettings& s) {
     LineOutputSettings out;
     out.index_every = s.counts_per_turn;
-    out.fastest = s.fastest;
+    out.min_edge_interval = s.min_edge_interval;
     out.too_quick = TooQuick::comes_later;
     out.seed = s.seed;
     return out;

@@ -19,7 +19,7 @@ struct ResolverSettings {
     std::int64_t counts_per_turn = 4096;  ///< counts of an electrical revolution: typically 2^10 to 2^16
     std::int64_t place_per_turn =
         4096;  ///< change of `place` per electrical revolution; with p pole pairs 1/p of a rotor revolution
-    Duration fastest = nanoseconds(1'000);  ///< 10 ns .. 1 s: one count of the converter
+    Duration min_edge_interval = nanoseconds(1'000);  ///< 10 ns .. 1 s: one count of the converter
     std::uint64_t seed = 1;
 };
 

@@ -30,7 +30,7 @@ class ScanHead final : public sim::DeferringDevice {
     void begin();
     /// Mirrors, laser and part at the end of the last run.
     const MarkingStation& station() const { return station_; }
-    /// Data that a snapshot does not contain: the marked points, which it only counts.
+    /// Copies the marked points; a snapshot contains only their number.
     void copy_points(const ScanHead& other) { station_.workpiece().copy_points(other.station_.workpiece()); }
     bool gate() const { return state_.gate != 0; }
     sim::DeviceId id() const { return id_; }

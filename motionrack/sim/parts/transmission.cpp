@@ -46,7 +46,7 @@ Transmission::Transmission(const TransmissionSettings& settings, std::int64_t pu
     play_ = static_cast<std::int64_t>(settings.backlash * den_ / num_ + 0.5);
     if (settings.end_minus) travel_.below = last_at_or_below(*settings.end_minus) - 1;
     if (settings.end_plus) travel_.above = first_at_or_above(*settings.end_plus) + play_ + 1;
-    MOTIONRACK_ASSERT(!travel_.left(0));  // it starts within its travel
+    MOTIONRACK_ASSERT(!travel_.left(0));  // the axis starts between its ends of travel
 }
 
 std::int64_t Transmission::first_at_or_above(double position) const {

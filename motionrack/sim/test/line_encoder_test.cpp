@@ -296,7 +296,7 @@ RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsAsTheExactRatioSays, ()) {
         laws.push_back(
             {milliseconds(i), microseconds(*rc::gen::inRange(20, 500)), *rc::gen::inRange<std::int64_t>(-1, 2)});
     laws.push_back({milliseconds(5), microseconds(1), 0});
-    s.fastest = nanoseconds(10);
+    s.min_edge_interval = nanoseconds(10);
     Disc w(s, laws);
     w.run(milliseconds(20));
     const std::int64_t place = w.place.count(w.kernel.now());

@@ -87,7 +87,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
     s.interpolation = *rc::gen::element<std::int64_t>(4, 1'024, 4'096, 65'536);
     s.reversed = *rc::gen::arbitrary<bool>();
     s.zero_nm = *rc::gen::element(0.0, -1e6, 3e8);
-    s.fastest = 1e9;
+    s.max_count_rate = 1e9;
     LinearStageSettings stage;
     stage.start_nm = *rc::gen::element(0.0, -9e8, 9e8);
     stage.top_speed = 0.007;  // below 1e9 counts/s of the finest scale
@@ -129,7 +129,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     // its last reading.
     LinearScaleSettings fine;
     fine.pitch_pm = 512'000;
-    fine.fastest = 1e9;
+    fine.max_count_rate = 1e9;
     ScaleRig wide(fine, stage);
     wide.kernel.start();
     wide.volts(1);
@@ -217,7 +217,7 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
 
 TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
     LinearScaleSettings s;
-    s.fastest = 1e6;  // 4.88 mm/s
+    s.max_count_rate = 1e6;  // 4.88 mm/s
     ScaleRig rig(s);
     rig.kernel.start();
     rig.volts(1);  // 5 m/s2: too fast after 0.9766 ms
@@ -310,7 +310,7 @@ TEST(LinearScale, RidesOnAnyMotion) {
 
 RC_GTEST_PROP(LinearScale, ASnapshotContinuesAsTheFirstTime, ()) {
     LinearScaleSettings s;
-    s.fastest = 5e6;
+    s.max_count_rate = 5e6;
     ScaleRig rig(s);
     rig.kernel.start();
     rig.volts(1);

@@ -25,7 +25,7 @@ struct ListenersEar final : PositionListener {
     double before = 0, after = 0;
 };
 
-TEST(Listeners, WhoseRangeIsLeftHearsOfItOnceAndTheOthersDoNot) {
+TEST(Listeners, NotifiesOnceTheListenerWhoseRangeIsLeft) {
     Listeners listeners;
     Listeners::Watches watches{};
     ListenersEar first, second;
