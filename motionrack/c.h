@@ -126,12 +126,13 @@ MR_API int mr_peek(mr_rack* rack, const char* card, const char* register_name, u
 enum { MR_MAX_SCALES = 128 }; /* of a frame */
 
 /* The scales of one instant, as a card of type grating_bus holds them. Entries from `words` on are 0. A count is the
- * low 32 bits of its scale's: (int32_t)(now - before) is the way between two frames, while that is less than 2^31. */
+ * low 32 bits of its scale's, signed: (int32_t)((uint32_t)now - (uint32_t)before) is the distance between two frames,
+ * while that is less than 2^31. */
 typedef struct mr_frame {
     uint32_t sequence;                /* number of the bus' period, wraps */
     uint32_t words;                   /* 1 .. MR_MAX_SCALES: scales of the frame */
     int64_t time_100ps;               /* the instant of HOLD, in 100 ps since the rack was opened */
-    uint32_t counts[MR_MAX_SCALES];   /* of each word */
+    int32_t counts[MR_MAX_SCALES];    /* of each word */
     uint8_t addresses[MR_MAX_SCALES]; /* 0 .. 127: which scale each word is of, as the host addressed it */
 } mr_frame;
 
@@ -242,6 +243,7 @@ MR_API int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double valu
  *   drive.speed              a belt or table moves at VALUE mm/s or degrees/s from now on; 0: standstill
  *   drive.profile            back to the profile of the rack file
  *   sender.silent            the sender is silent; 0 repairs it
+ * Stages and cards have faults, too ("scale.lose" of a stage, "off" of a card): mr_faults lists those of a rack.
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack* rack, const char* fault, const char* target);
 
@@ -368,8 +370,9 @@ MR_API int mr_on_condition(mr_rack* rack,
 MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 
 /* The unit of time of VCD files that are begun from now on: 0.1, 1, 10, 100 or 1000 ns, or such a part of a second; 0,
- * as at first: the coarsest that shows every edge of the chosen signals, 100 ns at most. sigrok-cli makes a sample of
- * each unit: let it read a fine one with -I vcd:downsample=N. MR_BAD_CALL, MR_REFUSED (another unit). */
+ * as at first: the coarsest that shows every edge that cards and parts drive, 100 ns at most; wires that you drive at
+ * shorter intervals need a finer one. sigrok-cli makes a sample of each unit: let it read a fine one with
+ * -I vcd:downsample=N. MR_BAD_CALL, MR_REFUSED (another unit). */
 MR_API int mr_trace_unit(mr_rack* rack, double ns);
 
 /* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole: the

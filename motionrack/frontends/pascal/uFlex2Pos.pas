@@ -56,7 +56,7 @@ function GetFlexBinSize: Longint;
 { From now on Init takes this image, which must stay where it is; nil: as before. }
 procedure SetFlexBin(Addr: Pointer; Size: Longint);
 
-{ Makes an image of one's own, of at most Size bytes, and gives its bytes; 0 if it could not be made: mr_last_error says
+{ Makes a custom image, of at most Size bytes, and gives its bytes; 0 if it could not be made: mr_last_error says
   why. Project and Ident as the card shall have them ('position' and $25 are what Init takes); Modes: how the four axes
   count, words MODE. }
 function MakeFlexBin(const Project: AnsiString; Ident: Byte; const Modes: array of Word; Addr: Pointer; Size: Longint):

@@ -39,7 +39,7 @@ type
     { Fills the array with a configuration image, as motionrack image make writes it, of that many bytes. nil: with the
       one that the rack file gives the card, or else the one that is built in. Takes seconds of the rack's time. }
     procedure Configure(Image: Pointer; Size: Longint);
-    { The sentence to Result; empty if it is Flex_Ok. }
+    { Message for the code in Result; empty if it is Flex_Ok. }
     function Why: AnsiString;
     function GetIdent: Byte;
     { Low and high 8 outputs of connector X5. }

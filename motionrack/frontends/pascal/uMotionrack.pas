@@ -46,7 +46,7 @@ type
   mr_frame = record
     Sequence, Words: Longword;
     Time100ps: Int64;
-    Counts: array[0..MR_MAX_SCALES - 1] of Longword;
+    Counts: array[0..MR_MAX_SCALES - 1] of Longint;
     Addresses: array[0..MR_MAX_SCALES - 1] of Byte;
   end;
 

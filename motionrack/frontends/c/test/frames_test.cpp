@@ -54,6 +54,16 @@ TEST(CFrames, AreRefusedWhenThereIsNoneOrItIsStaleAndTheFrameIsLeftAlone) {
     EXPECT_EQ(frame.sequence, 77u);
 }
 
+TEST(CFrames, PositionsBelowZeroAreNegative) {
+    World world(
+        "[card.dec]\ntype = \"grating_decoder\"\nscales = 1\n[card.host]\ntype = \"grating_bus\"\nscales = 1\n"
+        "[stage.SX]\ncard = \"host\"\ninput = 0\nstart_mm = -1\n");
+    mr_frame frame = marked();
+    ASSERT_EQ(mr_frame_wait(world, "host", 1'000'000, &frame), MR_OK) << mr_last_error();
+    EXPECT_LT(frame.counts[0], -1'000);
+    EXPECT_GT(frame.counts[0], -10'000'000);
+}
+
 TEST(CFrames, WrongCallsAreRefusedAndChangeNothing) {
     World world(two_cards);
     mr_frame frame = marked();
