@@ -13,7 +13,7 @@ from pathlib import Path
 
 from found import finish, text_of
 
-MAX_COLUMNS = 160
+MAX_COLUMNS = 120
 SECTIONS = ["Added", "Changed", "Fixed", "Removed"]
 HEADING = re.compile(r"## \[(\d+)\.(\d+)\.(\d+)\] - (\d{4}-\d{2}-\d{2})")
 
