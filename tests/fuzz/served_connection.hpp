@@ -49,7 +49,7 @@ class ServedConnection {
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(panel));
         post_ = std::make_shared<server::Post>(
             [this](std::function<void()> work) { boost::asio::post(*io_, std::move(work)); });
-        hall_ = std::make_shared<server::ConnectionPool>(
+        pool_ = std::make_shared<server::ConnectionPool>(
             std::make_shared<server::PanelService>(server_settings(), *panel_, *door_, lease_, server::Page(), post_));
         history_ = machine_->rack().kernel().trace_hash();
         connect();
@@ -57,10 +57,10 @@ class ServedConnection {
     ~ServedConnection() {
         ::close(end_);
         for (int i = 0; i < 20; ++i) poll();
-        hall_->open_connections.end_all("The target ends.");
+        pool_->open_connections.end_all("The target ends.");
         poll();
         post_->end();
-        hall_.reset();
+        pool_.reset();
     }
     ServedConnection(const ServedConnection&) = delete;
     ServedConnection& operator=(const ServedConnection&) = delete;
@@ -122,7 +122,7 @@ class ServedConnection {
         server::Peer peer;
         peer.address = peer.local = peer.network = "127.0.0.1";
         peer.loopback = true;
-        server::serve(server::Transport(std::move(socket)), std::move(peer), hall_);
+        server::serve(server::Transport(std::move(socket)), std::move(peer), pool_);
     }
 
     void poll() {
@@ -148,8 +148,8 @@ class ServedConnection {
     void turn() {
         if (!step_) return;
         passed_ += std::chrono::milliseconds(2);
-        hall_->service->tick();
-        hall_->clients.tick();
+        pool_->service->tick();
+        pool_->clients.tick();
         idle_ = exchange() ? 0 : idle_ + 1;
         if (idle_ > 20) std::this_thread::sleep_for(std::chrono::microseconds(100));
         is_over_ = std::chrono::steady_clock::now() > until_;
@@ -164,7 +164,7 @@ class ServedConnection {
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<boost::asio::io_context> io_ = std::make_unique<boost::asio::io_context>(1);
     std::shared_ptr<server::Post> post_;
-    std::shared_ptr<server::ConnectionPool> hall_;
+    std::shared_ptr<server::ConnectionPool> pool_;
     std::function<bool()> step_;
     std::chrono::steady_clock::time_point until_;
     std::chrono::nanoseconds passed_ = std::chrono::hours(500'000);  ///< time on the clocks seen by the server

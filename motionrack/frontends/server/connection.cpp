@@ -25,11 +25,11 @@ namespace {
 
 class Connection final : public OpenConnection, public std::enable_shared_from_this<Connection> {
   public:
-    Connection(Transport stream, Peer peer, std::shared_ptr<ConnectionPool> hall)
-        : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
-        hall_->open_connections.arrive(this, peer_.network);
+    Connection(Transport stream, Peer peer, std::shared_ptr<ConnectionPool> pool)
+        : stream_(std::move(stream)), peer_(std::move(peer)), pool_(std::move(pool)) {
+        pool_->open_connections.arrive(this, peer_.network);
     }
-    ~Connection() override { hall_->open_connections.leave(this); }
+    ~Connection() override { pool_->open_connections.leave(this); }
 
     void begin() {
         expire(limits().header);
@@ -40,7 +40,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void end(std::string_view why) override {
         const auto self = keep_ ? std::move(keep_) : shared_from_this();
-        hall_->open_connections.leave(this);
+        pool_->open_connections.leave(this);
         if (std::exchange(ended_, true)) return;
         auto& socket = stream_.tcp();
         if (!stream_.secure() && !busy_) {  // it waits for a request, so a last answer can be sent
@@ -58,7 +58,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     static bool is_http(error_code error) {
         return error.category() == make_error_code(http::error::bad_method).category();
     }
-    const Limits& limits() const { return hall_->service->settings().limits; }
+    const Limits& limits() const { return pool_->service->settings().limits; }
     void expire(std::chrono::milliseconds time) {
         stream_.tcp().expires_after(peer_.stop_only ? std::min(time, limits().spare_time) : time);
     }
@@ -83,15 +83,15 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
                            fmt::format("This is not an HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
-        peer_.stop_only = !hall_->open_connections.take_seat(this, peer_.network);
+        peer_.stop_only = !pool_->open_connections.take_slot(this, peer_.network);
         head_ = head_of(parser_->get(), peer_);
         head_.has_more = !parser_->is_done() || (head_.upgrade && buffer_.size() > 0);
         if (head_.upgrade) {
-            if (auto refused = hall_->service->refuse_stream(head_)) return answer(std::move(*refused), false);
+            if (auto refused = pool_->service->refuse_stream(head_)) return answer(std::move(*refused), false);
             expire_never();
-            return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), hall_, this);
+            return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), pool_, this);
         }
-        admission_ = hall_->service->admit(head_);
+        admission_ = pool_->service->admit(head_);
         if (admission_.answer) return answer(std::move(*admission_.answer), parser_->keep_alive() && !head_.has_more);
         const auto length = parser_->content_length();
         if (length && *length > admission_.body_limit) return too_large();
@@ -134,7 +134,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         busy_ = true;
         const bool keep_alive = parser_->keep_alive();
         keep_ = shared_from_this();
-        hall_->service->handle(head_, admission_, parser_->get().body(),
+        pool_->service->handle(head_, admission_, parser_->get().body(),
                                [weak = weak_from_this(), keep_alive](HttpAnswer one) {
                                    const auto self = weak.lock();
                                    if (!self || self->ended_) return;
@@ -180,7 +180,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     Transport stream_;
     Peer peer_;
-    std::shared_ptr<ConnectionPool> hall_;
+    std::shared_ptr<ConnectionPool> pool_;
     beast::flat_buffer buffer_{16 * 1024};
     std::optional<Parser> parser_;
     RequestHead head_;
@@ -196,8 +196,8 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
 }  // namespace
 
-void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> hall) {
-    std::make_shared<Connection>(std::move(transport), std::move(peer), std::move(hall))->begin();
+void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> pool) {
+    std::make_shared<Connection>(std::move(transport), std::move(peer), std::move(pool))->begin();
 }
 
 }  // namespace motionrack::server

@@ -155,17 +155,17 @@ class GrblPorts::Inside {
             if (verdict == Verdict::open) return visitor.line->read_on();
             visitor.is_sender = true;
             bytes = visitor.introduction.take_bytes();
-            if (writer_ != &visitor && is_seat_free()) let_write(visitor);
+            if (writer_ != &visitor && is_slot_free()) let_write(visitor);
         }
         tcp_port_->hear(std::move(bytes), &visitor == writer_, reading_on(visitor.line));
     }
-    bool is_seat_free() const {
+    bool is_slot_free() const {
         return writer_ == nullptr ||
                (!writer_->is_sender && std::chrono::steady_clock::now() - writer_->since >= settings_.silence);
     }
     void turn_away(Visitor& visitor) {
-        if (settings_.on_stranger && strangers_.take("", std::chrono::steady_clock::now()))
-            settings_.on_stranger(visitor.address);
+        if (settings_.on_unknown_sender && unknown_senders_.take("", std::chrono::steady_clock::now()))
+            settings_.on_unknown_sender(visitor.address);
         const auto line = visitor.line;  // it ends with its visitor
         line->end();
     }
@@ -265,7 +265,7 @@ class GrblPorts::Inside {
     std::shared_ptr<SenderPort> tcp_port_, terminal_port_;
     std::vector<std::shared_ptr<Visitor>> visitors_;  ///< in order of connection
     Visitor* writer_ = nullptr;
-    auth::RateLimit strangers_{1, 1};
+    auth::RateLimit unknown_senders_{1, 1};
     /// A client's input may arrive shortly after it has disconnected. For this time after a disconnect, the next client
     /// is neither read nor greeted.
     static constexpr std::chrono::milliseconds settling{50};

@@ -36,7 +36,7 @@ struct GrblPortSettings {
     std::function<void(const std::string& sender, const std::string& text)> on_setting = {};
     /// Called with the address of a connection that was closed because it is not a sender. At most once a second; on
     /// the network thread.
-    std::function<void(const std::string& address)> on_stranger = {};
+    std::function<void(const std::string& address)> on_unknown_sender = {};
 };
 
 class GrblPorts {

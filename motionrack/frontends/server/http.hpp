@@ -15,7 +15,7 @@ struct Peer {
     std::string address;  ///< "127.0.0.1"
     std::string local;    ///< local address of the connection
     bool loopback = false, secure = false;
-    bool stop_only = false;    ///< no seat is free: only STOP is accepted
+    bool stop_only = false;    ///< no slot is free: only STOP is accepted
     std::string network = {};  ///< key for limits: network_of(address)
 };
 

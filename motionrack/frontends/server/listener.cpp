@@ -76,9 +76,9 @@ void Reserve::refill() {
     }
 }
 
-PortListener::PortListener(asio::io_context& io, std::shared_ptr<ConnectionPool> hall, tcp::acceptor acceptor,
+PortListener::PortListener(asio::io_context& io, std::shared_ptr<ConnectionPool> pool, tcp::acceptor acceptor,
                            std::unique_ptr<asio::ssl::context> tls)
-    : io_(io), acceptor_(std::move(acceptor)), tls_(std::move(tls)), pause_(io), timer_(io), hall_(std::move(hall)) {}
+    : io_(io), acceptor_(std::move(acceptor)), tls_(std::move(tls)), pause_(io), timer_(io), pool_(std::move(pool)) {}
 
 void PortListener::begin() {
     accept();
@@ -90,8 +90,8 @@ void PortListener::tick() {
     timer_.async_wait([this](error_code error) {
         if (error || ended_) return;
         reserve_.refill();
-        hall_->service->tick();
-        hall_->clients.tick();
+        pool_->service->tick();
+        pool_->clients.tick();
         tick();
     });
 }
@@ -125,7 +125,7 @@ void PortListener::take_some() {
 }
 
 bool PortListener::make_room() {
-    return reserve_.give() || hall_->open_connections.end_a_caller();
+    return reserve_.give() || pool_->open_connections.end_a_caller();
 }
 
 void PortListener::take(tcp::socket socket) {
@@ -141,7 +141,7 @@ void PortListener::take(tcp::socket socket) {
     peer.loopback = plain(remote.address()).is_loopback();
     peer.secure = tls_ != nullptr;
     peer.network = network_of(peer.address);
-    serve(tls_ ? Transport(std::move(socket), *tls_) : Transport(std::move(socket)), std::move(peer), hall_);
+    serve(tls_ ? Transport(std::move(socket), *tls_) : Transport(std::move(socket)), std::move(peer), pool_);
 }
 
 void PortListener::end() {
@@ -150,7 +150,7 @@ void PortListener::end() {
     acceptor_.close(error);
     timer_.cancel();
     pause_.cancel();
-    hall_->open_connections.end_all("The server was stopped.");
+    pool_->open_connections.end_all("The server was stopped.");
 }
 
 }  // namespace motionrack::server

@@ -6,7 +6,7 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <memory>
-#include <motionrack/frontends/server/hall.hpp>
+#include <motionrack/frontends/server/connection_pool.hpp>
 #include <vector>
 
 namespace motionrack::server {
@@ -36,12 +36,12 @@ Result<boost::asio::ip::tcp::acceptor> take_port(boost::asio::io_context& io, co
 class PortListener {
   public:
     /// Requires a non-blocking `acceptor`.
-    PortListener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> hall,
+    PortListener(boost::asio::io_context& io, std::shared_ptr<ConnectionPool> pool,
                  boost::asio::ip::tcp::acceptor acceptor, std::unique_ptr<boost::asio::ssl::context> tls);
     void begin();
     /// Stops accepting and closes all connections with a reason.
     void end();
-    bool empty() const { return hall_->open_connections.empty(); }
+    bool empty() const { return pool_->open_connections.empty(); }
 
   private:
     void accept();
@@ -54,7 +54,7 @@ class PortListener {
     boost::asio::ip::tcp::acceptor acceptor_;
     std::unique_ptr<boost::asio::ssl::context> tls_;
     boost::asio::steady_timer pause_, timer_;
-    std::shared_ptr<ConnectionPool> hall_;
+    std::shared_ptr<ConnectionPool> pool_;
     Reserve reserve_;
     bool ended_ = false;
 };

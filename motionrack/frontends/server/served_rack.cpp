@@ -48,7 +48,7 @@ Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings set
                 if (!settings_of_senders_.take("", std::chrono::steady_clock::now())) return;
                 journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
             };
-            settings.grbl->on_stranger = [this](const std::string& address) {
+            settings.grbl->on_unknown_sender = [this](const std::string& address) {
                 machine_->post([this, address] {
                     journal_->write(
                         machine_->now(), "audit",

@@ -53,7 +53,7 @@ class Server::Inside {
     Inside(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
            Page page)
         : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
-          hall_(std::make_shared<ConnectionPool>(
+          pool_(std::make_shared<ConnectionPool>(
               std::make_shared<PanelService>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
     ~Inside() { stop(); }
 
@@ -75,11 +75,11 @@ class Server::Inside {
         }
         MOTIONRACK_TRY(tcp::acceptor acceptor, take_port(io_, address, settings.port));
         port_ = acceptor.local_endpoint().port();
-        listener_ = std::make_unique<PortListener>(io_, hall_, std::move(acceptor), std::move(tls));
-        hall_->service->panel().on_event(
-            [post = post_, hall = std::weak_ptr<ConnectionPool>(hall_)](const panel::Event& event) {
-                (*post)([hall, event] {
-                    if (const auto there = hall.lock()) there->clients.tell(event);
+        listener_ = std::make_unique<PortListener>(io_, pool_, std::move(acceptor), std::move(tls));
+        pool_->service->panel().on_event(
+            [post = post_, pool = std::weak_ptr<ConnectionPool>(pool_)](const panel::Event& event) {
+                (*post)([pool, event] {
+                    if (const auto there = pool.lock()) there->clients.tell(event);
                 });
             });
         listener_->begin();
@@ -98,9 +98,9 @@ class Server::Inside {
         post_->end();
     }
 
-    const ServerSettings& settings() const { return hall_->service->settings(); }
+    const ServerSettings& settings() const { return pool_->service->settings(); }
     std::uint16_t port() const { return port_; }
-    std::int64_t clients() const { return hall_->clients.count(); }
+    std::int64_t clients() const { return pool_->clients.count(); }
 
   private:
     /// Checks every few ms whether all connections are closed.
@@ -112,7 +112,7 @@ class Server::Inside {
 
     asio::io_context io_{1};
     std::shared_ptr<Post> post_;
-    std::shared_ptr<ConnectionPool> hall_;
+    std::shared_ptr<ConnectionPool> pool_;
     std::unique_ptr<PortListener> listener_;
     asio::steady_timer goodbye_{io_};
     std::chrono::steady_clock::time_point stopped_;

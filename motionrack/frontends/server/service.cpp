@@ -68,7 +68,7 @@ PanelService::PanelService(ServerSettings settings, panel::Panel& panel, auth::A
       post_(std::move(post)),
       requests_(settings_.limits.requests_at_once, settings_.limits.requests_per_second),
       told_(1, 1),
-      strangers_([this](const AuditEntry& entry) {
+      unknown_senders_([this](const AuditEntry& entry) {
           if (settings_.audit) settings_.audit(entry);
       }),
       openapi_(panel::Panel::openapi().dump(2) + "\n") {}
@@ -282,7 +282,7 @@ void PanelService::audit(const std::string& user, const std::string& address, st
     if (answer.status != 200 && answer.body.contains("error"))
         entry.outcome = answer.body["error"].value("message", "");
     if (is_known) return settings_.audit(entry);
-    strangers_.tell(std::move(entry), network_of(address), at);
+    unknown_senders_.tell(std::move(entry), network_of(address), at);
 }
 
 }  // namespace motionrack::server

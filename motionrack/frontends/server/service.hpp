@@ -16,7 +16,7 @@
 #include <motionrack/frontends/server/origin_policy.hpp>
 #include <motionrack/frontends/server/page.hpp>
 #include <motionrack/frontends/server/settings.hpp>
-#include <motionrack/frontends/server/stranger_log.hpp>
+#include <motionrack/frontends/server/unknown_sender_log.hpp>
 #include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/panel/panel.hpp>
 #include <mutex>
@@ -84,7 +84,7 @@ class PanelService {
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                bool is_known);
     /// Called every few ms.
-    void tick() { strangers_.tick(now().steady); }
+    void tick() { unknown_senders_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
     auth::Timestamps now() const { return settings_.clock(); }
     panel::Panel& panel() { return panel_; }
@@ -106,7 +106,7 @@ class PanelService {
     OriginPolicy guard_;
     std::shared_ptr<Post> post_;
     auth::RateLimit requests_, told_;
-    StrangerLog strangers_;
+    UnknownSenderLog unknown_senders_;
     std::string openapi_;
 };
 

@@ -23,7 +23,7 @@ struct Limits {
     std::size_t connections = 500;
     std::size_t of_a_network =
         250;                    ///< connections per network (network_of); beyond either limit only STOP is accepted
-    std::size_t callers = 128;  ///< connections without a complete head or without a seat
+    std::size_t callers = 128;  ///< connections without a complete head or without a slot
     std::size_t strange_frame = 4 * 1024;  ///< maximum bytes of a WebSocket message before authentication
     std::size_t frame = 64 * 1024;  ///< maximum bytes of a WebSocket message from an observer; big_body for operators
     std::size_t strange_body =

@@ -6,7 +6,7 @@
 #include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <memory>
-#include <motionrack/frontends/server/hall.hpp>
+#include <motionrack/frontends/server/connection_pool.hpp>
 #include <motionrack/frontends/server/transport.hpp>
 #include <string>
 #include <string_view>
@@ -25,9 +25,9 @@ Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);
 const std::string& last_word(std::string_view why);
 
 /// Starts to serve an accepted connection.
-void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> hall);
-/// Upgrades to a WebSocket in the seat of `before`.
-void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> pool);
+/// Upgrades to a WebSocket in the slot of `before`.
+void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> pool,
                   OpenConnection* before);
 
 }  // namespace motionrack::server

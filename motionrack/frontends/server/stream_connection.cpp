@@ -17,20 +17,20 @@ class StreamConnection final : public OpenConnection,
                                public MessageSink,
                                public std::enable_shared_from_this<StreamConnection> {
   public:
-    /// Takes over the seat of `before`.
-    StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+    /// Takes over the slot of `before`.
+    StreamConnection(Transport stream, Request request, Peer peer, std::shared_ptr<ConnectionPool> pool,
                      OpenConnection* before)
         : socket_(std::move(stream)),
           request_(std::move(request)),
-          hall_(std::move(hall)),
-          client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++),
+          pool_(std::move(pool)),
+          client_(std::make_shared<Client>(*pool_->service, std::move(peer), fmt::format("w{}", pool_->next_session++),
                                            *this)) {
-        hall_->open_connections.replace(before, this);
+        pool_->open_connections.replace(before, this);
     }
     ~StreamConnection() override { leave(); }
 
     void begin() {
-        const Limits& limits = hall_->service->settings().limits;
+        const Limits& limits = pool_->service->settings().limits;
         socket_.set_option(websocket::stream_base::timeout{limits.header, limits.silence, true});
         socket_.read_message_max(limits.frame);
         socket_.auto_fragment(false);
@@ -38,7 +38,7 @@ class StreamConnection final : public OpenConnection,
         socket_.async_accept(request_, [self = shared_from_this()](error_code error) {
             if (error || self->left_) return;
             self->opened_ = true;
-            self->hall_->clients.add(self->client_);
+            self->pool_->clients.add(self->client_);
             self->client_->opened();
             self->read();
         });
@@ -91,13 +91,13 @@ class StreamConnection final : public OpenConnection,
     void leave() {
         if (std::exchange(left_, true)) return;
         client_->closed();
-        hall_->clients.remove(client_.get());
-        hall_->open_connections.leave(this);
+        pool_->clients.remove(client_.get());
+        pool_->open_connections.leave(this);
     }
 
     websocket::stream<Transport, false> socket_;
     Request request_;
-    std::shared_ptr<ConnectionPool> hall_;
+    std::shared_ptr<ConnectionPool> pool_;
     std::shared_ptr<Client> client_;
     beast::flat_buffer buffer_;
     std::optional<websocket::close_reason> reason_;
@@ -106,9 +106,9 @@ class StreamConnection final : public OpenConnection,
 
 }  // namespace
 
-void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> hall,
+void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> pool,
                   OpenConnection* before) {
-    std::make_shared<StreamConnection>(std::move(transport), std::move(request), std::move(peer), std::move(hall),
+    std::make_shared<StreamConnection>(std::move(transport), std::move(request), std::move(peer), std::move(pool),
                                        before)
         ->begin();
 }

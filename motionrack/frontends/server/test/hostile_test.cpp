@@ -217,7 +217,7 @@ std::vector<std::array<std::int64_t, 3>> path_of_the_job(int connections, int& r
         EXPECT_NE(answer.message(), "");
         ++refused;
     }
-    // All seats are occupied by connections that keep them: STOP is executed nevertheless.
+    // All slots are occupied by connections that keep them: STOP is executed nevertheless.
     if (connections > 0) {
         EXPECT_EQ(running.client().ask("GET", "/api/status").status, 503);
         EXPECT_EQ(running.client().ask("POST", "/api/stop").status, 200);

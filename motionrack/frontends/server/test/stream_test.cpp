@@ -17,7 +17,7 @@ std::string error_of(const json& answer) {
     return answer.contains("error") ? answer["error"]["message"].get<std::string>() : "";
 }
 
-TEST(AStream, BeginsWithHelloAndGivesPictures) {
+TEST(StreamConnection, BeginsWithHelloAndGivesPictures) {
     Running running;
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);
@@ -33,7 +33,7 @@ TEST(AStream, BeginsWithHelloAndGivesPictures) {
     EXPECT_GT(client.receive_until(is_picture)["seq"], first["seq"]);
 }
 
-TEST(AStream, GivesTheChannelsThatWereAskedForInTheirOrder) {
+TEST(StreamConnection, GivesTheChannelsThatWereAskedForInTheirOrder) {
     Running running;
     WebClient client = running.stream("");
     EXPECT_TRUE(client.exchange({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}})
@@ -51,7 +51,7 @@ TEST(AStream, GivesTheChannelsThatWereAskedForInTheirOrder) {
     EXPECT_FALSE(client.receive_until(is_picture)["values"].empty()) << "what was refused changed nothing";
 }
 
-TEST(AStream, TellsEventsToEverybody) {
+TEST(StreamConnection, SendsEventsToAllClients) {
     Running running;
     WebClient watcher = running.stream("");
     WebClient anna = running.master("anna");
@@ -60,7 +60,7 @@ TEST(AStream, TellsEventsToEverybody) {
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
-TEST(AStream, RefusesWithASentenceAndGoesOn) {
+TEST(StreamConnection, RefusesWithASentenceAndGoesOn) {
     Running running;
     WebClient client = running.stream(running.token("anna"));
     const auto refused = [&](const std::string& text) {
@@ -83,7 +83,7 @@ TEST(AStream, RefusesWithASentenceAndGoesOn) {
     EXPECT_TRUE(client.exchange({{"query", "status"}}).value("done", false));
 }
 
-TEST(AStream, StopsUnderItsFormerNameToo) {
+TEST(StreamConnection, StopsUnderItsFormerNameToo) {
     Running running;
     WebClient client = running.master("anna");
     client.say({{"id", 1}, {"order", "stop"}});
@@ -92,7 +92,7 @@ TEST(AStream, StopsUnderItsFormerNameToo) {
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
-TEST(AStream, TakesLongProgramsFromWhoMayOperate) {
+TEST(StreamConnection, TakesLongProgramsFromWhoMayOperate) {
     Running running;
     WebClient anna = running.master("anna");
     std::string text = "(" + std::string(200'000, 'x') + ")\n" + job();
@@ -106,7 +106,7 @@ TEST(AStream, TakesLongProgramsFromWhoMayOperate) {
     EXPECT_EQ(frame.code, 1009);
 }
 
-TEST(AStream, HasOneMasterAtATime) {
+TEST(StreamConnection, HasOneMasterAtATime) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert"));
@@ -124,7 +124,7 @@ TEST(AStream, HasOneMasterAtATime) {
     EXPECT_THAT(error_of(anna.exchange({{"command", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }
 
-TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
+TEST(StreamConnection, EndsTheJogsThatItAskedForWhenItCloses) {
     Running running({}, {}, whole_seconds(3600));
     WebClient watcher = running.stream("");
     {
@@ -142,7 +142,7 @@ TEST(AStream, EndsTheJogsThatItAskedForWhenItCloses) {
     EXPECT_LT(stood["status"]["axes"][0]["commanded"], 290) << "it stopped long before the end of its travel";
 }
 
-TEST(AStream, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
+TEST(StreamConnection, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
     Running running;
     WebClient anna = running.master("anna");
     const json jog = {{"command", "jog"}, {"axis", "X"}, {"speed", 1}};
@@ -161,12 +161,12 @@ TEST(AStream, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
 }
 
 /// Client errors, while the machine runs a job and while it is stationary.
-class AStreamWhile : public testing::TestWithParam<bool> {
+class StreamConnectionWhile : public testing::TestWithParam<bool> {
   protected:
     static bool moving() { return GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Machine, StreamConnectionWhile, testing::Bool(),
                          [](const auto& each) { return each.param ? "moving" : "standing"; });
 
 /// Path of an undisturbed job.
@@ -178,7 +178,7 @@ std::vector<std::array<std::int64_t, 3>> quiet_path() {
     return running.path();
 }
 
-TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
+TEST_P(StreamConnectionWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
     Running running;
     const std::string token = running.token("anna");
     {
@@ -199,7 +199,7 @@ TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
     EXPECT_EQ(running.path(), moving() ? quiet_path() : decltype(quiet_path())());
 }
 
-TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
+TEST_P(StreamConnectionWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     Running running;
     WebClient anna = running.master("anna");
     if (moving()) {
@@ -225,7 +225,7 @@ TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     EXPECT_GT(lost, 0);
 }
 
-TEST(AStream, IsEndedWhenItsTokenIsRevoked) {
+TEST(StreamConnection, IsEndedWhenItsTokenIsRevoked) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert", Role::operate));
@@ -238,7 +238,7 @@ TEST(AStream, IsEndedWhenItsTokenIsRevoked) {
     EXPECT_THAT(frame.text, HasSubstr("pair again"));
 }
 
-TEST(AStream, IsSaidGoodbyeWhenTheServerEnds) {
+TEST(StreamConnection, ReceivesACloseFrameWhenTheServerEnds) {
     Running running;
     WebClient client = running.stream("");
     running.served->server().stop();

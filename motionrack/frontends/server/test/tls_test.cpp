@@ -121,7 +121,7 @@ TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
 }
 
 /// A client from another computer: its address is not a loopback address.
-TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
+TEST_F(ATlsServer, GivesNothingButThePageAndStopToUnauthenticatedClients) {
     Running running(tls());
     PanelService service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
                          std::make_shared<Post>([](const std::function<void()>& work) { work(); }));

@@ -1,7 +1,7 @@
 // Connection limits of a server, in total and per network.
 //
-//  accept ─► caller ─whole head─► seat: 500, per network 250 ─► HTTP ─► possibly a WebSocket
-//            128       │     └──► no seat: STOP is executed, all else is answered 503
+//  accept ─► caller ─whole head─► slot: 500, per network 250 ─► HTTP ─► possibly a WebSocket
+//            128       │     └──► no slot: STOP is executed, all else is answered 503
 //             │        └ STOP is executed in any case
 //             └─► one more: among the older quarter, closes the oldest caller of the network with the most callers;
 //                 the input of newer ones may not have been read yet
@@ -24,17 +24,17 @@ class OpenConnection {
     virtual void end(std::string_view why) = 0;
 };
 
-/// Assigns seats to connections. A network is the address range of one customer: network_of().
-class Seats {
+/// Assigns slots to connections. A network is the address range of one customer: network_of().
+class ConnectionSlots {
   public:
-    explicit Seats(const Limits& limits) : limits_(limits) {}
+    explicit ConnectionSlots(const Limits& limits) : limits_(limits) {}
 
     /// Adds a connection that has sent no head yet. May close another connection.
     void arrive(OpenConnection* open, const std::string& network);
-    /// A connection has sent its head. Returns true if it has a seat, new or existing. Returns false if none is free;
+    /// A connection has sent its head. Returns true if it has a slot, new or existing. Returns false if none is free;
     /// it stays a caller.
-    bool take_seat(OpenConnection* open, const std::string& network);
-    /// Transfers the seat of a connection to its successor (WebSocket).
+    bool take_slot(OpenConnection* open, const std::string& network);
+    /// Transfers the slot of a connection to its successor (WebSocket).
     void replace(OpenConnection* before, OpenConnection* open);
     void leave(OpenConnection* open);
 
@@ -42,9 +42,9 @@ class Seats {
     /// none qualifies.
     bool end_a_caller();
     void end_all(std::string_view why);
-    bool empty() const { return seats_.empty() && callers_.empty(); }
+    bool empty() const { return slots_.empty() && callers_.empty(); }
     std::size_t callers() const { return callers_.size(); }
-    std::size_t open_connections() const { return seats_.size(); }
+    std::size_t open_connections() const { return slots_.size(); }
 
   private:
     struct WaitingCaller {
@@ -57,8 +57,8 @@ class Seats {
     const Limits& limits_;
     std::list<WaitingCaller> callers_;  ///< oldest first
     std::map<OpenConnection*, std::list<WaitingCaller>::iterator> caller_of_;
-    std::map<OpenConnection*, std::string> seats_;
-    Counts callers_of_, seats_of_;
+    std::map<OpenConnection*, std::string> slots_;
+    Counts callers_of_, slots_of_;
 };
 
 }  // namespace motionrack::server

@@ -1,55 +1,55 @@
-// Assignment of seats.
+// Assignment of slots.
 #include <algorithm>
 #include <iterator>
-#include <motionrack/frontends/server/seats.hpp>
+#include <motionrack/frontends/server/connection_slots.hpp>
 #include <vector>
 
 namespace motionrack::server {
 
-void Seats::take_one(Counts& counts, const std::string& network) {
+void ConnectionSlots::take_one(Counts& counts, const std::string& network) {
     const auto found = counts.find(network);
     if (found != counts.end() && --found->second == 0) counts.erase(found);
 }
 
-void Seats::arrive(OpenConnection* open, const std::string& network) {
+void ConnectionSlots::arrive(OpenConnection* open, const std::string& network) {
     if (callers_.size() >= limits_.callers) end_a_caller();
     callers_.push_back({open, network});
     caller_of_[open] = std::prev(callers_.end());
     ++callers_of_[network];
 }
 
-bool Seats::take_seat(OpenConnection* open, const std::string& network) {
-    if (seats_.count(open) != 0) return true;
-    const auto there = seats_of_.find(network);
-    if (seats_.size() >= limits_.connections || (there != seats_of_.end() && there->second >= limits_.of_a_network))
+bool ConnectionSlots::take_slot(OpenConnection* open, const std::string& network) {
+    if (slots_.count(open) != 0) return true;
+    const auto there = slots_of_.find(network);
+    if (slots_.size() >= limits_.connections || (there != slots_of_.end() && there->second >= limits_.of_a_network))
         return false;
     leave(open);
-    seats_[open] = network;
-    ++seats_of_[network];
+    slots_[open] = network;
+    ++slots_of_[network];
     return true;
 }
 
-void Seats::replace(OpenConnection* before, OpenConnection* open) {
-    const auto seat = seats_.find(before);
-    if (seat == seats_.end()) return;
-    const std::string network = seat->second;
-    seats_.erase(seat);
-    seats_[open] = network;
+void ConnectionSlots::replace(OpenConnection* before, OpenConnection* open) {
+    const auto slot = slots_.find(before);
+    if (slot == slots_.end()) return;
+    const std::string network = slot->second;
+    slots_.erase(slot);
+    slots_[open] = network;
 }
 
-void Seats::leave(OpenConnection* open) {
+void ConnectionSlots::leave(OpenConnection* open) {
     if (const auto caller = caller_of_.find(open); caller != caller_of_.end()) {
         take_one(callers_of_, caller->second->network);
         callers_.erase(caller->second);
         caller_of_.erase(caller);
     }
-    if (const auto seat = seats_.find(open); seat != seats_.end()) {
-        take_one(seats_of_, seat->second);
-        seats_.erase(seat);
+    if (const auto slot = slots_.find(open); slot != slots_.end()) {
+        take_one(slots_of_, slot->second);
+        slots_.erase(slot);
     }
 }
 
-bool Seats::end_a_caller() {
+bool ConnectionSlots::end_a_caller() {
     if (callers_.empty()) return false;
     const auto young = std::next(callers_.begin(), static_cast<std::ptrdiff_t>((callers_.size() + 3) / 4));
     const auto of_its_network = [&](const WaitingCaller& caller) { return callers_of_.find(caller.network)->second; };
@@ -62,9 +62,9 @@ bool Seats::end_a_caller() {
     return true;
 }
 
-void Seats::end_all(std::string_view why) {
+void ConnectionSlots::end_all(std::string_view why) {
     std::vector<OpenConnection*> all;  // each removes itself when it ends
-    for (const auto& [open, network] : seats_) all.push_back(open);
+    for (const auto& [open, network] : slots_) all.push_back(open);
     for (const WaitingCaller& caller : callers_) all.push_back(caller.open);
     for (OpenConnection* open : all) open->end(why);
 }

@@ -14,7 +14,7 @@
 
 namespace motionrack::server {
 
-class StrangerLog {
+class UnknownSenderLog {
   public:
     using Time = std::chrono::steady_clock::time_point;
     using Write = std::function<void(const AuditEntry&)>;
@@ -22,7 +22,7 @@ class StrangerLog {
     /// Maximum number of networks counted separately; the others are counted together.
     static constexpr std::size_t max_networks = 16;
 
-    explicit StrangerLog(Write write) : write_(std::move(write)) {}
+    explicit UnknownSenderLog(Write write) : write_(std::move(write)) {}
 
     void tell(AuditEntry entry, const std::string& network, Time now);
     /// Called periodically; writes the summaries.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <motionrack/frontends/server/clients.hpp>
-#include <motionrack/frontends/server/seats.hpp>
+#include <motionrack/frontends/server/connection_slots.hpp>
 #include <motionrack/frontends/server/service.hpp>
 
 namespace motionrack::server {
@@ -16,7 +16,7 @@ struct ConnectionPool {
 
     std::shared_ptr<PanelService> service;
     Clients clients;
-    Seats open_connections;
+    ConnectionSlots open_connections;
     std::int64_t next_session = 1;
 };
 

@@ -8,9 +8,9 @@
 #include <sys/socket.h>
 
 #include <list>
+#include <motionrack/frontends/server/connection_slots.hpp>
 #include <motionrack/frontends/server/origin_policy.hpp>
-#include <motionrack/frontends/server/seats.hpp>
-#include <motionrack/frontends/server/stranger_log.hpp>
+#include <motionrack/frontends/server/unknown_sender_log.hpp>
 
 #include "flood.hpp"
 #include "running.hpp"
@@ -37,10 +37,10 @@ Limits few() {
     return limits;
 }
 
-TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
+TEST(ConnectionSlots, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
     Limits limits = few();
     limits.callers = 16;
-    Seats open_connections(limits);
+    ConnectionSlots open_connections(limits);
     Someone lone;
     std::list<Someone> flood;
     open_connections.arrive(&lone, "lone");
@@ -51,10 +51,10 @@ TEST(Seats, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
     for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 25) << at;
 }
 
-TEST(Seats, LeaveThoseAloneThatCameLately) {
+TEST(ConnectionSlots, LeaveThoseAloneThatCameLately) {
     Limits limits = few();
     limits.callers = 16;
-    Seats open_connections(limits);
+    ConnectionSlots open_connections(limits);
     std::list<Someone> others;
     Someone stop;
     for (int i = 0; i < 14; ++i) open_connections.arrive(&others.emplace_back(), std::to_string(i));
@@ -66,23 +66,23 @@ TEST(Seats, LeaveThoseAloneThatCameLately) {
     }
 }
 
-TEST(Seats, EndTheOldestCallerWhereEachNetworkHasOne) {
+TEST(ConnectionSlots, EndTheOldestCallerWhereEachNetworkHasOne) {
     const Limits limits = few();
-    Seats open_connections(limits);
+    ConnectionSlots open_connections(limits);
     std::list<Someone> all;
     for (int i = 9; i >= 0; --i) open_connections.arrive(&all.emplace_back(), std::to_string(i));
     int at = 0;
     for (const Someone& one : all) EXPECT_EQ(one.ended, at++ < 6) << at;
 }
 
-TEST(Seats, AreSharedByNetworks) {
+TEST(ConnectionSlots, AreSharedByNetworks) {
     const Limits limits = few();
-    Seats open_connections(limits);
+    ConnectionSlots open_connections(limits);
     std::list<Someone> all;
     const auto come = [&](const std::string& network) {
         Someone& one = all.emplace_back();
         open_connections.arrive(&one, network);
-        return open_connections.take_seat(&one, network);
+        return open_connections.take_slot(&one, network);
     };
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(come("a"));
     EXPECT_FALSE(come("a")) << "its share";
@@ -90,7 +90,7 @@ TEST(Seats, AreSharedByNetworks) {
     EXPECT_TRUE(come("b"));
     EXPECT_FALSE(come("c")) << "all are taken";
     EXPECT_EQ(open_connections.callers(), 2u) << "they go on as callers";
-    EXPECT_TRUE(open_connections.take_seat(&all.front(), "a")) << "it has one";
+    EXPECT_TRUE(open_connections.take_slot(&all.front(), "a")) << "it has one";
     Someone stream;
     open_connections.replace(&all.front(), &stream);
     open_connections.leave(&all.front());
@@ -107,10 +107,10 @@ TEST(Networks, AreAnIpv4AddressOr64BitsOfIpv6) {
 
 // ---- the audit
 
-TEST(AStrangerLog, TellsSomeLinesAndCountsTheOthers) {
+TEST(UnknownSenderLog, WritesSomeLinesAndCountsTheOthers) {
     std::vector<AuditEntry> lines;
-    StrangerLog log([&](const AuditEntry& entry) { lines.push_back(entry); });
-    StrangerLog::Time now{};
+    UnknownSenderLog log([&](const AuditEntry& entry) { lines.push_back(entry); });
+    UnknownSenderLog::Time now{};
     for (int i = 0; i < 60'000; ++i, now += 1ms) {
         log.tell({"", "192.0.2.7", "pair", 403, "Not paired."}, "192.0.2.7", now);
         log.tick(now);
@@ -122,10 +122,10 @@ TEST(AStrangerLog, TellsSomeLinesAndCountsTheOthers) {
     EXPECT_THAT(lines.back().outcome, testing::AllOf(HasSubstr("more within 60 s"), HasSubstr("Not paired.")));
 }
 
-TEST(AStrangerLog, IsNotFilledByManyNetworksEither) {
+TEST(UnknownSenderLog, IsNotFilledByManyNetworksEither) {
     std::size_t lines = 0;
-    StrangerLog log([&](const AuditEntry&) { ++lines; });
-    StrangerLog::Time now{};
+    UnknownSenderLog log([&](const AuditEntry&) { ++lines; });
+    UnknownSenderLog::Time now{};
     for (int i = 0; i < 3'600'000; i += 10, now += 10ms) {
         const std::string address = "2001:db8:0:" + std::to_string(i % 9999) + "::/64";
         log.tell({"", address, "pair", 403, "Not paired."}, address, now);
@@ -137,7 +137,7 @@ TEST(AStrangerLog, IsNotFilledByManyNetworksEither) {
 
 // ---- requests
 
-TEST(AStranger, PairsWithAShortNameOnly) {
+TEST(UnknownSender, PairsWithAShortNameOnly) {
     Running running;
     const WebAnswer answer =
         running.client().ask("POST", "/api/pair", "{\"code\":\"A\",\"name\":\"" + std::string(60'000, 'x') + "\"}");
@@ -151,7 +151,7 @@ TEST(AStranger, PairsWithAShortNameOnly) {
     EXPECT_EQ(running.audit[0].user, "");
 }
 
-TEST(AStranger, SendsShortMessagesOnly) {
+TEST(UnknownSender, SendsShortMessagesOnly) {
     Running running([](ServerSettings& settings) { settings.loopback_role = auth::Role::none; });
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);

@@ -1,12 +1,12 @@
 // Individual lines and summaries.
 #include <fmt/format.h>
 
-#include <motionrack/frontends/server/stranger_log.hpp>
+#include <motionrack/frontends/server/unknown_sender_log.hpp>
 #include <utility>
 
 namespace motionrack::server {
 
-void StrangerLog::tell(AuditEntry entry, const std::string& network, Time now) {
+void UnknownSenderLog::tell(AuditEntry entry, const std::string& network, Time now) {
     if (of_a_network_.take(network, now) && of_all_.take("", now)) return write_(entry);
     if (counted_.empty()) begun_ = now;
     const bool alone = counted_.count(network) != 0 || counted_.size() < max_networks;
@@ -15,7 +15,7 @@ void StrangerLog::tell(AuditEntry entry, const std::string& network, Time now) {
     counted.last = std::move(entry);
 }
 
-void StrangerLog::tick(Time now) {
+void UnknownSenderLog::tick(Time now) {
     if (counted_.empty() || now - begun_ < period) return;
     for (auto& [network, counted] : std::exchange(counted_, {})) {
         AuditEntry& entry = counted.last;
