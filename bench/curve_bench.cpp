@@ -111,13 +111,13 @@ BENCHMARK_CAPTURE(curve, arcs_of_1_mm, arcs(1));
 BENCHMARK_CAPTURE(curve, arcs_of_20_mm, arcs(20));
 
 /// Path and velocity of the whole program, repeatedly.
-void ride(benchmark::State& state, const std::vector<Move>& moves) {
+void trajectory(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
-        OfflineTrajectory ride(machine(), Point{},
-                               [&](const PathSection& section) { cells += static_cast<double>(section.feed.size()); });
-        for (const Move& move : moves) ride.push(move);
-        ride.flush();
+        OfflineTrajectory trajectory(
+            machine(), Point{}, [&](const PathSection& section) { cells += static_cast<double>(section.feed.size()); });
+        for (const Move& move : moves) trajectory.push(move);
+        trajectory.flush();
     }
     const double blocks = static_cast<double>(state.iterations()) * static_cast<double>(moves.size());
     state.SetItemsProcessed(static_cast<std::int64_t>(blocks));
@@ -125,10 +125,10 @@ void ride(benchmark::State& state, const std::vector<Move>& moves) {
     state.counters["each"] = benchmark::Counter(blocks, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK_CAPTURE(ride, chords_of_0_1_mm, chords(0.1, 0));
-BENCHMARK_CAPTURE(ride, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
-BENCHMARK_CAPTURE(ride, long_lines, long_lines());
-BENCHMARK_CAPTURE(ride, arcs_of_1_mm, arcs(1));
+BENCHMARK_CAPTURE(trajectory, chords_of_0_1_mm, chords(0.1, 0));
+BENCHMARK_CAPTURE(trajectory, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
+BENCHMARK_CAPTURE(trajectory, long_lines, long_lines());
+BENCHMARK_CAPTURE(trajectory, arcs_of_1_mm, arcs(1));
 
 /// Block by block with a limited window, executed when it is full; in the slowest blocks thousands are planned.
 void generator(benchmark::State& state, const std::vector<Move>& moves) {

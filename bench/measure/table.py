@@ -239,9 +239,9 @@ PROGRAMS = [
     Program(
         "curve",
         "Jerk-limited paths",
-        "*Curve*: moves converted into cubic segments. *Ride*: the velocity along 20,000 blocks, planned as one. "
-        "*Rider*: block by block through a window, which plans all known blocks when it must; the table below gives "
-        "its slowest block in a thousand.",
+        "*Curve*: moves converted into cubic segments. *Offline trajectory*: the velocity along 20,000 blocks, planned "
+        "as one. *Trajectory generator*: block by block through a window, which plans all known blocks when it must; "
+        "the table below gives its slowest block in a thousand.",
         [
             Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, counted=NEVER),
             Bench(
@@ -260,10 +260,10 @@ PROGRAMS = [
             Bench("curve/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
             Bench("curve/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
             Bench("curve/arcs_of_20_mm", "and of 20 mm", ITEM_BLOCK, counted=NEVER),
-            Bench("ride/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK),
-            Bench("ride/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, counted=NEVER),
-            Bench("ride/long_lines", "lines of 25 mm with corners", BLOCK, counted=NEVER),
-            Bench("ride/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, counted=NEVER),
+            Bench("trajectory/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK),
+            Bench("trajectory/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, counted=NEVER),
+            Bench("trajectory/long_lines", "lines of 25 mm with corners", BLOCK, counted=NEVER),
+            Bench("trajectory/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, counted=NEVER),
             Bench("generator/chords_of_0_1_mm", "lines of 0.1 mm", ITEM_BLOCK, counted=NEVER),
             Bench("generator/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", ITEM_BLOCK, counted=NEVER),
             Bench("generator/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
