@@ -47,7 +47,7 @@ enum { Flex_Ok = 0, Flex_ErrCfg = 1, Flex_ErrDevice = 2, Flex_ErrProject = 3 };
  * keeps. */
 MR_API int flex2pos_Init(flex2pos* flex, uint16_t Addr);
 
-/* Init in two steps, for an image of one's own. First the base address alone, which is what the source's object
+/* Init in two steps, for a custom image. First the base address alone, which is what the source's object
  * tIOFlex02 does; Result is Flex_ErrDevice until Configure. MR_BAD_CALL (null). */
 MR_API int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr);
 

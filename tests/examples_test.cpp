@@ -152,6 +152,7 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
     EXPECT_EQ(former.code, 1);
     EXPECT_NE(former.out.find("'--free' is now '--unthrottled'."), std::string::npos) << former.out;
     EXPECT_NE(former.out.find("'--speed' is now '--time-scale'."), std::string::npos) << former.out;
+    EXPECT_EQ(former.out.find("not expected"), std::string::npos) << former.out;
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " describe mcx314 --json").out));
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
 }

@@ -76,15 +76,15 @@ struct Watched {
     }
 };
 
-class AStream : public testing::TestWithParam<const char*> {};
-class AStreamDisturbedAtRandom : public AStream {};
+class StreamExecutorTest : public testing::TestWithParam<const char*> {};
+class StreamExecutorDisturbedAtRandom : public StreamExecutorTest {};
 
 const auto profiles = testing::Values("trapezoid", "jerk_limited");
 std::string name_of(const testing::TestParamInfo<const char*>& info) {
     return info.param;
 }
-INSTANTIATE_TEST_SUITE_P(With, AStream, profiles, name_of);
-INSTANTIATE_TEST_SUITE_P(With, AStreamDisturbedAtRandom, profiles, name_of);
+INSTANTIATE_TEST_SUITE_P(With, StreamExecutorTest, profiles, name_of);
+INSTANTIATE_TEST_SUITE_P(With, StreamExecutorDisturbedAtRandom, profiles, name_of);
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> out;
@@ -113,7 +113,7 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
     }
 }
 
-TEST_P(AStream, DrivesAProgramAsAJobDoes) {
+TEST_P(StreamExecutorTest, DrivesAProgramAsAJobDoes) {
     const test::RandomProgram program = test::ProgramMaker(7, test::ProgramSize::big).make();
     Watched w(router(GetParam()));
     drive_all(w, program.text);
@@ -159,20 +159,20 @@ void disturb_many(const std::string& profile, test::ProgramSize size) {
         disturb(profile, seed, size);
 }
 
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigMoves) {
+TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigMoves) {
     disturb_many(GetParam(), test::ProgramSize::big);
 }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInSmallMoves) {
+TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInSmallMoves) {
     disturb_many(GetParam(), test::ProgramSize::small);
 }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigAndSmallMoves) {
+TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigAndSmallMoves) {
     disturb_many(GetParam(), test::ProgramSize::mixed);
 }
-TEST_P(AStreamDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) {
+TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) {
     disturb_many(GetParam(), test::ProgramSize::tiny);
 }
 
-TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
+TEST_P(StreamExecutorTest, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     Watched w(router(GetParam()));
     bool asked = false;
     double held_at = -1;
@@ -195,7 +195,7 @@ TEST_P(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
     w.expect_limits();
 }
 
-TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
+TEST_P(StreamExecutorTest, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
     const std::string program = "G21 G90 G61\nG3 X2 Y2 I0 J2 F600\nG1 A20 F3000\nG1 X0 F600\n";
     for (double at = 0.02; at < 0.5; at += 0.02) {
         SCOPED_TRACE(at);
@@ -212,7 +212,7 @@ TEST_P(AStream, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
     }
 }
 
-TEST_P(AStream, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
+TEST_P(StreamExecutorTest, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
     Watched w(router(GetParam()));
     bool asked = false;
     w.on_slice = [&] {
@@ -228,7 +228,7 @@ TEST_P(AStream, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
     w.expect_limits();
 }
 
-TEST_P(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
+TEST_P(StreamExecutorTest, FeelsAnOverrideWithinATenthOfASecondOrSo) {
     Watched w(router(GetParam()));
     double asked_at = -1, slow_at = -1;
     w.on_slice = [&] {
@@ -256,7 +256,7 @@ double seconds_of(Watched& w, const std::string& program) {
     return w.seconds() - begun;
 }
 
-TEST_P(AStream, GoesAsWrittenWhileM49TakesTheOverridesAway) {
+TEST_P(StreamExecutorTest, GoesAsWrittenWhileM49TakesTheOverridesAway) {
     const auto seconds = [](const std::string& program, double feed, double rapid) {
         Watched w(router(GetParam()));
         w.stream->set_overrides(feed, rapid);
@@ -273,7 +273,7 @@ TEST_P(AStream, GoesAsWrittenWhileM49TakesTheOverridesAway) {
     EXPECT_NEAR(seconds("M49\n" + cut + "M2\nG1 X0\n", 0.25, 0.1), alone, 0.05);
 }
 
-TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
+TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
     const auto run = [](const std::string& between) {
         Watched w(router(GetParam()));
         std::vector<double> at;
@@ -302,7 +302,7 @@ TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
         EXPECT_NEAR(with_move_place, 10, 0.8);
 }
 
-TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
+TEST_P(StreamExecutorTest, PausesAtM0UntilItIsToldToGoOn) {
     Watched w(router(GetParam()));
     std::vector<control::gcode::CanonCallKind> seen;
     w.stream->on_event([&](const control::gcode::CanonCall& step) { seen.push_back(step.kind); });
@@ -317,7 +317,7 @@ TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 20, 1e-9);
 }
 
-TEST_P(AStream, InSingleStepPausesAfterEachLine) {
+TEST_P(StreamExecutorTest, InSingleStepPausesAfterEachLine) {
     Watched w(router(GetParam()));
     w.stream->set_single_block(true);
     std::vector<double> stood;
@@ -330,7 +330,7 @@ TEST_P(AStream, InSingleStepPausesAfterEachLine) {
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
 }
 
-TEST_P(AStream, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
+TEST_P(StreamExecutorTest, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
     Watched w(router(GetParam()));
     const std::vector<std::string> lines = lines_of("G21 G90 G64 P0.05 F3000\nG1 X10\nG1 X20 Y3\nG1 X30 Y0\n");
     for (std::size_t i = 0; i < lines.size(); ++i) {

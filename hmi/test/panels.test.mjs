@@ -124,7 +124,7 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
   await commands.getByRole('row').filter({ hasText: 'version' }).getByText('32', { exact: true }).waitFor();
   await commands.getByLabel('Argument of R').fill('99999');
   await commands.getByRole('button', { name: 'Send R' }).click();
-  await tab.page.getByText(/is not one of 0 to 16.383/).waitFor();
+  await tab.page.getByText(/it must be 0 to 16.383/).waitFor();
   await picture(tab, 'card_databoard4002', 960);
   await done(tab);
 });

@@ -117,7 +117,7 @@ std::string json(const RegisterInfo& reg) {
 
 std::string json(const CommandInfo& command) {
     return fmt::format(
-        R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, )"
+        R"(  {{"name": {}, "code": {}, "data_bytes": {}, "min": {}, "max": {}, "unit": {}, "variant": {}, )"
         R"("reproduced": {}, "answer_bytes": {}, "meaning": {}}})",
         quoted(command.name), command.code, command.data_bytes, command.min, command.max, quoted(command.unit),
         quoted(command.variant), command.reproduced, command.answer_bytes, quoted(command.meaning));

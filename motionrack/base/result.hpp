@@ -47,8 +47,8 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Shorthand for returning an error.
-inline tl::unexpected<Error> fail(ErrorKind trouble, std::string message, Place place = {}, std::string file = {}) {
-    return tl::unexpected<Error>(Error{trouble, std::move(message), std::move(file), place});
+inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, Place place = {}, std::string file = {}) {
+    return tl::unexpected<Error>(Error{kind, std::move(message), std::move(file), place});
 }
 
 /// Prints an internal error of the program and aborts; used by MOTIONRACK_ASSERT.

@@ -22,7 +22,7 @@ namespace motionrack::control {
 /// A canonical call other than motion, in program order, with the number of the last planned move before it.
 struct ProgramEvent {
     int line = 0;
-    std::int64_t after_block = -1;
+    std::int64_t after_move = -1;
     std::string text;  ///< "spindle clockwise at 12000 rpm", "message: clamp the part"
 };
 

@@ -39,7 +39,7 @@ bool FramePublisher::put(const Frame& frame) {
     outcome_.late = pacer_.late();
     outcome_.slips = pacer_.slips();
     outcome_.worst = pacer_.worst();
-    return settings_.most == 0 || frames_ < settings_.most;
+    return settings_.max_frames == 0 || frames_ < settings_.max_frames;
 }
 
 Result<Published> publish_frames(Publisher& publisher, FrameSource& source, const PublishingSettings& settings) {

@@ -20,7 +20,7 @@ class FrameSource {
 struct PublishingSettings {
     double speed = 1;                                                   ///< bus time per unit of real time
     Duration pace = microseconds(200);                                  ///< real time between two frames
-    std::uint64_t most = 0;                                             ///< frames to publish; 0: all
+    std::uint64_t max_frames = 0;                                       ///< frames to publish; 0: all
     const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame
     std::function<void(const BusEvent&)> report;                        ///< receives the events of the publisher
     std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once per frame
@@ -49,7 +49,7 @@ class FramePublisher {
     std::uint64_t frames_ = 0;
 };
 
-/// Publishes until the source ends, `most` frames are sent or `stop` is set. Errors: those of the source.
+/// Publishes until the source ends, `max_frames` are sent or `stop` is set. Errors: those of the source.
 Result<Published> publish_frames(Publisher& publisher, FrameSource& source, const PublishingSettings& settings);
 
 }  // namespace motionrack::dds

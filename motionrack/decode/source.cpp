@@ -87,11 +87,11 @@ bool TextReader::more() {
         std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
         line_start_ -= at_, end_ -= at_, at_ = 0;
     }
-    if (end_ >= longest) {
+    if (end_ >= max_line_bytes) {
         error_ = Error{ErrorKind::invalid_input,
                        fmt::format("A line or word has more than {} bytes: this is not a text file. Nothing more was "
                                    "decoded; add --format raw if it is binary.",
-                                   longest),
+                                   max_line_bytes),
                        {},
                        {static_cast<int>(std::min<std::int64_t>(next_line_, std::numeric_limits<int>::max())), 1}};
         return false;

@@ -46,7 +46,7 @@ class TextReader {
 
   private:
     static constexpr std::size_t first_size = 256 * 1024;
-    static constexpr std::size_t longest = 1024 * 1024;  ///< maximum length of a line or word
+    static constexpr std::size_t max_line_bytes = 1024 * 1024;  ///< maximum length of a line or word
     bool more();
     bool skip_white();
 

@@ -82,7 +82,7 @@ int GrblSession::command_at_rest(const std::string& text) {
                 build_text_ = text.substr(3);
             else
                 put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks,
-                                waiting_most));
+                                max_waiting));
             return error_none;
         case 'R':
             return restore(text);

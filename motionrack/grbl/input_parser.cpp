@@ -12,7 +12,7 @@ std::optional<Realtime> realtime_of(std::uint8_t byte) {
 
 bool InputParser::put(std::uint8_t byte) {
     if (byte > 0x7F) return true;  // discarded, as in UTF-8 text
-    if (waiting_.size() >= waiting_most) return false;
+    if (waiting_.size() >= max_waiting) return false;
     waiting_.push_back(static_cast<char>(byte));
     return true;
 }
@@ -39,7 +39,7 @@ void InputParser::read(char c) {
     } else if (c == ';') {
         behind_semicolon_ = true;
     } else if (c > ' ' && c != '/' && !behind_semicolon_) {
-        if (line_.text.size() < line_most)
+        if (line_.text.size() < max_line_bytes)
             line_.text += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
         else
             line_.too_long = true;

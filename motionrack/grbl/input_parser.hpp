@@ -71,7 +71,7 @@ inline constexpr std::array<RealtimeByte, 22> realtime_bytes = {{
 }};
 std::optional<Realtime> realtime_of(std::uint8_t byte);
 
-inline constexpr std::size_t waiting_most = 128, line_most = 79;
+inline constexpr std::size_t max_waiting = 128, max_line_bytes = 79;
 
 /// A line after Grbl's preprocessing: no blanks, no comments, upper case.
 struct Line {
@@ -87,7 +87,7 @@ class InputParser {
     /// Reads on to the end of the present line; returns nothing if the end has not arrived. Each CR and each LF ends a
     /// line.
     std::optional<Line> next();
-    std::size_t room() const { return waiting_most - waiting_.size(); }
+    std::size_t room() const { return max_waiting - waiting_.size(); }
     void clear() { *this = InputParser(); }
 
   private:

@@ -151,9 +151,9 @@ Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own
         std::find_if(table.begin(), table.end(), [&](const Setting& setting) { return setting.number == number; });
     if (found == table.end()) return {error_unknown, fmt::format("Unknown setting ${}", number)};
     if (found->own == nullptr) return of_the_rack(number, value, found->rack(config), found->decimals);
-    if (value > found->most || value != std::floor(value))
+    if (value > found->max || value != std::floor(value))
         return {error_bad_number,
-                fmt::format("${} is a whole number, 0 to {:.0f}. It was not changed", number, found->most)};
+                fmt::format("${} is a whole number, 0 to {:.0f}. It was not changed", number, found->max)};
     own.*found->own = value;
     return {0, fmt::format("${} is {:.0f}", number, value)};
 }

@@ -25,7 +25,7 @@ struct Setting {
     std::string_view what;
     double (*rack)(const rack::RackConfig& config);
     double SessionSettingValues::*own;
-    double most = 0;  ///< maximum of an own setting; its minimum is 0
+    double max = 0;  ///< maximum of an own setting; its minimum is 0
 };
 std::span<const Setting> settings();
 

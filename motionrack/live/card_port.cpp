@@ -80,7 +80,7 @@ std::uint16_t CardPort::read_word(std::uint32_t offset) {
 
 std::uint16_t CardPort::read(std::uint32_t offset) {
     const std::uint16_t value = read_word(offset);
-    if (value == empty_slot && !trouble_) (void)check_answers();  // -1 of a card, or a slot without one
+    if (value == empty_slot && !trouble_) (void)check_answers();  // FFFFh: the register's value, or an empty slot
     return value;
 }
 

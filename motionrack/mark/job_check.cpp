@@ -118,7 +118,7 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
     if (parts.start == PartStart::equidistant && (!parts.at.empty() || parts.track_delay != 0))
         problems.error(table.place_of("start"),
                        fmt::format("Equidistant parts need no sensor: the first begins at once, the others after "
-                                   "'spacing_{}'; leave 'at_{}' and 'track_delay_{}' out.",
+                                   "'spacing_{}'; leave 'part_positions_{}' and 'track_delay_{}' out.",
                                    unit, unit, unit));
 }
 

@@ -105,6 +105,7 @@ inline constexpr std::array<Field, 3> sender_fields = {
 /// A key whose value is an array.
 struct ArrayKey {
     std::string_view key, unit, range, absent, doc;
+    std::string_view old_key = {};  ///< name of the key in earlier versions; empty: the same
 };
 
 struct SectionInfo {
@@ -116,15 +117,19 @@ struct SectionInfo {
 inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none",
                                       "instead of the speed: [[seconds, speed], ..], linear between the points"};
 inline constexpr ArrayKey at_key{
-    "part_positions_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none",
-    "instead of count and spacing: travel of the belt until each part's edge is at the sensor"};
+    "part_positions_{u}",
+    "{u}",
+    "1 .. 10000 rising numbers from 0 on",
+    "none",
+    "instead of count and spacing: travel of the belt until each part's edge is at the sensor",
+    "at_{u}"};
 
 inline constexpr std::array<SectionInfo, 11> sections = {
     SectionInfo{"drawing", drawing_fields,
                 "One of `svg`, `gcode` and `text`. Repeated `[[drawing]]` sections mark several drawings in turn."},
     SectionInfo{"optics", optics_fields, ""},
     SectionInfo{"lens", rack::lens_keys, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
-    SectionInfo{"galvo", rack::galvo_keys, "Without `ideal` they have dead time, lag and a speed limit."},
+    SectionInfo{"galvo", rack::galvo_keys, "Without `ideal_mirrors` they have dead time, lag and a speed limit."},
     SectionInfo{"laser", rack::laser_keys, ""},
     SectionInfo{"pace", pace_fields,
                 "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},

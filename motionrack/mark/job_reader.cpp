@@ -70,7 +70,9 @@ class SectionReader {
                                         [&](const fields::SectionInfo& s) { return s.name == name; });
         const std::string array = rack::with_unit(info->array.key, unit_);
         const std::string_view also[] = {array};
-        const rack::Section section{fmt::format("[{}]", name), unit_, "", std::span(also, array.empty() ? 0 : 1)};
+        const rack::FormerKey former[] = {{info->array.old_key, info->array.key}};
+        const std::size_t arrays = array.empty() ? 0 : 1;
+        const rack::Section section{fmt::format("[{}]", name), unit_, "", {also, arrays}, {former, arrays}};
         rack::read_fields(node, info->fields, object(node, name), section, problems_);
         if (name == "belt" || name == "table") read_profile(node, job_.belt, problems_);
         if (name == "parts") read_at(node, array, *job_.parts, problems_);

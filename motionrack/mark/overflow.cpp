@@ -14,7 +14,7 @@ struct Edge {
     /// Bits beyond the edge; 0 or less: inside.
     double beyond(rtc5::Point p) const {
         const double v = y ? p.y : p.x;
-        return upper ? v - rtc5::field_greatest : rtc5::field_least - v;
+        return upper ? v - rtc5::max_field : rtc5::min_field - v;
     }
 };
 constexpr std::array<Edge, 4> edges = {Edge{"FLY_X_UNDERFLOW", false, false}, Edge{"FLY_X_OVERFLOW", false, true},
@@ -57,7 +57,7 @@ void OverflowLog::look(std::int64_t tick, rtc5::Point at, bool laser) {
 void OverflowLog::close(std::size_t i, std::int64_t tick) {
     Open& edge = edges_[i];
     edge.open = false;
-    if (all_.size() == most) {
+    if (all_.size() == max_places) {
         ++lost_;
         return;
     }

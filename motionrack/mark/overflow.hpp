@@ -29,7 +29,7 @@ struct Overflow {
 /// Receives the samples of a card.
 class OverflowLog {
   public:
-    static constexpr std::size_t most = 10'000;  ///< further ones are counted but not stored
+    static constexpr std::size_t max_places = 10'000;  ///< further ones are counted but not stored
 
     /// `track` must outlive it.
     OverflowLog(double bits_per_mm, const parts::Conveyor& track) : k_(bits_per_mm), track_(track) {}

@@ -202,8 +202,8 @@ Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const
 }  // namespace
 
 Box Prepared::field() const {
-    return {{rtc5::field_least / bits_per_mm, rtc5::field_least / bits_per_mm},
-            {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
+    return {{rtc5::min_field / bits_per_mm, rtc5::min_field / bits_per_mm},
+            {rtc5::max_field / bits_per_mm, rtc5::max_field / bits_per_mm}};
 }
 
 ConveyorTracking following_of(const MarkingJob& job, double factor) {

@@ -58,8 +58,8 @@ Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double 
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
     const rtc5::PlanExtent& e = line->card().extent();
     if (!e.empty())
-        out.beyond_mm = std::max({rtc5::field_least - e.min_x, rtc5::field_least - e.min_y,
-                                  e.max_x - rtc5::field_greatest, e.max_y - rtc5::field_greatest}) /
+        out.beyond_mm = std::max({rtc5::min_field - e.min_x, rtc5::min_field - e.min_y, e.max_x - rtc5::max_field,
+                                  e.max_y - rtc5::max_field}) /
                         prepared.bits_per_mm;
     return out;
 }

@@ -65,7 +65,7 @@ struct Marked {
     Box reach;                         ///< mm in the field: range of the corrected list without clipping
     std::vector<FieldSample> course;   ///< at equal steps, about max_field_samples
     std::vector<Overflow> overflows;   ///< all intervals with the corrected position outside the field, ordered by end
-    std::uint64_t lost_overflows = 0;  ///< number beyond OverflowLog::most
+    std::uint64_t lost_overflows = 0;  ///< number beyond OverflowLog::max_places
 
     std::size_t parts_lost() const {
         return static_cast<std::size_t>(std::count_if(

@@ -29,15 +29,14 @@ void Lateness::add(Duration late) {
     const auto bucket = static_cast<std::size_t>((late.count() + width.count() - 1) / width.count());
     ++counts_[std::min(bucket, counts_.size() - 1)];
     ++count_;
-    greatest_ = std::max(greatest_, late);
+    max_ = std::max(max_, late);
 }
 
 Duration Lateness::within(double part) const {
     std::int64_t left = count_ - static_cast<std::int64_t>(std::ceil(part * static_cast<double>(count_)));
     for (std::size_t i = counts_.size(); i-- > 0;) {
         left -= counts_[i];
-        if (left < 0)
-            return i + 1 == counts_.size() ? greatest_ : std::min(greatest_, static_cast<std::int64_t>(i) * width);
+        if (left < 0) return i + 1 == counts_.size() ? max_ : std::min(max_, static_cast<std::int64_t>(i) * width);
     }
     return Duration{0};
 }

@@ -29,7 +29,7 @@ class Lateness {
   public:
     void add(Duration late);
     std::int64_t count() const { return count_; }
-    Duration greatest() const { return greatest_; }
+    Duration max() const { return max_; }
     /// Lateness that the fraction `part` (0 .. 1) of all slices did not exceed, rounded up to 20 us; 0 without slices.
     Duration within(double part) const;
 
@@ -37,7 +37,7 @@ class Lateness {
     static constexpr Duration width = microseconds(20);
     std::array<std::int64_t, 5000> counts_ = {};  // the last one counts all later slices
     std::int64_t count_ = 0;
-    Duration greatest_{0};
+    Duration max_{0};
 };
 
 /// Only the motion thread uses it.

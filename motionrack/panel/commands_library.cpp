@@ -16,7 +16,7 @@ namespace {
 json argument_json(const ArgumentInfo& argument) {
     json values = json::array();
     for (const ValueInfo& one : argument.values) values.push_back({{"value", one.value}, {"meaning", one.meaning}});
-    return {{"name", argument.name}, {"least", argument.min},      {"greatest", argument.max},
+    return {{"name", argument.name}, {"min", argument.min},        {"max", argument.max},
             {"unit", argument.unit}, {"start", argument.start},    {"values", std::move(values)},
             {"sum", argument.sum},   {"meaning", argument.meaning}};
 }

@@ -177,7 +177,7 @@ const json& openapi() {
 
 std::string api_reference() {
     std::string out =
-        "# Orders and queries of a served machine\n\n"
+        "# Commands and queries of a served machine\n\n"
         "<!-- written by `motionrack describe api --markdown` -->\n\n"
         "`motionrack serve` answers these over HTTP and, as `{\"id\":1,\"command\":NAME,...}` and "
         "`{\"id\":1,\"query\":NAME,...}`, over its WebSocket. Every command and every query is\n"

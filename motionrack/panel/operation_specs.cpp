@@ -14,13 +14,13 @@ using auth::Role;
 
 constexpr double far = 1e6, max_text_bytes = 8 << 20;
 
-constexpr FieldSpec number(std::string_view name, double least, double greatest, std::string_view unit,
-                           std::string_view text, bool required = true) {
-    return {name, ParameterType::number, required, least, greatest, unit, {}, text};
+constexpr FieldSpec number(std::string_view name, double min, double max, std::string_view unit, std::string_view text,
+                           bool required = true) {
+    return {name, ParameterType::number, required, min, max, unit, {}, text};
 }
-constexpr FieldSpec integer(std::string_view name, double least, double greatest, std::string_view text,
+constexpr FieldSpec integer(std::string_view name, double min, double max, std::string_view text,
                             bool required = true) {
-    return {name, ParameterType::integer, required, least, greatest, {}, {}, text};
+    return {name, ParameterType::integer, required, min, max, {}, {}, text};
 }
 constexpr FieldSpec text(std::string_view name, double longest, std::string_view about, bool required = true) {
     return {name, ParameterType::text, required, 0, longest, {}, {}, about};
@@ -63,8 +63,8 @@ constexpr std::array start_program_fields = {text("name", 200, "name of the prog
                                              text("text", max_text_bytes, "the program, G-code")};
 constexpr std::array mdi_fields = {text("text", 1024, "one line of G-code")};
 constexpr std::array override_fields = {
-    number("feed", 0, 2, "", "part of the programmed feed; below 0.01 it is 0.01", false),
-    number("rapid", 0, 1, "", "part of the rapid speed; below 0.01 it is 0.01", false)};
+    number("feed", 0, 2, "", "feed override; values below 0.01 act as 0.01", false),
+    number("rapid", 0, 1, "", "rapid override; values below 0.01 act as 0.01", false)};
 constexpr std::array single_block_fields = {flag("on", "pause after each line")};
 constexpr std::array acknowledge_alarm_fields = {integer("alarm", 1, 9e15, "its number")};
 constexpr std::array clock_fields = {
@@ -154,14 +154,15 @@ constexpr std::array command_rows = {
                   "Checks the whole program and starts it."},
     OperationSpec{"mdi", Role::operate, true, mdi_fields, "Executes one line of G-code, after the queued lines."},
     OperationSpec{"hold", Role::operate, false, {}, "Feed hold: decelerates along the path until resume."},
-    OperationSpec{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single block."},
+    OperationSpec{"resume", Role::operate, true, {}, "Resumes after a feed hold, M0 or a single block."},
     OperationSpec{
         "reset",
         Role::operate,
         true,
         {},
         "Ends an error stop and moves nothing; programs and modes are discarded, work offsets and positions stay."},
-    OperationSpec{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
+    OperationSpec{"set_overrides", Role::operate, true, override_fields,
+                  "Sets the feed and rapid overrides; effective at once.", ""},
     OperationSpec{"set_single_block", Role::operate, true, single_block_fields,
                   "Turns the pause after each line on or off."},
     OperationSpec{"acknowledge_alarm", Role::operate, false, acknowledge_alarm_fields, "Acknowledges an alarm."},
@@ -188,7 +189,7 @@ constexpr std::array command_rows = {
         "text, value (the returned number)"},
     OperationSpec{"check", Role::observe, false, check_fields_,
                   "Reads and plans a program from the current position; nothing moves.",
-                  "ok, problems, lines, moves, duration_s, length_mm, least, greatest, axes, path"},
+                  "ok, problems, lines, moves, duration_s, length_mm, min, max, axes, path"},
     OperationSpec{"scope_arm", Role::operate, false, arm_fields, "Arms the scope.", ""},
     OperationSpec{"scope_stop", Role::operate, false, {}, "Disarms the scope.", ""},
     OperationSpec{"mark", Role::operate, true, mark_fields, "Marks with a laser card of the rack while the rack runs.",
@@ -216,10 +217,10 @@ constexpr std::array query_rows = {
     OperationSpec{"slopes", Role::observe, false, name_fields,
                   "The slope table of a DataBoard 4002: speed over distance.",
                   "slopes: name, points (counts, Hz); position, rate, hz, moving"},
-    OperationSpec{
-        "library", Role::observe, false, name_fields, "The functions of a card's library, with their arguments.",
-        "functions: name, group, meaning, arguments (name, least, greatest, unit, meaning, start, values, sum), "
-        "returns, waits, own"},
+    OperationSpec{"library", Role::observe, false, name_fields,
+                  "The functions of a card's library, with their arguments.",
+                  "functions: name, group, meaning, arguments (name, min, max, unit, meaning, start, values, sum), "
+                  "returns, waits, own"},
     OperationSpec{
         "frames",
         Role::observe,

@@ -41,7 +41,7 @@ struct OperationSpec {
     std::span<const FieldSpec> fields;
     std::string_view text;        ///< one sentence
     std::string_view gives = {};  ///< members of the answer besides "done"
-    bool external = false;        ///< executed by PanelSettings::elsewhere
+    bool external = false;        ///< executed by PanelSettings::external
     bool high_rate = false;       ///< repeated many times per second: no event, no journal
 };
 

@@ -13,7 +13,7 @@ Reply::PendingCall::~PendingCall() {
 
 const Event& EventLog::add(Event event) {
     event.number = next_++;
-    if (events_.size() >= most) events_.pop_front();
+    if (events_.size() >= max_events) events_.pop_front();
     events_.push_back(std::move(event));
     for (const auto& call : listeners_) call(events_.back());
     return events_.back();
@@ -38,7 +38,7 @@ void ActualPath::add(const operate::Status& status) {
             far = std::max(far, std::fabs(point.place[i] - points_.back().place[i]));
         if (far < apart) return;
     }
-    if (points_.size() >= most) points_.pop_front();
+    if (points_.size() >= max_points) points_.pop_front();
     points_.push_back(point);
 }
 

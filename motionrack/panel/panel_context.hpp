@@ -40,7 +40,7 @@ class Reply {
 /// Events since the start; only the most recent ones are stored.
 class EventLog {
   public:
-    static constexpr std::size_t most = 1000;
+    static constexpr std::size_t max_events = 1000;
     const Event& add(Event event);
     void listen(std::function<void(const Event&)> call) { listeners_.push_back(std::move(call)); }
     const std::deque<Event>& events() const { return events_; }
@@ -54,7 +54,7 @@ class EventLog {
 /// Actual path of the machine in bounded memory; positions nearer than `apart` to the previous one are left out.
 class ActualPath {
   public:
-    static constexpr std::size_t most = 20'000;
+    static constexpr std::size_t max_points = 20'000;
     static constexpr double apart = 0.05;
     struct ActualPoint {
         Instant at{};

@@ -16,14 +16,14 @@ struct PathPoint {
 
 class Polyline {
   public:
-    explicit Polyline(std::size_t most) : most_(most < 4 ? 4 : most) {}
+    explicit Polyline(std::size_t max_points) : max_points_(max_points < 4 ? 4 : max_points) {}
 
     void add(const PathPoint& point) {
         last_ = point;
         pending_ = (count_++ % step_) != 0;
         if (pending_) return;
         points_.push_back(point);
-        if (points_.size() < most_) return;
+        if (points_.size() < max_points_) return;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < points_.size(); i += 2) points_[kept++] = points_[i];
         points_.resize(kept);
@@ -39,7 +39,7 @@ class Polyline {
     std::size_t step() const { return step_; }
 
   private:
-    std::size_t most_, step_ = 1, count_ = 0;
+    std::size_t max_points_, step_ = 1, count_ = 0;
     bool pending_ = false;
     PathPoint last_;
     std::vector<PathPoint> points_;

@@ -116,8 +116,8 @@ json to_json(const ProgramPlan& plan, const std::string& letters) {
                 {"axes", letters}};
     if (!plan.check.problems.empty()) return out;
     for (const char letter : letters) {
-        out["least"][std::string(1, letter)] = plan.check.min[axis_of(letter)];
-        out["greatest"][std::string(1, letter)] = plan.check.max[axis_of(letter)];
+        out["min"][std::string(1, letter)] = plan.check.min[axis_of(letter)];
+        out["max"][std::string(1, letter)] = plan.check.max[axis_of(letter)];
     }
     json path = json::array(), lines = json::array(), feeds = json::array();
     for (const PathPoint& point : plan.path) {

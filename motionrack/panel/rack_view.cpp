@@ -131,7 +131,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
                 {"energy_j", station.workpiece().energy_j()},
                 {"beam", {station.spot().x, station.spot().y}},
                 {"laser", station.gate().on()},
-                {"field", {{"least", {-half, -half}}, {"greatest", {half, half}}}}};
+                {"field", {{"min", {-half, -half}}, {"max", {half, half}}}}};
     if (const auto piece = station.workpiece().collecting())
         out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
     if (const rack::RunningConveyor* track =

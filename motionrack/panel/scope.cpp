@@ -72,7 +72,8 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     const auto trigger = std::find(settings.channels.begin(), settings.channels.end(), settings.trigger);
     if (!settings.trigger.empty() && trigger == settings.channels.end())
         return fail(ErrorKind::invalid_input,
-                    fmt::format("The trigger {} is not one of the channels.", rack::in_quotes(settings.trigger)));
+                    fmt::format("Unknown trigger {}; it must be one of the scope's channels. Nothing was started.",
+                                rack::in_quotes(settings.trigger)));
     if (!numbers.empty() &&
         (settings.period <= Duration{0} || settings.length / settings.period > static_cast<std::int64_t>(max_samples)))
         return fail(ErrorKind::refused,

@@ -54,8 +54,9 @@ std::string sentence_of(const Breach& breach) {
     const char* unit = breach.axis < 3 ? "mm" : "deg";
     switch (breach.kind) {
         case BreachKind::jump:
-            return fmt::format("{} the velocity step of {} was {:.1f} {}/s, above its start speed of {:g} {}/s{}",
-                               position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
+            return fmt::format(
+                "{} the velocity step of {} was {:.1f} {}/s, above its maximum of {:g} {}/s (max_velocity_step){}",
+                position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));
         case BreachKind::accel:
             return fmt::format("{} the acceleration of {} was {:.1f} {}/s2, above its limit of {:g} {}/s2{}",
                                position_text(breach), axis, breach.value, unit, breach.limit, unit, often(breach));

@@ -127,7 +127,7 @@ constexpr std::array<PinType, 4> databoard4002_pins = {{
     {"ems", input, "emergency stop; high, without current, is active", 0, PinKind::contact},
     {"rst", output, "pulse of 10 us at a reset of the card"},
     {"int", output, "interrupt, active high"},
-    {"csb", output, "high while the card is chosen, as its LED"},
+    {"csb", output, "high while the host addresses the card; also drives the LED"},
 }};
 
 // Only wires to existing parts of the axis apply: a servo amplifier at the analog output, or a stepping motor at the

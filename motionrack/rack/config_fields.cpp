@@ -31,11 +31,11 @@ constexpr std::array<Field, 18> axis_table = {
     only_in(field<&RackAxis::lead_mm>("lead_mm", 0.001, 10'000, "mm", "travel of a motor turn"), "mm"),
     only_in(field<&RackAxis::gear_ratio>("gear_ratio", 0.001, 100'000, "", "motor turns of a turn of the axis"), "deg"),
     formerly("max_speed_{u}_s",
-             field<&RackAxis::max_velocity>("max_velocity_{u}_s", 0.000001, 1e6, "{u}/s", "greatest speed")),
-    field<&RackAxis::max_accel>("max_accel_{u}_s2", 0.001, 1e9, "{u}/s2", "greatest acceleration"),
-    field<&RackAxis::max_jerk>("max_jerk_{u}_s3", 0, 1e12, "{u}/s3", "greatest jerk; 0: trapezoids"),
+             field<&RackAxis::max_velocity>("max_velocity_{u}_s", 0.000001, 1e6, "{u}/s", "maximum velocity")),
+    field<&RackAxis::max_accel>("max_accel_{u}_s2", 0.001, 1e9, "{u}/s2", "maximum acceleration"),
+    field<&RackAxis::max_jerk>("max_jerk_{u}_s3", 0, 1e12, "{u}/s3", "maximum jerk; 0: trapezoids"),
     formerly("start_speed_{u}_s", field<&RackAxis::max_velocity_step>("max_velocity_step_{u}_s", 0.000001, 1e6, "{u}/s",
-                                                                      "speed reached at once from standstill")),
+                                                                      "velocity step that the motor can follow")),
     formerly("min_{u}",
              field<&RackAxis::min_position>("min_limit_{u}", -1e7, 1e7, "{u}", "minimum commanded position")),
     formerly("max_{u}",
@@ -53,7 +53,7 @@ constexpr std::array<Field, 18> axis_table = {
     absent_means(field<&RackAxis::following_error_alarm>(
                      "following_error_alarm_{u}", 0, 1e6, "{u}",
                      "following error that stops the machine and invalidates the position; 0: none"),
-                 "1, at least 4 counts; for a servo at least its travel in 0.1 s at maximum speed"),
+                 "1, at least 4 counts; for a servo at least its travel in 0.1 s at maximum velocity"),
 };
 
 constexpr std::array<Field, 2> motor_table = {
@@ -64,17 +64,18 @@ constexpr std::array<Field, 2> motor_table = {
 
 constexpr std::array<Field, 8> servo_table = {
     formerly("speed_per_volt_{u}_s",
-             field<&RackServo::speed_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "speed per volt")),
-    absent_means(formerly("top_speed_{u}_s", field<&RackServo::top_speed>("saturation_velocity_{u}_s", 0.000001, 1e7,
-                                                                          "{u}/s", "saturation of the amplifier")),
-                 "the speed at 10 V"),
+             field<&RackServo::speed_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "velocity per volt")),
+    absent_means(
+        formerly("top_speed_{u}_s", field<&RackServo::saturation_velocity>("saturation_velocity_{u}_s", 0.000001, 1e7,
+                                                                           "{u}/s", "saturation of the amplifier")),
+        "the velocity at 10 V"),
     formerly("top_accel_{u}_s2",
-             field<&RackServo::top_accel>("current_limit_accel_{u}_s2", 0.001, 1e9, "{u}/s2",
-                                          "acceleration at the amplifier's current limit, without the load")),
+             field<&RackServo::current_limit_accel>("current_limit_accel_{u}_s2", 0.001, 1e9, "{u}/s2",
+                                                    "acceleration at the amplifier's current limit, without the load")),
     formerly("friction_{u}_s2",
              field<&RackServo::friction>("coulomb_friction_{u}_s2", 0, 1e9, "{u}/s2", "deceleration without current")),
     formerly("lag_ms", field<&RackServo::lag_ms>("time_constant_ms", 0.1, 10'000, "ms",
-                                                 "time constant of the speed, without the load")),
+                                                 "time constant of the velocity, without the load")),
     field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does not react"),
     formerly("load", field<&RackServo::load>("load_inertia_ratio", 0, 1000, "",
                                              "inertia of the load in units of the motor's own")),
@@ -108,12 +109,12 @@ constexpr std::array<Field, 8> homing_table = {
                                                                      "direction of the search for the home switch")),
                  directions),
     absent_means(formerly("speed_{u}_s", field<&RackHoming::speed>("search_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
-                                                                   "speed of the search")),
-                 "a quarter of the greatest speed"),
+                                                                   "velocity of the search")),
+                 "a quarter of the maximum velocity"),
     absent_means(formerly("slow_speed_{u}_s",
                           field<&RackHoming::slow_speed>("latch_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
-                                                         "speed of the last approach, at most the start speed")),
-                 "a quarter of the start speed; of a servo all of it"),
+                                                         "velocity of the last approach, at most the velocity step")),
+                 "a quarter of the velocity step; of a servo all of it"),
     absent_means(
         formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
         "position of the switch edge; types 3 and 4: plus index_after, and one of both keys is required"),
@@ -129,7 +130,7 @@ constexpr std::array<Field, 8> homing_table = {
 
 constexpr std::array<Field, 6> probe_table = {
     absent_means(formerly("x_from_mm", field<&RackProbe::x_from>("x_min_mm", -1e7, 1e7, "mm",
-                                                                 "start of the block that the probe touches")),
+                                                                 "start of the workpiece that the probe touches")),
                  "no bound"),
     absent_means(formerly("x_to_mm", field<&RackProbe::x_to>("x_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
     absent_means(formerly("y_from_mm", field<&RackProbe::y_from>("y_min_mm", -1e7, 1e7, "mm", "from here")),

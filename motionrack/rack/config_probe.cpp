@@ -1,4 +1,4 @@
-// Section [probe]: a touch probe and the block that it touches.
+// Section [probe]: a touch probe and the workpiece that it touches.
 #include <fmt/format.h>
 
 #include <motionrack/rack/config_parts.hpp>
@@ -16,12 +16,12 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
             problems.error(
                 node.place_of(key),
                 fmt::format(
-                    "The block of the probe goes from {} to {} mm along {}; its first end must be below the other.",
+                    "The workpiece of the probe goes from {} to {} mm along {}; its first end must be below the other.",
                     *from, *to, letter));
         }
         if ((from || to) && config.axis(letter) == nullptr) {
             problems.error(node.place_of(from ? key : fmt::format("{}_to_mm", static_cast<char>(letter - 'A' + 'a'))),
-                           fmt::format("The block of the probe has an end along {}, but the rack has no axis {}.",
+                           fmt::format("The workpiece of the probe has an end along {}, but the rack has no axis {}.",
                                        letter, letter));
         }
     }

@@ -109,10 +109,10 @@ std::string rack_file_reference() {
            fields_table(homing_fields(), &linear.homing, &rotary.homing);
     const RackProbe probe;
     out +=
-        "## [probe]\nA touch probe for G38.2 to G38.5 and the block that it touches, in machine coordinates: with the "
-        "section there is a probe. "
-        "Where an axis has one bound or none the block goes on for ever; without any bound the probe touches nothing. "
-        "The axes must be on a card "
+        "## [probe]\nA touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates: with "
+        "the section there is a probe. "
+        "Where an axis has one bound or none the workpiece is unbounded there; without any bound the probe touches "
+        "nothing. The axes must be on a card "
         "of type mcx314 with `variant = \"mcx314as\"`; by default its wire `probe` leads to the input `in3` of each of "
         "their channels.\n\n" +
         fields_table(probe_fields(), &probe, &probe);

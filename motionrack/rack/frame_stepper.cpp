@@ -17,8 +17,7 @@ Result<std::unique_ptr<FrameStepper>> FrameStepper::create(Rack& rack, std::stri
         if (!found && (name.empty() ? card->is_host() : each->name() == name)) found = card;
     }
     if (known.empty())
-        return fail(ErrorKind::invalid_input,
-                    "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
+        return fail(ErrorKind::invalid_input, "The rack has no grating_bus card and thus no frames. Nothing was done.");
     if (!found && name.empty())
         return fail(
             ErrorKind::invalid_input,

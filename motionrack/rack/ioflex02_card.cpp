@@ -30,6 +30,7 @@ struct AxisValue {
 };
 constexpr AxisValue pins_of_axes[] = {
     {"POSITION", [](const io::Card& card, int axis) { return std::int64_t{card.position(axis)}; }},
+    {"RAW", [](const io::Card& card, int axis) { return card.raw_count(axis); }},
     {"CALIBRATED", [](const io::Card& card, int axis) { return std::int64_t{card.status(axis) == io::sCal}; }},
     {"ILLEGAL_TRANSITIONS", [](const io::Card& card, int axis) { return std::int64_t{card.illegal(axis)}; }},
 };
@@ -61,7 +62,7 @@ class Ioflex02Card final : public Card {
     }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
-        static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.CALIBRATED ..",
+        static constexpr std::string_view more[] = {"0.POSITION .. 3.POSITION", "0.RAW ..", "0.CALIBRATED ..",
                                                     "0.ILLEGAL_TRANSITIONS ..", card_time};
         if (name.size() > 2 && name[1] == '.' && name[0] >= '0' && name[0] <= '3')
             for (const AxisValue& value : pins_of_axes)

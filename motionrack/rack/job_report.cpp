@@ -138,10 +138,10 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(),
                                       outcome.ended.error().message};
     const LineIndex lines(program);
-    for (const ExecutedMove& block : job.monitor().blocks())
-        data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm",
-                               to_seconds(block.start - began), to_seconds(block.end - block.start),
-                               block.entry_velocity, block.cruise_velocity, block.exit_velocity, block.deviation_mm});
+    for (const ExecutedMove& move : job.monitor().blocks())
+        data.moves.push_back({move.line, lines[move.line], kind_text(move.kind), move.length, "mm",
+                              to_seconds(move.start - began), to_seconds(move.end - move.start), move.entry_velocity,
+                              move.cruise_velocity, move.exit_velocity, move.deviation_mm});
     for (const JobWarning& warning : outcome.warnings)
         data.warnings.push_back({to_seconds(warning.at - began), warning.line, warning.text});
     data.notes = {
@@ -178,8 +178,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
     for (const control::ProgramProbe& probe : outcome.run.probes)
         out += fmt::format("\n  line {:<6} {}", probe.line, control::probe_text(probe.probe, probe.outcome));
-    out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected",
-                       "lost", "ends at", "top speed / limit", "top accel / limit");
+    out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10}{:>26}{:>24}\n", "axis", "pulses", "counts", "expected",
+                       "lost", "ends at", "peak velocity / limit", "peak accel / limit");
     const auto of_pulses = [](const AxisOutcome& axis, std::int64_t count) {
         return axis.servo ? std::string("-") : fmt::format("{}", count);
     };
@@ -211,7 +211,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["max_deviation"] = {{"from", "program"},
                              {"mm", outcome.worst.mm},
                              {"line", outcome.worst.line},
-                             {"seconds", to_seconds(outcome.worst.at)}};
+                             {"time_s", to_seconds(outcome.worst.at)}};
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});
@@ -222,7 +222,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
               breach.axis < 0 ? "" : std::string(1, control::axis_letters[static_cast<std::size_t>(breach.axis)])},
              {"value", breach.value},
              {"limit", breach.limit},
-             {"seconds", to_seconds(breach.at)},
+             {"time_s", to_seconds(breach.at)},
              {"line", breach.line},
              {"position", breach.place},
              {"times", breach.times}});
@@ -245,7 +245,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["warnings"] = nlohmann::ordered_json::array();
     for (const JobWarning& warning : outcome.warnings)
         json["warnings"].push_back(
-            {{"seconds", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
+            {{"time_s", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -77,8 +77,8 @@ constexpr std::array reactions = {
     StopReaction{"mcx314", to({emergency_stop}), category_0, StopBy::card,
                  "the chip ends all pulses at once, at its input emgn", milliseconds(1)},
     StopReaction{"mcx314", to({limit_switch}), category_2, StopBy::card,
-                 "the chip decelerates the axis that moves towards it, and with it the path, until the end of its "
-                 "current segment; at standstill: motion is blocked", milliseconds(1), true},
+                 "the chip decelerates the axis moving towards the switch, and with it the path; the drive ends with "
+                 "the current segment; at standstill: motion is blocked", milliseconds(1), true},
     StopReaction{"mcx314", to({stop_command, drive_alarm, watchdog, following_error}), category_2, StopBy::drive,
                  "all axes decelerate along their path and hold their positions", a_slice, true},
     StopReaction{"databoard4002", to({emergency_stop}), category_0, StopBy::card,

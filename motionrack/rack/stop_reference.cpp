@@ -25,9 +25,9 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
      "at any time"},
     {StopSource::drive_alarm, "the alarm input of an axis of an MCX314", "once the drive reports it no more"},
     {StopSource::limit_switch,
-     "the switch of an axis that moves towards it, or of one that stands; one that becomes active behind an axis that "
-     "moves, also in a search for home: it is wired wrongly or broken; not one that bounces within 20 ms after it was "
-     "left",
+     "a limit switch becomes active ahead of a moving axis, or at standstill; also behind a moving axis, even in a "
+     "search for home: this means wrong wiring or a broken switch; bounce within 20 ms after leaving the switch is "
+     "ignored",
      "at any time: the axis must be moved off it"},
     {StopSource::watchdog,
      "a DataBoard 4002 that was reset because its program hung; detected at the next slice (2 ms, of a run 50 ms)",

@@ -142,7 +142,7 @@ void write_head(Writer& out, const RackConfig& config, const std::string& card_n
     card.name = card_name;
     card.slot = 0;
     const CardType& type = *find_card_type(card.type);
-    out.line("# A rack file: cards, axes, wires. Each comment tells its meaning, range, unit and default.");
+    out.line("# A rack file: cards, axes, wires. Each comment gives the key's meaning, range, unit and default.");
     const RackConfig defaults;
     const RackCard card_defaults;
     out.section("rack", "the whole machine");

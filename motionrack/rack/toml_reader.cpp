@@ -283,9 +283,13 @@ class FieldReader {
 /// Returns the error sentence for an unknown key of `section`.
 std::string unknown_key(const std::string& key, std::span<const Field> fields, const Section& section,
                         std::span<const std::string_view> known) {
+    const auto is_now = [&](std::string_view present) {
+        return fmt::format("{} is now {}.", in_quotes(key), in_quotes(with_unit(present, section.unit)));
+    };
+    for (const FormerKey& former : section.former)
+        if (key == with_unit(former.old_key, section.unit)) return is_now(former.key);
     for (const Field& field : fields) {
-        if (!field.old_key.empty() && key == with_unit(field.old_key, section.unit))
-            return fmt::format("{} is now {}.", in_quotes(key), in_quotes(with_unit(field.key, section.unit)));
+        if (!field.old_key.empty() && key == with_unit(field.old_key, section.unit)) return is_now(field.key);
         if (!field.only.empty() && field.only != section.unit && key == field.key) {
             return fmt::format("{} does not belong to {}, which is {}; the key means: {}.", field.key, section.name,
                                section.kind, field.doc);

@@ -228,12 +228,18 @@ std::string default_text(const Field& field, const void* defaults);
 /// Formats a value as TOML.
 std::string toml_text(const FieldValue& value);
 
+/// A key read elsewhere whose name was another in earlier versions.
+struct FormerKey {
+    std::string_view old_key, key;  ///< with "{u}" as in Field
+};
+
 /// One table of a file, as input of read_fields.
 struct Section {
     std::string name;                             ///< for messages: "axis X"
     std::string unit;                             ///< for "{u}": "mm", "deg" or empty
     std::string kind;                             ///< noun in messages about keys of other units: "a linear axis"
     std::span<const std::string_view> also = {};  ///< further permitted keys (read elsewhere)
+    std::span<const FormerKey> former = {};       ///< former names of those
 };
 
 /// Reads every field of `table` into `object` (of the type that the fields were declared for). Missing or wrong values

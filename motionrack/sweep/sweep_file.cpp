@@ -170,9 +170,8 @@ class Reader {
                                       rack::number_text(value.number)));
         if (parameter.kind == ParameterKind::text && value.type == TomlType::text &&
             (value.text.size() > 1000 || value.text.find_first_of("\r\n") != std::string::npos))
-            return refuse(
-                fmt::format("{} has {} in its list; a text of the program has at most 1000 bytes and no line end.",
-                            parameter.name, rack::in_quotes(value.text)));
+            return refuse(fmt::format("Value {} of {} is invalid: a text must have at most 1000 bytes and no line end.",
+                                      rack::in_quotes(value.text), parameter.name));
         if (parameter.kind != ParameterKind::fault) return true;
         if (value.type != TomlType::text)
             return refuse(
@@ -195,7 +194,7 @@ class Reader {
         };
         if (parameter.kind == ParameterKind::fault)
             return refuse(node.value_place,
-                          "fault has no numbers between; write a list of texts: [\"\", \"X.limit_plus=0@1.5s\"].");
+                          "'fault' takes no range (from, to); give a list of texts: [\"\", \"X.limit_plus=0@1.5s\"].");
         if (settings.from == settings.to)
             return refuse(node.place_of("to"),
                           fmt::format("from and to of {} are both {}; give two numbers, or a list of one.",

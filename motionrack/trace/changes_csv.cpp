@@ -40,7 +40,8 @@ class CsvChanges final : public ChangeSource {
             return fail(ErrorKind::invalid_input, what, {rows_.line(), 0}, path_);
         };
         if (!read_ps(fields_[0], change.at_ps)) return refuse("The time must be 0 to 8640000 seconds.");
-        if (change.at_ps < last_) return refuse("The time lies before that of the line above.");
+        if (change.at_ps < last_)
+            return refuse("The time is earlier than the previous one. Nothing was compared; times must not decrease.");
         last_ = change.at_ps;
         change.signal = names_.number(fields_[1]);
         change.value = fields_[2];

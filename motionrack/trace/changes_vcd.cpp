@@ -136,7 +136,8 @@ Result<void> VcdChanges::time() {
     if (bad != std::errc() || end != word_.data() + word_.size() || units < 0 ||
         units > std::numeric_limits<std::int64_t>::max() / scale_ps_)
         return refuse(fmt::format("'{}' is not a time.", word_.substr(0, 40)));
-    if (units * scale_ps_ < at_ps_) return refuse("The time lies before the one above it.");
+    if (units * scale_ps_ < at_ps_)
+        return refuse("The time is earlier than the previous one. Nothing was compared; times must not decrease.");
     at_ps_ = units * scale_ps_;
     return {};
 }

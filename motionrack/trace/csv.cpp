@@ -45,7 +45,7 @@ std::vector<Event> events_of(const ReportData& data) {
         const std::optional<double> when = instant(seconds);
         events.push_back({when, name, line, when ? driven_at(data, *when) : std::nullopt, std::move(text)});
     };
-    for (const ReportMove& block : data.blocks) add(block.start, "move", block.line, block.kind);
+    for (const ReportMove& move : data.moves) add(move.start, "move", move.line, move.kind);
     for (const ReportWarning& warning : data.warnings) add(warning.seconds, "warning", warning.line, warning.text);
     if (data.worst) {
         const ReportMaxDeviation& worst = *data.worst;

@@ -5,7 +5,7 @@
 //     0.001,0.0125,25
 //
 //     time_s,event,line,x_mm,y_mm,z_mm,text
-//     0,block,3,0,0,0,arc
+//     0,move,3,0,0,0,arc
 #pragma once
 
 #include <cstdint>
@@ -62,7 +62,7 @@ class CsvWriter {
     std::size_t fields_ = 0;
 };
 
-/// Writes the events of a run in time order: block starts, warnings, the maximum deviation, the stop. Columns: time_s,
+/// Writes the events of a run in time order: move starts, warnings, the maximum deviation, the stop. Columns: time_s,
 /// event ("move", "warning", "max deviation", "stop"), line, x_mm, y_mm, z_mm (true position), text (kind of move,
 /// warning). Unknown values are empty; events without an instant come first. Errors: io.
 Result<void> write_events_csv(const ReportData& data, const std::string& path);

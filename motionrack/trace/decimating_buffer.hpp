@@ -12,8 +12,8 @@ namespace motionrack::trace {
 template <class Sample>
 class DecimatingBuffer {
   public:
-    /// `most`: capacity, at least 16.
-    explicit DecimatingBuffer(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
+    /// `max_samples`: capacity, at least 16.
+    explicit DecimatingBuffer(std::size_t max_samples) : max_samples_(std::max<std::size_t>(max_samples, 16)) {}
 
     /// Appends the sample or merges it with the last one.
     void add(const Sample& sample, double deviation) {
@@ -24,7 +24,7 @@ class DecimatingBuffer {
         skipped_ = 0;
         samples_.push_back(sample);
         deviations_.push_back(deviation);
-        if (samples_.size() > most_) thin_out();
+        if (samples_.size() > max_samples_) thin_out();
     }
 
     const std::vector<Sample>& samples() const { return samples_; }
@@ -42,7 +42,7 @@ class DecimatingBuffer {
         keep_every_ *= 2;
     }
 
-    std::size_t most_;
+    std::size_t max_samples_;
     std::vector<Sample> samples_;
     std::vector<double> deviations_;
     std::size_t keep_every_ = 1, skipped_ = 0;

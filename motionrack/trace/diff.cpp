@@ -125,7 +125,7 @@ std::string diff_json(const Diff& diff, const std::string& a, const std::string&
     for (const Difference& one : diff.differences) {
         nlohmann::ordered_json each = {{"signal", one.signal}, {"unit", one.unit}, {"a", one.a}, {"b", one.b}};
         if (one.at) {
-            each["seconds"] = to_seconds(*one.at);
+            each["time_s"] = to_seconds(*one.at);
             each["ticks"] = one.at->count();
         }
         json["differences"].push_back(std::move(each));

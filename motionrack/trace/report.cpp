@@ -59,7 +59,7 @@ std::string report_html(const ReportData& data) {
         {"series", series_html(charts)},
         {"charts", charts_html(data, charts)},
         {"axes", axes_html(data)},
-        {"blocks", blocks_html(data)},
+        {"moves", moves_html(data)},
         {"warnings", warnings_html(data)},
         {"source", source_html(data)},
         {"notes", notes_html(data)},

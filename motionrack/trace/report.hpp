@@ -76,7 +76,7 @@ struct ReportStop {
     std::string text;  ///< reason
 };
 
-/// One executed block. Lengths and velocities are along the path: mm and mm/s, or deg and deg/s, according to `unit`.
+/// One executed move. Lengths and velocities are along the path: mm and mm/s, or deg and deg/s, according to `unit`.
 struct ReportMove {
     int line = 0;
     std::string text;  ///< line text of the part program
@@ -85,9 +85,9 @@ struct ReportMove {
     std::string unit = "mm";  ///< "mm" or "deg"
     double start = 0;         ///< s
     double duration = 0;      ///< s
-    double entry_speed = 0;
+    double entry_velocity = 0;
     double peak_velocity = 0;
-    double exit_speed = 0;
+    double exit_velocity = 0;
     double deviation_mm = 0;  ///< maximum distance from the programmed path
 };
 
@@ -142,7 +142,7 @@ struct ReportData {
     std::vector<Xyz> driven;  ///< true positions over `seconds`
     std::optional<ReportMaxDeviation> worst;
     std::optional<ReportStop> stop;
-    std::vector<ReportMove> blocks;  ///< in execution order; the page lists the first 2,000
+    std::vector<ReportMove> moves;  ///< in execution order; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
     std::vector<ReportPicture> pictures;
     std::string pictures_hint;  ///< caption of their lines

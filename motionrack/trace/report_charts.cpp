@@ -148,7 +148,7 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
         charts.push_back({number_of, std::move(out)});
     }
     if (!axis.speed.empty()) {
-        SvgChart out = chart("Speed, " + axis.unit + "/s", look, data, axis.speed);
+        SvgChart out = chart("Velocity, " + axis.unit + "/s", look, data, axis.speed);
         if (axis.max_velocity > 0) out.limits = {{axis.max_velocity, ""}, {-axis.max_velocity, ""}};
         charts.push_back({number_of, std::move(out)});
     }
@@ -258,11 +258,11 @@ std::string drawing_json(const ReportData& data, const std::vector<PageChart>& c
         out += fmt::format(",\n\"stop\":{{\"at\":{},\"t\":{},\"line\":{}}}", xyz_json(data.stop->at),
                            json_number(data.stop->seconds), data.stop->line);
     }
-    out += ",\n\"blocks\":[";
-    for (std::size_t i = 0; i < std::min(data.blocks.size(), max_blocks); ++i) {
-        const ReportMove& block = data.blocks[i];
-        out += fmt::format("{}[{},{},{}]", i > 0 ? "," : "", block.line, json_number(block.start),
-                           json_number(block.start + block.duration));
+    out += ",\n\"moves\":[";
+    for (std::size_t i = 0; i < std::min(data.moves.size(), max_moves); ++i) {
+        const ReportMove& move = data.moves[i];
+        out += fmt::format("{}[{},{},{}]", i > 0 ? "," : "", move.line, json_number(move.start),
+                           json_number(move.start + move.duration));
     }
     return out + "]}";
 }

@@ -125,8 +125,8 @@ void fields_of(ReportStop& v, Fields& f) {
 void fields_of(ReportMove& v, Fields& f) {
     f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration",
                                                                                                             v.duration);
-    f("entry_speed", v.entry_speed)("peak_velocity", v.peak_velocity)("exit_speed", v.exit_speed)("deviation_mm",
-                                                                                                  v.deviation_mm);
+    f("entry_velocity", v.entry_velocity)("peak_velocity", v.peak_velocity)("exit_velocity", v.exit_velocity)(
+        "deviation_mm", v.deviation_mm);
 }
 void fields_of(ReportWarning& v, Fields& f) {
     f("seconds", v.seconds)("line", v.line)("text", v.text);
@@ -148,8 +148,8 @@ void fields_of(ReportData& v, Fields& f) {
         "verdict", v.verdict);
     f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned)("worst", v.worst)(
         "stop", v.stop);
-    f("blocks", v.blocks)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables",
-                                                                                                            v.tables);
+    f("moves", v.moves)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables",
+                                                                                                          v.tables);
     f("series", v.series)("source", v.source)("notes", v.notes);
 }
 

@@ -9,7 +9,7 @@
 
 namespace motionrack::trace {
 
-inline constexpr std::size_t max_blocks = 2000;      ///< rows of the table of blocks
+inline constexpr std::size_t max_moves = 2000;       ///< rows of the table of moves
 inline constexpr std::size_t max_warnings = 500;     ///< rows of the table of warnings
 inline constexpr std::size_t max_axes = 16;          ///< axes with charts
 inline constexpr std::size_t max_rows = 2000;        ///< rows of every other table
@@ -38,11 +38,11 @@ std::string pictures_html(const ReportData& data);
 std::string tables_html(const ReportData& data);
 std::string source_html(const ReportData& data);
 std::string axes_html(const ReportData& data);
-std::string blocks_html(const ReportData& data);
+std::string moves_html(const ReportData& data);
 std::string warnings_html(const ReportData& data);
 std::string notes_html(const ReportData& data);
 
-/// Data for the script: series, paths and blocks, decimated, as integer differences.
+/// Data for the script: series, paths and moves, decimated, as integer differences.
 std::string drawing_json(const ReportData& data, const std::vector<PageChart>& charts);
 
 }  // namespace motionrack::trace

@@ -62,16 +62,16 @@ std::string axis_row(const ReportAxis& axis) {
     return out + "</tr>\n";
 }
 
-std::string block_row(const ReportMove& block, std::size_t index) {
-    const std::string unit = shown(block.unit, 20);
-    std::string out = fmt::format("<tr data-block=\"{}\">", index);
-    out += cell(block.line > 0 ? std::to_string(block.line) : "");
-    out += cell("<code>" + shown(block.text, 100) + "</code>", "t") + cell(shown(block.kind, 40), "t");
-    out += cell(number(block.length, 3) + " <small>" + unit + "</small>");
-    out += cell(number(block.start, 3)) + cell(number(block.duration, 3));
-    out +=
-        cell(number(block.entry_speed, 2)) + cell(number(block.peak_velocity, 2)) + cell(number(block.exit_speed, 2));
-    return out + cell(number(block.deviation_mm, 4)) + "</tr>\n";
+std::string move_row(const ReportMove& move, std::size_t index) {
+    const std::string unit = shown(move.unit, 20);
+    std::string out = fmt::format("<tr data-move=\"{}\">", index);
+    out += cell(move.line > 0 ? std::to_string(move.line) : "");
+    out += cell("<code>" + shown(move.text, 100) + "</code>", "t") + cell(shown(move.kind, 40), "t");
+    out += cell(number(move.length, 3) + " <small>" + unit + "</small>");
+    out += cell(number(move.start, 3)) + cell(number(move.duration, 3));
+    out += cell(number(move.entry_velocity, 2)) + cell(number(move.peak_velocity, 2)) +
+           cell(number(move.exit_velocity, 2));
+    return out + cell(number(move.deviation_mm, 4)) + "</tr>\n";
 }
 
 std::string place_html(const Xyz& at) {
@@ -141,25 +141,25 @@ std::string axes_html(const ReportData& data) {
     if (data.axes.empty()) return {};
     std::string rows;
     for (std::size_t i = 0; i < std::min<std::size_t>(data.axes.size(), 64); ++i) rows += axis_row(data.axes[i]);
-    const std::vector<std::string> heads = {"Axis",      "Pulses sent",      "Encoder counts", "Steps lost",
-                                            "Top speed", "Top acceleration", "Speed jump",     "Ends at"};
+    const std::vector<std::string> heads = {"Axis",          "Pulses sent",       "Encoder counts", "Steps lost",
+                                            "Peak velocity", "Peak acceleration", "Velocity step",  "Ends at"};
     return section("axes", "Axes", table("axis-table", "Commanded and actual motion of each axis", heads, rows));
 }
 
-std::string blocks_html(const ReportData& data) {
-    if (data.blocks.empty()) return {};
+std::string moves_html(const ReportData& data) {
+    if (data.moves.empty()) return {};
     std::string rows;
-    const std::size_t count = std::min(data.blocks.size(), max_blocks);
-    for (std::size_t i = 0; i < count; ++i) rows += block_row(data.blocks[i], i);
+    const std::size_t count = std::min(data.moves.size(), max_moves);
+    for (std::size_t i = 0; i < count; ++i) rows += move_row(data.moves[i], i);
     std::string note;
-    if (count < data.blocks.size()) {
+    if (count < data.moves.size()) {
         note = "<p class=\"hint\">The first " + grouped(static_cast<long long>(count)) + " of " +
-               grouped(static_cast<long long>(data.blocks.size())) +
-               " blocks are listed; the path and the charts show all.</p>\n";
+               grouped(static_cast<long long>(data.moves.size())) +
+               " moves are listed; the path and the charts show all.</p>\n";
     }
-    const std::vector<std::string> heads = {"Line",        "Program",   "Kind",    "Length",   "Start, s",
-                                            "Duration, s", "Entry, /s", "Top, /s", "Exit, /s", "Deviation, mm"};
-    return section("blocks", "Blocks", note + table("block-table", "Executed blocks", heads, rows));
+    const std::vector<std::string> heads = {"Line",        "Program",   "Kind",     "Length",   "Start, s",
+                                            "Duration, s", "Entry, /s", "Peak, /s", "Exit, /s", "Deviation, mm"};
+    return section("moves", "Moves", note + table("move-table", "Executed moves", heads, rows));
 }
 
 std::string warnings_html(const ReportData& data) {

@@ -33,7 +33,7 @@ class RackHandle:
     def fault(self, fault: str, target: str) -> None: ...
     def plan_faults(self, texts: Sequence[str]) -> None: ...
     def set_card(self, card: str, key: str, value: float) -> None: ...
-    def begin_samples(self, names: Sequence[str], period: int, most: int) -> None: ...
+    def begin_samples(self, names: Sequence[str], period: int, max_samples: int) -> None: ...
     def end_samples(self) -> tuple[Any, ...]: ...
     def begin_waves(self, path: str, signals: Sequence[str]) -> None: ...
     def end_waves(self) -> None: ...
@@ -111,7 +111,7 @@ class LivePort:
     def write(self, offset: int, value: int) -> None:
         """One access, with all effects, at the byte offset of a register; value 0 to 65535."""
     def view(self, clearing: bool) -> str:
-        """What all registers show, in words."""
+        """Describes the value of every register."""
     def wait_interrupt(self, timeout: float) -> bool:
         """Whether its interrupt came within timeout s."""
     def quick_stop(self) -> None:
@@ -290,7 +290,7 @@ class Mcx314:
         """Pulses a second of one V unit of a channel; 0 before R was written."""
     @staticmethod
     def plan(pulses: int | None, R: int, SV: int, V: int, A: int, D: int | None = None, K: int | None = None, AO: int | None = None) -> dict[str, Any]:
-        """What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration; AO: None, as the library sets it."""
+        """Plans a drive; nothing moves. Exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration; AO: None, as the library sets it."""
 
 
 class Mcx314Library:
@@ -646,7 +646,7 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTSig(self, n: int) -> str:
         """Counter that the software limits are compared with. Source: 4.6 Signals.
 
-n: of all axes, COMP+ and COMP- are compared with; 0 (the logical position LP), 1 (the real position EP).
+n: counter that COMP+ and COMP- are compared with, on all axes; 0 (the logical position LP), 1 (the real position EP).
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderMode(self, n: int, axis: int) -> str:
@@ -932,7 +932,7 @@ class SlopeTable:
     def entries(self) -> list[tuple[int, int]]:
         """The 48 intervals: (rate, counts)."""
     def motion(self, distance: int, rate: int, scale: SpeedScale) -> dict[str, Any]:
-        """What the card does with it for a move of so many counts with that rate, before anything moves: duration_s, top_speed (counts/s), legs."""
+        """Computes a move of `distance` counts at `rate` with this table; nothing moves. Gives duration_s, top_speed (counts/s), legs."""
 
 
 class Databoard4002:
@@ -1024,7 +1024,7 @@ class Ioflex02:
         """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
     @property
     def why(self) -> str:
-        """The sentence to Result; "" if it is 0."""
+        """Message for the code in Result; empty if Result is 0."""
     def GetIdent(self) -> int:
         """Version of the project in the array."""
     def ReadTime(self) -> int:
@@ -1066,10 +1066,10 @@ class Ioflex02:
     def reset(self) -> None:
         """Positions and the card's time begin at 0."""
     def Configure(self, image: bytes, Addr: int | None = None) -> int:
-        """Loads the array with an image of one's own (bytes, as make_image or motionrack image make give them), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
+        """Loads the array with a custom image (bytes, as make_image or motionrack image make give them), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
     @staticmethod
     def make_image(project: str = 'position', ident: int = 37, modes: Sequence[int] = [0, 0, 0, 0], bits: bytes = b'') -> bytes:
-        """A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
+        """A custom configuration image: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
     @staticmethod
     def image_info(image: bytes) -> dict[str, Any]:
         """Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""
@@ -1453,7 +1453,7 @@ class Rtc5:
     def load_program_file(self, Path: str | None = None) -> int:
         """Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
     def load_correction_file(self, Name: str | None, No: int, Dim: int = 2) -> int:
-        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. InvalidInput where it is damaged (its checksum does not fit, K is 0, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
     def table_note(self, TableNo: int) -> str:
         """Note on the file of table TableNo 1 to 4: its checksum is not known; "": no note."""
     def load_fly_2d_table(self, Name: str | None, No: int) -> int:

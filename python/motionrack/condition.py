@@ -1,4 +1,4 @@
-"""What the machine and the cards of a rack report."""
+"""Conditions that the machine and the cards of a rack report."""
 
 from __future__ import annotations
 

@@ -75,10 +75,10 @@ class MaxDeviation:
 
 @dataclass(frozen=True)
 class ProgramEvent:
-    """A spindle, tool or message word, with the block executed before it (-1: none)."""
+    """A spindle, tool or message word, with the move executed before it (-1: none)."""
 
     line: int
-    after_block: int
+    after_move: int
     text: str
 
 
@@ -144,7 +144,7 @@ class Outcome:
         self._ran.write_csv(path)
 
     def write_events(self, path: str) -> None:
-        """What happened (moves, warnings, the stop) as CSV. FileError."""
+        """Writes moves, warnings and the stop as CSV. FileError."""
         self._ran.write_events(path)
 
     def _repr_html_(self) -> str:

@@ -94,7 +94,8 @@ class Register:
         return str(self._reg["access"])
 
     def peek(self) -> Word:
-        """What it holds, without any effect; takes no time. InvalidInput where the card keeps no such word."""
+        """Returns the register's value without side effects; takes no time. InvalidInput where the card keeps no such
+        word."""
         return Word(self._card.peek(self._name), self._reg)
 
     def read(self) -> Word:

@@ -40,8 +40,8 @@ py::dict dict_of(const CommandInfo& command) {
     out["code"] = command.code;
     out["data_bytes"] = command.data_bytes;
     out["answer_bytes"] = command.answer_bytes;
-    out["least"] = command.min;
-    out["greatest"] = command.max;
+    out["min"] = command.min;
+    out["max"] = command.max;
     out["unit"] = text(command.unit);
     out["variant"] = text(command.variant);
     out["meaning"] = text(command.meaning);

@@ -206,8 +206,7 @@ void bind_slopes(py::module_& m) {
             },
             "The 48 intervals: (rate, counts).")
         .def("motion", &motion_of, py::arg("distance"), py::arg("rate"), py::arg("scale"),
-             "What the card does with it for a move of so many counts with that rate, before anything moves: "
-             "duration_s, "
+             "Computes a move of `distance` counts at `rate` with this table; nothing moves. Gives duration_s, "
              "top_speed (counts/s), legs.");
 }
 

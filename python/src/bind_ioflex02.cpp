@@ -53,7 +53,8 @@ void bind_source(FlexClass& c) {
         "Result", [](const Flex& self) { return self.driver->Result; },
         "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
     c.def_property_readonly(
-        "why", [](const Flex& self) { return self.driver->why(); }, "The sentence to Result; \"\" if it is 0.");
+        "why", [](const Flex& self) { return self.driver->why(); },
+        "Message for the code in Result; empty if Result is 0.");
     c.def("GetIdent", call<Flex2Pos>(&Flex2Pos::GetIdent), "Version of the project in the array.");
     c.def("ReadTime", call<Flex2Pos>(&Flex2Pos::ReadTime), "Time in ticks of 1.2 us, 0 to 16,777,215.");
     c.def("ReadTimeClr", call<Flex2Pos>(&Flex2Pos::ReadTimeClr),
@@ -196,13 +197,13 @@ void bind_images(FlexClass& c) {
             });
         },
         py::arg("image"), py::arg("Addr") = py::none(),
-        "Loads the array with an image of one's own (bytes, as make_image or motionrack image make give them), at a "
+        "Loads the array with a custom image (bytes, as make_image or motionrack image make give them), at a "
         "base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or "
         "version.");
     c.def_static("make_image", &make_image, py::arg("project") = std::string(io::position_project),
                  py::arg("ident") = static_cast<int>(io::position_ident), py::arg("modes") = std::array<int, 4>{},
                  py::arg("bits") = py::bytes(""),
-                 "A configuration image of one's own: its project, version, how the axes count (words MODE), and bytes "
+                 "A custom configuration image: its project, version, how the axes count (words MODE), and bytes "
                  "that the array keeps and does not look at.");
     c.def_static("image_info", &image_info, py::arg("image"),
                  "Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it "

@@ -115,7 +115,7 @@ void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
     out["program_ended"] = outcome.run.ended;
     py::list events;
     for (const control::ProgramEvent& event : outcome.run.events)
-        events.append(py::make_tuple(event.line, event.after_block, event.text));
+        events.append(py::make_tuple(event.line, event.after_move, event.text));
     out["program_events"] = events;
     out["program_events_left_out"] = outcome.run.events_left_out;
 }

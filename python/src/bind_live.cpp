@@ -21,7 +21,7 @@ void bind_live(py::module_& m) {
              "One access, with all effects, at the byte offset of a register; 16 bits.")
         .def("write", &LiveCard::write, py::arg("offset"), py::arg("value"),
              "One access, with all effects, at the byte offset of a register; value 0 to 65535.")
-        .def("view", &LiveCard::view, py::arg("clearing"), "What all registers show, in words.")
+        .def("view", &LiveCard::view, py::arg("clearing"), "Describes the value of every register.")
         .def(
             "wait_interrupt", [](LiveCard& card, double timeout) { return card.wait_interrupt(duration(timeout)); },
             py::arg("timeout"), "Whether its interrupt came within timeout s.")

@@ -205,8 +205,8 @@ void bind_mcx314_status(Mcx314Class& c) {
         },
         py::arg("pulses"), py::arg("R"), py::arg("SV"), py::arg("V"), py::arg("A"), py::arg("D") = py::none(),
         py::arg("K") = py::none(), py::arg("AO") = py::none(),
-        "What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an "
-        "S-curve; D: another deceleration; AO: None, as the library sets it.");
+        "Plans a drive; nothing moves. Exact to the tick: times in s, speeds in pulses/s. K: an S-curve; "
+        "D: another deceleration; AO: None, as the library sets it.");
 }
 
 void bind_mcx314(py::module_& m) {

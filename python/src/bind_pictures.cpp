@@ -32,7 +32,7 @@ std::string timeline(const std::string& title, const Doubles& seconds, const std
     std::vector<trace::SvgSpan> bands;
     for (const auto& [name, from, to] : spans) bands.push_back({name, from, to});
     if (width < 100 || width > 10'000 || height < 100 || height > 10'000)
-        refuse("A picture is 100 to 10000 pixels wide and high; nothing was drawn.");
+        refuse("Width and height must be 100 to 10000 pixels; nothing was drawn.");
     return trace::svg_timeline(title, drawn, bands, {.width = width, .height = height, .standalone = true});
 }
 

@@ -187,10 +187,10 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
             py::arg("card"), py::arg("key"), py::arg("value"))
         .def(
             "begin_samples",
-            [](RackHandle& w, const std::vector<std::string>& names, std::int64_t period, std::size_t most) {
-                run_exclusive(w, [&] { return w.begin_samples(names, ticks(period), most); });
+            [](RackHandle& w, const std::vector<std::string>& names, std::int64_t period, std::size_t max_samples) {
+                run_exclusive(w, [&] { return w.begin_samples(names, ticks(period), max_samples); });
             },
-            py::arg("names"), py::arg("period"), py::arg("most"))
+            py::arg("names"), py::arg("period"), py::arg("max_samples"))
         .def("end_samples",
              [](RackHandle& w) {
                  const RackLock turn(w, RackLock::Access::run);

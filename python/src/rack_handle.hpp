@@ -89,7 +89,7 @@ class RackHandle final : public Host {
     const std::string& program_name() const { return program_.name; }
 
     // ---- samples and waves
-    Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most);
+    Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t max_samples);
     Result<Sampler> end_samples();
     Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
     Result<void> end_waves();

@@ -7,7 +7,8 @@
 
 namespace motionrack::python {
 
-Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
+Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Duration period,
+                                       std::size_t max_samples) {
     running();
     if (sampler_)
         return fail(ErrorKind::refused,
@@ -16,11 +17,11 @@ Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Du
         return fail(
             ErrorKind::refused,
             fmt::format("The period is {:.9g} s; it must be 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
-    if (most < 2 || most > 100'000'000)
-        return fail(
-            ErrorKind::refused,
-            fmt::format("At most {} samples are to be kept; it must be 2 to 100000000. Nothing was started.", most));
-    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
+    if (max_samples < 2 || max_samples > 100'000'000)
+        return fail(ErrorKind::refused,
+                    fmt::format("At most {} samples are to be kept; it must be 2 to 100000000. Nothing was started.",
+                                max_samples));
+    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, max_samples));
     sampler_ = std::move(sampler);
     bell_->break_every(period);
     if (bell_->take_break() != never) sampler_->take(now());

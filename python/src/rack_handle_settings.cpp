@@ -40,7 +40,7 @@ Result<void> RackHandle::set_profile(const std::string& profile) {
     if (profile == config_.controller.profile) return {};
     if (profile != "trapezoid" && profile != "jerk_limited")
         return fail(ErrorKind::refused,
-                    fmt::format("The profile is {}; it is trapezoid or jerk_limited. Nothing was run.",
+                    fmt::format("The profile is {}; it must be trapezoid or jerk_limited. Nothing was run.",
                                 rack::in_quotes(profile)));
     if (rack().started())
         return fail(ErrorKind::refused,

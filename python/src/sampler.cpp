@@ -44,9 +44,9 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& desk, const
 }  // namespace
 
 Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
-                                std::size_t most) {
+                                std::size_t max_samples) {
     Sampler out;
-    out.most_ = most;
+    out.max_samples_ = max_samples;
     for (const std::string& name : names) {
         MOTIONRACK_TRY(Channel channel, channel_of(rack, desk, name));
         out.channels_.push_back(std::move(channel));
@@ -58,7 +58,7 @@ void Sampler::take(Instant now) {
     if (!ticks_.empty() && now.count() == ticks_.back()) return;
     if (++skipped_ < every_ && !ticks_.empty()) return;
     skipped_ = 0;
-    if (ticks_.size() >= most_) thin_out();
+    if (ticks_.size() >= max_samples_) thin_out();
     ticks_.push_back(now.count());
     for (Channel& channel : channels_) {
         if (channel.whole)

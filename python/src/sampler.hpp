@@ -28,9 +28,10 @@ class Sampler {
     /// Errors: invalid_input, listing the valid names, if a name is not that of a wire, a card value or a part
     /// quantity.
     static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
-                                  std::size_t most);
+                                  std::size_t max_samples);
 
-    /// Takes a sample between runs. Beyond `most` samples, drops every second one and doubles the sample interval.
+    /// Takes a sample between runs. Beyond `max_samples` samples, drops every second one and doubles the sample
+    /// interval.
     void take(Instant now);
     const std::vector<std::int64_t>& ticks() const { return ticks_; }
     const std::vector<Channel>& channels() const { return channels_; }
@@ -40,7 +41,7 @@ class Sampler {
 
     std::vector<Channel> channels_;
     std::vector<std::int64_t> ticks_;
-    std::size_t most_ = 0, every_ = 1, skipped_ = 0;
+    std::size_t max_samples_ = 0, every_ = 1, skipped_ = 0;
 };
 
 }  // namespace motionrack::python

@@ -49,6 +49,10 @@ class Making(unittest.TestCase):
         with self.assertRaises(motionrack.FileError):
             Rack.from_file("/no/such.toml")
 
+    def test_a_path_in_the_wrong_place_is_told_the_right_one(self) -> None:
+        with self.assertRaisesRegex(TypeError, r"not made by Rack\('my.toml'\). Use Rack.from_file"):
+            Rack("my.toml")  # type: ignore[arg-type]
+
     def test_all_errors_are_of_one_kind(self) -> None:
         for kind in (InvalidInput, Refused, MachineFault, Timeout, motionrack.FileError, motionrack.Stopped):
             self.assertTrue(issubclass(kind, motionrack.Error))

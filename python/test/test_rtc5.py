@@ -79,16 +79,16 @@ class Commands(unittest.TestCase):
     def test_what_is_out_of_range_is_refused_with_the_range_and_the_bit(self) -> None:
         rtc: Any = rack_of()[1]
         acts: dict[Callable[[], object], str] = {
-            lambda: rtc.simulate_encoder(4): "simulate_encoder: EncoderNo is 4, outside 0 to 3; nothing was changed",
-            lambda: rtc.read_mcbsp(4): "read_mcbsp: No is 4, outside 0 to 3; nothing was changed",
+            lambda: rtc.simulate_encoder(4): "simulate_encoder: EncoderNo is 4; it must be 0 to 3; nothing was changed",
+            lambda: rtc.read_mcbsp(4): "read_mcbsp: No is 4; it must be 0 to 3; nothing was changed",
             lambda: rtc.set_mcbsp_in(1.5, 1): "set_mcbsp_in: Mode is 1.5, but must be whole; nothing was changed",
-            lambda: rtc.set_mcbsp_in(Mode=1, Scale=float("nan")): "set_mcbsp_in: Scale is nan, outside",
-            lambda: rtc.set_hi(1, 17, 1, 0, 0): "set_hi: GalvoGainX is 17, outside -16 to 16; nothing was changed",
+            lambda: rtc.set_mcbsp_in(Mode=1, Scale=float("nan")): "set_mcbsp_in: Scale is nan; it must be",
+            lambda: rtc.set_hi(1, 17, 1, 0, 0): "set_hi: GalvoGainX is 17; it must be -16 to 16; nothing was changed",
             lambda: rtc.set_rot_center(1): "set_rot_center has 2 parameters, not 1; nothing was done",
-            lambda: rtc.set_extstartpos(2000): "set_extstartpos: Pos is 2000, outside 0 to 1999; nothing was changed",
+            lambda: rtc.set_extstartpos(2000): "set_extstartpos: Pos is 2000; it must be 0 to 1999",
             lambda: rtc.mark_abs(1): "mark_abs has 2 parameters, not 1; it was not added to the list",
             lambda: rtc.select_rtc(2): "select_rtc: unknown card 2; the rack has 1 of type rtc5. Nothing was done.",
-            lambda: rtc.load_correction_file(None, 5): "load_correction_file: No is 5, outside 1 to 4",
+            lambda: rtc.load_correction_file(None, 5): "load_correction_file: No is 5; it must be 1 to 4",
             lambda: rtc.get_waveform(1, 1): "get_waveform: nothing was recorded",
             lambda: rtc.set_mcbsp_out_ptr([6]): "6",
         }

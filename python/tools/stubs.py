@@ -41,7 +41,7 @@ def typed(text: str) -> str:
 
 
 def parameters(text: str) -> str:
-    """What is given may be any sequence or array."""
+    """Accepts any sequence or array."""
     text = re.sub(r"npt\.NDArray\[[\w.]+\]", "npt.ArrayLike", typed(text))
     text = text.replace("list[", "Sequence[")
     return re.sub(r"^self: \w+", "self", text)

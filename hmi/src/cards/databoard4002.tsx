@@ -91,10 +91,10 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
   };
   const send = (): void => {
     const value = command.data_bytes === 0 ? 0 : typed(argument.value);
-    if (value === null || !Number.isInteger(value) || value < command.least || value > command.greatest)
+    if (value === null || !Number.isInteger(value) || value < command.min || value > command.max)
       notice(
         'refused',
-        `"${argument.value}" is not one of ${whole(command.least)} to ${whole(command.greatest)}. Nothing was sent.`,
+        `The argument is "${argument.value}"; it must be ${whole(command.min)} to ${whole(command.max)}. Nothing was sent.`,
       );
     else void give(bus, command, value).then(told);
   };

@@ -3,8 +3,8 @@ import { typed, whole } from '../parts/numbers';
 
 export interface ArgumentInfo {
   name: string;
-  least: number;
-  greatest: number;
+  min: number;
+  max: number;
   unit: string;
   meaning: string;
   /** Initial value of the form. */
@@ -46,7 +46,7 @@ export function groupsOf(functions: readonly FunctionInfo[], search: string): Gr
 export function rangeText(argument: ArgumentInfo): string {
   if (argument.values.length > 0)
     return argument.values.map((one) => `${one.value} ${one.meaning}`).join(', ') + (argument.sum ? ', or a sum' : '');
-  return `${whole(argument.least)} to ${whole(argument.greatest)}${argument.unit === '' ? '' : ` ${argument.unit}`}`;
+  return `${whole(argument.min)} to ${whole(argument.max)}${argument.unit === '' ? '' : ` ${argument.unit}`}`;
 }
 
 export type Texts = Record<string, string>;
@@ -63,7 +63,7 @@ export function readTexts(
   for (const argument of one.arguments) {
     const text = texts[argument.name] ?? '';
     const value = typed(text);
-    if (value === null || !Number.isInteger(value) || value < argument.least || value > argument.greatest)
+    if (value === null || !Number.isInteger(value) || value < argument.min || value > argument.max)
       return {
         why: `${one.name}: ${argument.name} is "${text}", but must be ${rangeText(argument)}. Nothing was called.`,
       };

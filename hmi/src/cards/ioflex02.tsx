@@ -44,9 +44,9 @@ interface Seen {
   before: CardAnswer | null;
 }
 
-/** Counts per second between two answers. */
+/** Counts per second between two answers: of the count that no calibration zeroes. */
 export function speedOf({ now, before }: Seen, axis: number): number | null {
-  const [to, from] = [valueOf(now, `${axis}.POSITION`), valueOf(before, `${axis}.POSITION`)];
+  const [to, from] = [valueOf(now, `${axis}.RAW`), valueOf(before, `${axis}.RAW`)];
   if (now === null || before === null || to === null || from === null || now.at <= before.at) return null;
   return (to - from) / (now.at - before.at);
 }

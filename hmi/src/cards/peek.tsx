@@ -61,7 +61,7 @@ export function Quantities({ card }: { card: CardInfo }): JSX.Element {
   );
   const key = own.map((one) => one.name).join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), 10), [key]);
-  if (own.length === 0) return <Empty>The card tells no numbers of its own.</Empty>;
+  if (own.length === 0) return <Empty>The card reports no values of its own.</Empty>;
   return (
     <dl class="values">
       {own.map((one) => (

@@ -12,14 +12,14 @@ export interface PieceAnswer {
   beam: Place;
   laser: boolean;
   /** A square, mm. */
-  field: { least: Place; greatest: Place };
+  field: { min: Place; max: Place };
   part?: CarrierState;
 }
 
 /** Left, top, width and height of the picture, y downwards: around the marks, or around the field without marks. */
 export function sight(piece: PieceAnswer): [number, number, number, number] {
   const marks = piece.marks.flat();
-  const points = marks.length > 0 ? marks : [piece.field.least, piece.field.greatest];
+  const points = marks.length > 0 ? marks : [piece.field.min, piece.field.max];
   const xs = points.map(([x]) => x);
   const ys = points.map(([, y]) => y);
   const [x0, x1, y0, y1] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];

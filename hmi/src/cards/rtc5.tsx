@@ -22,10 +22,10 @@ function Picture({ piece }: { piece: PieceAnswer }): JSX.Element {
       aria-label={`Work piece under ${piece.scanner}: ${strokes.length} marks`}>
       <rect
         class="field-box"
-        x={field.least[0]}
-        y={-field.greatest[1]}
-        width={field.greatest[0] - field.least[0]}
-        height={field.greatest[1] - field.least[1]}
+        x={field.min[0]}
+        y={-field.max[1]}
+        width={field.max[0] - field.min[0]}
+        height={field.max[1] - field.min[1]}
         vector-effect="non-scaling-stroke"
       />
       <path class="marks" d={pathOf(strokes)} vector-effect="non-scaling-stroke" />
@@ -69,7 +69,7 @@ function WorkPiece({ scanner }: { scanner: string }): JSX.Element {
             </div>
             <div>
               <dt>field</dt>
-              <dd class="tabular">{fixed(piece.field.greatest[0] - piece.field.least[0], 1)} mm square</dd>
+              <dd class="tabular">{fixed(piece.field.max[0] - piece.field.min[0], 1)} mm square</dd>
             </div>
             {piece.part !== undefined && <Carrier part={piece.part} />}
             {piece.lost_points > 0 && (

@@ -23,10 +23,10 @@ export interface CommandInfo {
   name: string;
   code: number;
   meaning: string;
-  /** Bytes of the argument, from `least` to `greatest`; 0: none. */
+  /** Bytes of the argument, from `min` to `max`; 0: none. */
   data_bytes: number;
-  least: number;
-  greatest: number;
+  min: number;
+  max: number;
   unit: string;
   /** Bytes of the answer; 0: none. */
   answer_bytes: number;

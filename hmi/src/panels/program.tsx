@@ -50,11 +50,11 @@ function Findings({ result }: { result: Check }): JSX.Element {
             <dt>path</dt>
             <dd class="tabular">{fixed(result.length_mm, 1)} mm</dd>
           </div>
-          {Object.entries(result.least ?? {}).map(([letter, least]) => (
+          {Object.entries(result.min ?? {}).map(([letter, min]) => (
             <div key={letter}>
               <dt>{letter}</dt>
               <dd class="tabular">
-                {fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}
+                {fixed(min, 3)} … {fixed(result.max?.[letter], 3)}
               </dd>
             </div>
           ))}

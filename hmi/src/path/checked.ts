@@ -9,8 +9,8 @@ export interface Check {
   moves?: number;
   duration_s?: number;
   length_mm?: number;
-  least?: Record<string, number>;
-  greatest?: Record<string, number>;
+  min?: Record<string, number>;
+  max?: Record<string, number>;
   /** Axis letters; positions are in this order. */
   axes: string;
   path?: number[][];

@@ -99,4 +99,4 @@ export function clearDriven(): void {
   driven.value = [];
 }
 /** Maximum error of the actual points, with a lower limit so that a good path has a single colour. */
-export const greatestError = computed(() => Math.max(0.001, ...driven.value.slice(-KEPT).map((one) => one.error)));
+export const maxError = computed(() => Math.max(0.001, ...driven.value.slice(-KEPT).map((one) => one.error)));

@@ -18,7 +18,7 @@ export interface Turn {
 const MAX_TILT = 1.5;
 const [NEAREST, FARTHEST] = [1, 1e4];
 
-const within = (value: number, least: number, greatest: number): number => Math.min(greatest, Math.max(least, value));
+const within = (value: number, min: number, max: number): number => Math.min(max, Math.max(min, value));
 
 export const turned = (eye: Eye, by: Turn): Eye => ({
   turn: eye.turn + (by.turn ?? 0),

@@ -5,7 +5,7 @@ import { useCallback, useEffect, useRef } from 'preact/hooks';
 import * as state from '../link/state';
 import { dark } from '../view';
 import { css, errorColour, STEPS_SHOWN } from './colours';
-import { driven, greatestError, planned } from './data';
+import { driven, maxError, planned } from './data';
 import { boxAround, MARGIN, niceStep, sightOf, travelBox, type Box, type Sight } from './sight';
 
 /** Displayed part of the machine: the whole travel, or the surroundings of the path. */
@@ -103,7 +103,7 @@ class Painter {
   driven(a: number, b: number, isDark: boolean): void {
     const { pen } = this;
     const points = driven.peek();
-    const most = greatestError.peek();
+    const most = maxError.peek();
     pen.lineWidth = 2.4;
     pen.lineJoin = pen.lineCap = 'round';
     let colour = -1;

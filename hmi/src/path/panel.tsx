@@ -7,7 +7,7 @@ import { fixed } from '../parts/numbers';
 import { Button, Choice, Panel } from '../parts/ui';
 import { dark } from '../view';
 import { css, errorColour } from './colours';
-import { clearDriven, follow, greatestError, letters, plannedIs } from './data';
+import { clearDriven, follow, maxError, letters, plannedIs } from './data';
 import { Flat } from './flat';
 import { planesOf } from './sight';
 
@@ -30,7 +30,7 @@ function Scale(): JSX.Element {
           <rect key={part} x={i * 18} width="18" height="10" fill={css(errorColour(part, dark.value))} />
         ))}
       </svg>
-      <span class="tabular">{fixed(greatestError.value, 3)} mm</span>
+      <span class="tabular">{fixed(maxError.value, 3)} mm</span>
     </div>
   );
 }

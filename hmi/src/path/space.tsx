@@ -22,7 +22,7 @@ import {
 import * as state from '../link/state';
 import { dark } from '../view';
 import { errorColour } from './colours';
-import { driven, greatestError, planned } from './data';
+import { driven, maxError, planned } from './data';
 import { KEY_TURNS, turned, type Eye, type Turn } from './eye';
 
 function geometry(points: readonly number[][]): BufferGeometry {
@@ -75,7 +75,7 @@ class View {
     this.real.geometry.dispose();
     this.real.geometry = geometry(points.map((one) => one.place));
     const colours = new Float32Array(points.length * 3);
-    const most = greatestError.value;
+    const most = maxError.value;
     points.forEach((one, i) =>
       colours.set(
         errorColour(one.error / most, dark.value).map((c) => (c / 255) ** 2.2),

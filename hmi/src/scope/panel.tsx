@@ -49,10 +49,7 @@ function Tools({ state }: { state: string }): JSX.Element {
       <Button icon="standstill" why={whyNot('operate')} onClick={() => void command('scope_stop')}>
         Stop
       </Button>
-      <Button
-        icon="save"
-        why={names.length === 0 ? 'There is nothing recorded yet.' : ''}
-        onClick={() => save(names, rows)}>
+      <Button icon="save" why={names.length === 0 ? 'Nothing is recorded yet.' : ''} onClick={() => save(names, rows)}>
         CSV
       </Button>
     </>

@@ -34,7 +34,7 @@ describe('the grid', () => {
     [5.5, 10],
     [12, 20],
     [0.03, 0.05],
-  ])('has lines %d apart at least, at %d', (least, step) => expect(niceStep(least)).toBeCloseTo(step, 12));
+  ])('has lines %d apart at min, at %d', (min, step) => expect(niceStep(min)).toBeCloseTo(step, 12));
 });
 
 describe('the flat sight', () => {
@@ -46,7 +46,7 @@ describe('the flat sight', () => {
     expect(travelBox({ min: -10, max: 50 }, undefined)).toEqual([-10, 50, 0, 1]);
   });
 
-  test('around points has a twentieth of room, one unit at least', () => {
+  test('around points has a twentieth of room, one unit at min', () => {
     const points = [
       [0, 5, 0],
       [60, 5, 40],
@@ -130,7 +130,7 @@ describe('a work piece', () => {
     marked_mm: 0,
     beam: [0, 0],
     laser: false,
-    field: { least: [-50, -40], greatest: [50, 40] },
+    field: { min: [-50, -40], max: [50, 40] },
   };
   const marked: PieceAnswer = {
     ...piece,

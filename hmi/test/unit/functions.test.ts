@@ -13,8 +13,8 @@ import {
 
 const argument = (name: string, part: Partial<ArgumentInfo> = {}): ArgumentInfo => ({
   name,
-  least: 1,
-  greatest: 8000,
+  min: 1,
+  max: 8000,
   unit: 'x M pulses/s',
   meaning: 'speed',
   start: 1000,
@@ -23,8 +23,8 @@ const argument = (name: string, part: Partial<ArgumentInfo> = {}): ArgumentInfo 
   ...part,
 });
 const axes = argument('axis', {
-  least: 1,
-  greatest: 3,
+  min: 1,
+  max: 3,
   start: 1,
   sum: true,
   values: [

@@ -118,7 +118,7 @@ describe('the driven path', () => {
 
   test('has a greatest error, a micrometre at least', async () => {
     const { data, program } = await following();
-    expect(data.greatestError.value).toBe(0.001);
+    expect(data.maxError.value).toBe(0.001);
     await next(program, {
       driven: [
         [1, 0, 0, 0],
@@ -126,7 +126,7 @@ describe('the driven path', () => {
       ],
       errors: [0.02, 0.3],
     });
-    expect(data.greatestError.value).toBe(0.3);
+    expect(data.maxError.value).toBe(0.3);
   });
 });
 

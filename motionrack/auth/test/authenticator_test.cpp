@@ -19,13 +19,13 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class ADoorkeeper : public testing::Test {
+class AuthenticatorTest : public testing::Test {
   protected:
-    ADoorkeeper() : folder(fs::temp_directory_path() / ("doorkeeper-" + std::to_string(::getpid()))) {
+    AuthenticatorTest() : folder(fs::temp_directory_path() / ("authenticator-" + std::to_string(::getpid()))) {
         fs::create_directories(folder);
         open();
     }
-    ~ADoorkeeper() override { fs::remove_all(folder); }
+    ~AuthenticatorTest() override { fs::remove_all(folder); }
     void open(AuthSettings settings = {}) {
         auto made = try_open(std::move(settings));
         ASSERT_TRUE(made) << made.error().text();
@@ -56,7 +56,7 @@ class ADoorkeeper : public testing::Test {
     std::unique_ptr<Authenticator> door;
 };
 
-TEST_F(ADoorkeeper, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
+TEST_F(AuthenticatorTest, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
     ASSERT_EQ(start_codes.size(), 1u);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_TRUE(anna) << anna.error().sentence;
@@ -72,7 +72,7 @@ TEST_F(ADoorkeeper, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
     EXPECT_EQ(who->id, anna->identity.id);
 }
 
-TEST_F(ADoorkeeper, TakesCodesAsPeopleTypeThem) {
+TEST_F(AuthenticatorTest, TakesCodesAsPeopleTypeThem) {
     EXPECT_EQ(plain_code(" abcd-0il o "), "ABCD0110");
     std::string typed;
     for (const char c : start_codes[0])
@@ -80,7 +80,7 @@ TEST_F(ADoorkeeper, TakesCodesAsPeopleTypeThem) {
     EXPECT_TRUE(pair(typed, "anna"));
 }
 
-TEST_F(ADoorkeeper, GivesRolesByInvitationOnceAndForTenMinutes) {
+TEST_F(AuthenticatorTest, GivesRolesByInvitationOnceAndForTenMinutes) {
     const std::string code = *door->invite(Role::observe, now);
     const auto bert = pair(code, "bert");
     ASSERT_TRUE(bert);
@@ -93,7 +93,7 @@ TEST_F(ADoorkeeper, GivesRolesByInvitationOnceAndForTenMinutes) {
     EXPECT_FALSE(door->invite(Role::none, now));
 }
 
-TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
+TEST_F(AuthenticatorTest, PairsATakenNameWithTheStartCodeOnly) {
     ASSERT_TRUE(pair(start_codes[0], "anna"));
     const std::string code = *door->invite(Role::observe, now);
     EXPECT_THAT(pair(code, "anna").error().sentence, HasSubstr("anna is paired already"));
@@ -102,7 +102,7 @@ TEST_F(ADoorkeeper, PairsATakenNameWithTheStartCodeOnly) {
     EXPECT_EQ(door->users().size(), 3u);
 }
 
-TEST_F(ADoorkeeper, SlowsWrongCodesDownPerAddressAndForAll) {
+TEST_F(AuthenticatorTest, SlowsWrongCodesDownPerAddressAndForAll) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().reason, AuthError::Why::wrong);
     EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().reason, AuthError::Why::too_many)
         << "even a right one is not looked at";
@@ -114,7 +114,7 @@ TEST_F(ADoorkeeper, SlowsWrongCodesDownPerAddressAndForAll) {
     EXPECT_TRUE(pair(start_codes[0], "anna", "10.0.2.1"));
 }
 
-TEST_F(ADoorkeeper, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
+TEST_F(AuthenticatorTest, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
     const auto anna = *pair(start_codes[0], "anna");
     EXPECT_FALSE(door->authenticate("", now.wall));
     EXPECT_FALSE(door->authenticate(std::string(64, 'a'), now.wall));
@@ -132,7 +132,7 @@ TEST_F(ADoorkeeper, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
     EXPECT_FALSE(door->revoke("bert"));
 }
 
-TEST_F(ADoorkeeper, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
+TEST_F(AuthenticatorTest, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
     const auto anna = *pair(start_codes[0], "anna");
     struct stat about;
     ASSERT_EQ(::stat(file().c_str(), &about), 0);
@@ -149,7 +149,7 @@ TEST_F(ADoorkeeper, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
     EXPECT_FALSE(door->authenticate(anna.token, now.wall));
 }
 
-TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
+TEST_F(AuthenticatorTest, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     const std::string hash(64, 'a');
     const auto user = [&](const std::string& fields) { return "{\"users\":[{" + fields + "}]}"; };
     const std::string token = "\"token_sha256\":\"" + hash + "\"", expires = "\"expires\":1",
@@ -181,13 +181,13 @@ TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     EXPECT_TRUE(try_open()) << "sticky, as /tmp";
 }
 
-TEST_F(ADoorkeeper, ChecksTheFolderBeforeTheFirstUserIsWritten) {
+TEST_F(AuthenticatorTest, ChecksTheFolderBeforeTheFirstUserIsWritten) {
     fs::remove(file());
     ::chmod(folder.c_str(), 0777);
     EXPECT_THAT(try_open().error().message, HasSubstr("(mode 777)"));
 }
 
-TEST_F(ADoorkeeper, HasKeysCheckedThatOthersMayRead) {
+TEST_F(AuthenticatorTest, HasKeysCheckedThatOthersMayRead) {
     write("key");
     EXPECT_TRUE(check_readers(file().string(), "The key"));
     ::chmod(file().c_str(), 0644);
@@ -199,7 +199,7 @@ TEST_F(ADoorkeeper, HasKeysCheckedThatOthersMayRead) {
     EXPECT_FALSE(check_readers(file().string(), "The key"));
 }
 
-TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
+TEST_F(AuthenticatorTest, RefusesAPlaceAtWhichItCannotLook) {
     write("{}");
     AuthSettings settings;
     settings.users_file = file() / "users.json";  // inside a file, as if it were a folder
@@ -210,7 +210,7 @@ TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
     EXPECT_EQ(opened.error().file, settings.users_file.string());
 }
 
-TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
+TEST_F(AuthenticatorTest, PairsNobodyWhenTheFileCannotBeWritten) {
     fs::remove_all(folder);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_FALSE(anna);
@@ -220,7 +220,7 @@ TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
 }
 
-TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
+TEST_F(AuthenticatorTest, UnpairsNobodyWhenTheFileCannotBeWritten) {
     const auto anna = *pair(start_codes[0], "anna");
     fs::remove_all(folder);
     EXPECT_EQ(door->revoke("anna").error().kind, ErrorKind::io);
@@ -228,7 +228,7 @@ TEST_F(ADoorkeeper, UnpairsNobodyWhenTheFileCannotBeWritten) {
     EXPECT_TRUE(door->authenticate(anna.token, now.wall)) << "as the file has it";
 }
 
-TEST_F(ADoorkeeper, ForgetsOneTokenOfAUser) {
+TEST_F(AuthenticatorTest, ForgetsOneTokenOfAUser) {
     const auto first = *pair(start_codes[0], "anna"), second = *pair(start_codes[1], "anna");
     EXPECT_FALSE(door->forget("0123"));
     EXPECT_TRUE(door->forget(first.identity.id));
@@ -239,7 +239,7 @@ TEST_F(ADoorkeeper, ForgetsOneTokenOfAUser) {
     EXPECT_TRUE(door->authenticate(second.token, now.wall));
 }
 
-TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
+TEST_F(AuthenticatorTest, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
     AuthSettings two;
     two.max_tokens = 2;
     open(two);
@@ -259,7 +259,7 @@ TEST_F(ADoorkeeper, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
     EXPECT_EQ(door->users().size(), 2u) << "a refusal changes nothing";
 }
 
-TEST_F(ADoorkeeper, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
+TEST_F(AuthenticatorTest, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
     AuthSettings two;
     two.max_invitations = 2;
     open(two);
@@ -272,7 +272,7 @@ TEST_F(ADoorkeeper, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
     EXPECT_FALSE(door->invite(Role::observe, now)) << "the second is not";
 }
 
-TEST_F(ADoorkeeper, TakesAFolderThatItsOwnGroupMayWriteOnly) {
+TEST_F(AuthenticatorTest, TakesAFolderThatItsOwnGroupMayWriteOnly) {
     ::chmod(folder.c_str(), 0770);
     EXPECT_TRUE(try_open());
     if (::geteuid() != 0) return;
@@ -280,7 +280,7 @@ TEST_F(ADoorkeeper, TakesAFolderThatItsOwnGroupMayWriteOnly) {
     EXPECT_FALSE(try_open());
 }
 
-TEST_F(ADoorkeeper, ReadsTimesOfExpiryUpToTheYear2255) {
+TEST_F(AuthenticatorTest, ReadsTimesOfExpiryUpToTheYear2255) {
     const std::string begin =
         R"({"users":[{"name":"a","role":"observe","token_sha256":")" + std::string(64, 'a') + R"(","expires":)";
     for (const char* good : {"0", "9000000000"}) {
@@ -291,7 +291,7 @@ TEST_F(ADoorkeeper, ReadsTimesOfExpiryUpToTheYear2255) {
     EXPECT_FALSE(try_open());
 }
 
-TEST_F(ADoorkeeper, TakesNamesThatPeopleCanTellApart) {
+TEST_F(AuthenticatorTest, TakesNamesThatPeopleCanTellApart) {
     for (const char* good :
          {"anna", "Anna B. 2", "j\xc3\xb6rg", "a", "09AZaz._-\x80", "1234567890123456789012345678901234567890"})
         EXPECT_EQ(name_problem(good), "") << good;
@@ -302,7 +302,7 @@ TEST_F(ADoorkeeper, TakesNamesThatPeopleCanTellApart) {
     EXPECT_TRUE(pair(start_codes[0], "anna"));
 }
 
-TEST_F(ADoorkeeper, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
+TEST_F(AuthenticatorTest, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
     const auto anna = *pair(start_codes[0], "anna");
     AuthSettings settings;
     settings.users_file = file();

@@ -144,7 +144,7 @@ TEST(Descriptions, AsJsonAreReadBackWhole) {
     EXPECT_EQ(json["registers"][0]["fields"][1]["name"], "HIGH");
     EXPECT_EQ(json["registers"][0]["fields"][1]["mask"], 0xFF00);
     EXPECT_TRUE(json["registers"][1]["fields"].empty());
-    EXPECT_EQ(json["commands"][0]["least"], -8'388'608);
+    EXPECT_EQ(json["commands"][0]["min"], -8'388'608);
     EXPECT_EQ(json["commands"][1]["reproduced"], false);
     EXPECT_EQ(json["machines"][0]["states"][0]["meaning"], "says \"no\"\n\\");
     EXPECT_EQ(json["pins"][0]["active_low"], true);

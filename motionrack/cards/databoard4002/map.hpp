@@ -111,14 +111,14 @@ inline constexpr PinInfo pins[] = {
     {"ems", in, false, "emergency stop; active without current; contact 3P: 10 at 0 V, 23 at 5 V"},
     {"esr", in, false, "end stop right; active without current; contact 3P: 12 at 0 V, 25 at 5 V"},
     {"esl", in, false, "end stop left; active without current; contact 3P: 11 at 0 V, 24 at 5 V"},
-    {"vout", out, false, "analog output after the relay; the wire's level is in uV"},
+    {"vout", out, false, "analog output after the relay, in V"},
     {"sign", out, false, "direction: 1 is +"},
     {"fout", out, false, "speed as a frequency, 400 kHz / (16384 - rate)"},
     {"relay", out, false, "1: the analog output is connected, 0: shorted"},
     {"rst", out, false, "pulse of 10 us at C3"},
     {"int", out, false, "interrupt: 1 while one is asked for"},
-    {"vdirect", out, false, "analog output before the relay, on which EMS does not act; in uV"},
-    {"csb", out, false, "1 while the card is chosen: its answer to the bus, and its LED"},
+    {"vdirect", out, false, "analog output before the relay, on which EMS does not act; in V"},
+    {"csb", out, false, "1 while the host addresses the card; also drives the LED"},
 };
 static_assert(declared<pins_flaw(pins)>());
 

@@ -136,7 +136,7 @@ struct ConnectorPin {
     std::string_view doubt;    ///< reason why the reading is a guess
 };
 inline constexpr ConnectorPin connector_pins[] = {
-    {"F2E12", "P2C12", "P2E12", "clk", "F for P; a VME connector of three rows has no row E"},
+    {"F2E12", "P2C12", "P2E12", "clk", "misread: the P printed as F; a VME connector of three rows has no row E"},
     {"?2430", "P2A30", "", "addr", "? for P, 4 for A"},
     {"?2031", "P2C31", "P2D31", "addr", "? for P, 0 for C or D"},
     {"?2431", "P2A31", "", "addr", "? for P, 4 for A"},

@@ -18,7 +18,7 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
     if (!std::isfinite(value)) return refuse(fmt::format("is {}, which is not a number", value));
     const std::string_view blank = kind.unit.empty() ? "" : " ";
     if ((value < kind.min || value > kind.max) && !kind.clipped)
-        return refuse(fmt::format("is {}, outside {} to {}{}{}", value, kind.min, kind.max, blank, kind.unit));
+        return refuse(fmt::format("is {}; it must be {} to {}{}{}", value, kind.min, kind.max, blank, kind.unit));
     if (param.kind == Kind::signal && signal_info(static_cast<std::int64_t>(value)) == nullptr)
         return refuse(fmt::format("is {}, and the card has no signal of that number", value));
     if (kind.whole && value != std::floor(value)) return refuse(fmt::format("is {}, but must be whole", value));
@@ -28,8 +28,9 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
 /// Ranges that depend on the command.
 Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
     const auto refuse = [&](std::string_view name, double value, std::string_view range) {
-        return fail(ErrorKind::refused, fmt::format("{}: {} is {}, outside {}; the command was not added to the list",
-                                                    info.name, name, value, range));
+        return fail(ErrorKind::refused,
+                    fmt::format("{}: {} is {}; it must be {}; the command was not added to the list", info.name, name,
+                                value, range));
     };
     const auto up_to = [&](int param, double greatest) -> Result<void> {
         const double value = c.p[static_cast<std::size_t>(param)];
@@ -97,7 +98,7 @@ Result<void> check_parameter(std::string_view command, std::string_view name, do
                              double greatest, std::string_view unit) {
     if (value >= least && value <= greatest) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{}{}{} is {}, outside {} to {}{}{}; nothing was changed", command,
+                fmt::format("{}{}{} is {}; it must be {} to {}{}{}; nothing was changed", command,
                             command.empty() ? "" : ": ", name, value, least, greatest, unit.empty() ? "" : " ", unit));
 }
 

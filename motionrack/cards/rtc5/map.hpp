@@ -16,10 +16,10 @@
 
 namespace motionrack::rtc5 {
 
-inline constexpr Duration tick_time = microseconds(10);                  ///< output period of the card
-inline constexpr int half_us_per_tick = 20;                              ///< resolution of laser switching: 0.5 us
-inline constexpr double field_least = -524288, field_greatest = 524287;  ///< the real field, 20 bits
-inline constexpr double z_least = -32768, z_greatest = 32767;
+inline constexpr Duration tick_time = microseconds(10);           ///< output period of the card
+inline constexpr int half_us_per_tick = 20;                       ///< resolution of laser switching: 0.5 us
+inline constexpr double min_field = -524288, max_field = 524287;  ///< the real field, 20 bits
+inline constexpr double min_z = -32768, max_z = 32767;
 inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
 inline constexpr int simulated_counts = 10;  ///< per tick: 1 MHz
 inline constexpr std::int64_t min_list_memory = 16, max_list_memory = 1 << 20;

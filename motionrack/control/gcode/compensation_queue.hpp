@@ -15,9 +15,9 @@ namespace motionrack::control::gcode {
 class CompensationQueue {
   public:
     /// Maximum number of calls that wait for one move.
-    static constexpr std::size_t most = 10'000;
+    static constexpr std::size_t max_steps = 10'000;
 
-    bool full() const { return steps_.size() >= most; }
+    bool full() const { return steps_.size() >= max_steps; }
     void push(const CanonCall& step) { steps_.push_back(step); }
 
     /// Sets the ends of the waiting move (the first call) and of the moves behind it to the end of `path`. The axes of

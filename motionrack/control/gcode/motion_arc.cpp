@@ -16,7 +16,7 @@ namespace {
 /// LinuxCNC.
 constexpr double radius_difference_mm = 0.005;
 constexpr double radius_difference_relative = 0.001;
-constexpr double radius_difference_most_mm = 0.5;
+constexpr double max_radius_difference_mm = 0.5;
 
 /// An end within this distance of the start (mm) makes a full turn.
 constexpr double same_point_mm = 1e-7;
@@ -149,7 +149,7 @@ bool Interpreter::arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint c
     }
     const double difference = std::fabs(radius - end_radius);
     const double allowed =
-        std::min(radius_difference_relative * std::max(radius, end_radius), radius_difference_most_mm);
+        std::min(radius_difference_relative * std::max(radius, end_radius), max_radius_difference_mm);
     if (difference <= radius_difference_mm || difference <= allowed) return true;
     return fail_word(
         letter, GrblStatus::bad_target,

@@ -267,7 +267,7 @@ bool Interpreter::may_wait() {
         fmt::format(
             "{} steps already wait for the contour move after line {}, which is the limit; the line was not executed; "
             "write that move before it, or G40",
-            CompensationQueue::most, cutter_line_));
+            CompensationQueue::max_steps, cutter_line_));
 }
 
 /// Applies a valid line: final calls become ready, its own calls wait behind them.

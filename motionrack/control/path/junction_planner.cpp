@@ -11,7 +11,7 @@ void JunctionPlanner::begin() {
 }
 
 void JunctionPlanner::add(const LegLimits& leg, const Junction& end) {
-    MOTIONRACK_ASSERT(known_ - decided_ <= most && known_ < 32);
+    MOTIONRACK_ASSERT(known_ - decided_ <= max_junctions && known_ < 32);
     ways_ = {time_optimal_to(leg, end, false), time_optimal_to(leg, end, true)};
     last_ = end;
     ++known_;
@@ -39,7 +39,7 @@ void JunctionPlanner::decide() {
     decided_ = known_;
     if (!ways_[0].open || !ways_[1].open) return;
     decided_ = static_cast<std::size_t>(std::countr_zero(ways_[0].stops ^ ways_[1].stops));
-    if (known_ - decided_ <= most) return;
+    if (known_ - decided_ <= max_junctions) return;
     ways_[ways_[0].seconds < ways_[1].seconds].open = false;
     decided_ = known_;
 }

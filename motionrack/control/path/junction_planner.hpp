@@ -15,11 +15,11 @@ namespace motionrack::control {
 class JunctionPlanner {
   public:
     /// Maximum number of junctions that wait for later ones.
-    static constexpr std::size_t most = 12;
+    static constexpr std::size_t max_junctions = 12;
 
     /// Starts a path at standstill.
     void begin();
-    /// Adds a leg and the junction at its end. Afterwards at most `most` junctions are undecided.
+    /// Adds a leg and the junction at its end. Afterwards at max_junctions `max_junctions` junctions are undecided.
     void add(const LegLimits& leg, const Junction& end);
 
     /// Returns the number of decided junctions that were not taken; the start of the path does not count.

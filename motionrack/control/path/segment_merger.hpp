@@ -106,7 +106,7 @@ class SegmentMerger {
         CornerStop stop;                 ///< stop at its end, if chosen
     };
     Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
-    static constexpr std::size_t max_waiting = JunctionPlanner::most + 2;
+    static constexpr std::size_t max_waiting = JunctionPlanner::max_junctions + 2;
     PendingSegment& waiting(std::size_t i) { return pending_[i % max_waiting]; }
 
     MachineLimits limits_;

@@ -192,7 +192,7 @@ TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
     }
 }
 
-TEST(GcodeCutter, NearlyTangentJointsGetNoTinyArcs) {
+TEST(GcodeCutter, NearlyTangentCornersGetNoTinyArcs) {
     std::string text = std::string(cutter_preamble) + "G42.1 D6\nG1 X0 Y-100\n";
     constexpr int chords = 720;
     for (int i = 1; i <= chords; ++i)

@@ -91,7 +91,7 @@ TEST(LookAheadPlanner, RotaryMovesAreMeasuredInDegreesOfTheFastestAxis) {
     EXPECT_DOUBLE_EQ(out[0].accel, 4000);           // B: 1000 / 0.25
 }
 
-TEST(LookAheadPlanner, ExactPathStopsAtACornerAndPassesATangentJoint) {
+TEST(LookAheadPlanner, ExactPathStopsAtACornerAndPassesATangentJunction) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 0, 0, 30), path_line_to(40, 20)});
     ASSERT_EQ(out.size(), 3u);
     EXPECT_DOUBLE_EQ(out[0].exit_velocity, 30);
@@ -108,7 +108,7 @@ TEST(LookAheadPlanner, ExactPathSeesAHundredthOfADegree) {
                 1e-9);
 }
 
-TEST(LookAheadPlanner, ExactStopStandsStillAtEveryJoint) {
+TEST(LookAheadPlanner, ExactStopStandsStillAtEveryJunction) {
     std::vector<Move> moves;
     for (int i = 1; i <= 5; ++i) moves.push_back(path_line_to(10 * i, 0, 0, 50, PathControl::exact_stop));
     for (const PlannedMove& planned : plan_path(path_machine(), moves)) {
@@ -117,7 +117,7 @@ TEST(LookAheadPlanner, ExactStopStandsStillAtEveryJoint) {
     }
 }
 
-TEST(LookAheadPlanner, ContinuousCornersObeyTheJumpOfTheAxes) {
+TEST(LookAheadPlanner, ContinuousCornersObeyTheVelocityStepOfTheAxes) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});

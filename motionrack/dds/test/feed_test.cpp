@@ -90,7 +90,7 @@ TEST(FramePublisher, EndsWithTheSourceOrTheCountOrTheStop) {
     {
         CountingPublisher publisher;
         CountingSource source;
-        settings.most = 7;
+        settings.max_frames = 7;
         ASSERT_TRUE(publish_frames(publisher, source, settings));
         EXPECT_EQ(publisher.numbers.size(), 7u);
     }

@@ -6,7 +6,7 @@
 namespace motionrack::dds {
 namespace {
 
-TEST(JudgeFuzz, HoldsWhateverComes) {
+TEST(FrameValidatorFuzz, HoldsWhateverComes) {
     Counts all;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         motionrack::fuzz::Random random(seed);

@@ -10,7 +10,7 @@
 namespace motionrack::dds {
 namespace {
 
-RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
+RC_GTEST_PROP(FrameValidatorProperty, EveryNumberIsUsedLateOrLost, ()) {
     // Frames that a network has lost, duplicated and slightly reordered.
     const int frames = *rc::gen::inRange(1, 200);
     const auto start = *rc::gen::arbitrary<std::uint32_t>();
@@ -53,7 +53,7 @@ RC_GTEST_PROP(JudgeProperty, EveryNumberIsUsedLateOrLost, ()) {
     RC_ASSERT(counts.used + counts.late + counts.duplicates == arrivals.size());
 }
 
-RC_GTEST_PROP(JudgeProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ()) {
+RC_GTEST_PROP(FrameValidatorProperty, OnlySoundFramesOfTheSourceThatHasTheBusAreUsed, ()) {
     FrameValidator judge;
     Instant now{};
     std::uint32_t number = 0;

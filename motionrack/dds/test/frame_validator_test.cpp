@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 
 /// A validator that receives a frame each period.
-class Judging : public testing::Test {
+class FrameValidatorTest : public testing::Test {
   protected:
     FrameValidator judge;
     PublisherIdentity first = source_named(1), second = source_named(2, "wafer2");
@@ -36,7 +36,7 @@ class Judging : public testing::Test {
     }
 };
 
-TEST_F(Judging, UsesFramesThatFollowEachOther) {
+TEST_F(FrameValidatorTest, UsesFramesThatFollowEachOther) {
     EXPECT_TRUE(judge.stale());
     for (std::uint32_t i = 10; i < 20; ++i) {
         EXPECT_EQ(hear(i), Validation::used);
@@ -48,7 +48,7 @@ TEST_F(Judging, UsesFramesThatFollowEachOther) {
     EXPECT_THAT(told(EventKind::joined), HasSubstr("wafer1, process 101, id 0101010101010101"));
 }
 
-TEST_F(Judging, CountsTheFramesThatAreMissing) {
+TEST_F(FrameValidatorTest, CountsTheFramesThatAreMissing) {
     hear(10);
     EXPECT_EQ(hear(14), Validation::used);
     EXPECT_EQ(judge.counts().lost, 3u);
@@ -56,7 +56,7 @@ TEST_F(Judging, CountsTheFramesThatAreMissing) {
               "3 frames after number 10 did not come, 3 so far. The next one is used; the lost ones are not replaced.");
 }
 
-TEST_F(Judging, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
+TEST_F(FrameValidatorTest, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
     hear(10);
     hear(12);
     EXPECT_EQ(hear(11), Validation::late);
@@ -68,7 +68,7 @@ TEST_F(Judging, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
     EXPECT_EQ(judge.counts().lost, 0u);
 }
 
-TEST_F(Judging, GoesOnWhereTheSequenceWraps) {
+TEST_F(FrameValidatorTest, GoesOnWhereTheSequenceWraps) {
     const auto wrapped = [&](std::uint32_t number, std::int64_t periods) {
         Sample out = sample_of(first, number);
         out.frame.time = periods * period.count();
@@ -82,7 +82,7 @@ TEST_F(Judging, GoesOnWhereTheSequenceWraps) {
     EXPECT_EQ(judge.counts().lost, 1u);
 }
 
-TEST_F(Judging, RefusesASequenceThatJumpsAgainstItsTime) {
+TEST_F(FrameValidatorTest, RefusesASequenceThatJumpsAgainstItsTime) {
     hear(10);
     Sample jumped = sample_of(first, 5000);
     jumped.frame.time = sample_of(first, 11).frame.time;
@@ -94,7 +94,7 @@ TEST_F(Judging, RefusesASequenceThatJumpsAgainstItsTime) {
     EXPECT_EQ(judge.counts().lost, 1u);
 }
 
-TEST_F(Judging, FollowsACardThatWasReset) {
+TEST_F(FrameValidatorTest, FollowsACardThatWasReset) {
     hear(100);
     hear(101);
     const auto after_reset = [&](std::uint32_t number) {
@@ -111,7 +111,7 @@ TEST_F(Judging, FollowsACardThatWasReset) {
     EXPECT_EQ(hear(after_reset(2)), Validation::used);
 }
 
-TEST_F(Judging, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
+TEST_F(FrameValidatorTest, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
     hear(10);
     judge.look(now + 2 * period);
     EXPECT_FALSE(judge.stale());
@@ -127,7 +127,7 @@ TEST_F(Judging, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
     EXPECT_EQ(told(EventKind::fresh), "Frames are received again, from number 15011 on.");
 }
 
-TEST_F(Judging, CountsASilenceThatEndedBeforeAnyoneLooked) {
+TEST_F(FrameValidatorTest, CountsASilenceThatEndedBeforeAnyoneLooked) {
     hear(10);
     now += 5 * period;
     hear(16);
@@ -135,7 +135,7 @@ TEST_F(Judging, CountsASilenceThatEndedBeforeAnyoneLooked) {
     EXPECT_FALSE(judge.stale());
 }
 
-TEST_F(Judging, NeverUsesASecondPublisherWhileTheFirstIsThere) {
+TEST_F(FrameValidatorTest, NeverUsesASecondPublisherWhileTheFirstIsThere) {
     hear(10);
     EXPECT_EQ(hear(sample_of(second, 700)), Validation::other_source);
     EXPECT_FALSE(judge.in_conflict()) << "the first may be gone";
@@ -153,7 +153,7 @@ TEST_F(Judging, NeverUsesASecondPublisherWhileTheFirstIsThere) {
     EXPECT_EQ(judge.others()[0].frames, 2u);
 }
 
-TEST_F(Judging, EndsAConflictWhenTheSecondIsSilent) {
+TEST_F(FrameValidatorTest, EndsAConflictWhenTheSecondIsSilent) {
     hear(10);
     hear(sample_of(second, 700));
     for (std::uint32_t i = 11; judge.in_conflict() || i < 13; ++i) ASSERT_EQ(hear(i), Validation::used);
@@ -161,7 +161,7 @@ TEST_F(Judging, EndsAConflictWhenTheSecondIsSilent) {
     EXPECT_TRUE(judge.others().empty());
 }
 
-TEST_F(Judging, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
+TEST_F(FrameValidatorTest, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
     hear(10);
     hear(sample_of(second, 700));
     now += ValidatorSettings{}.release;
@@ -174,7 +174,7 @@ TEST_F(Judging, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
     EXPECT_EQ(hear(11), Validation::other_source) << "the first comes back too late";
 }
 
-TEST_F(Judging, KnowsAPublisherThatWasStartedAnew) {
+TEST_F(FrameValidatorTest, RecognisesAPublisherThatWasRestarted) {
     hear(10);
     const PublisherIdentity again = source_named(3);
     now += ValidatorSettings{}.release;
@@ -184,7 +184,7 @@ TEST_F(Judging, KnowsAPublisherThatWasStartedAnew) {
     EXPECT_THAT(told(EventKind::restart), HasSubstr("restarted"));
 }
 
-TEST_F(Judging, NeverUsesDamagedFrames) {
+TEST_F(FrameValidatorTest, NeverUsesDamagedFrames) {
     hear(10);
     const auto damaged = [&](auto change) {
         Sample sample = sample_of(first, 11);
@@ -224,7 +224,7 @@ TEST_F(Judging, NeverUsesDamagedFrames) {
     EXPECT_EQ(kinds, 4) << "each kind is told once a second";
 }
 
-TEST_F(Judging, LetsNobodyInWhoseNIsNotTheExpectedOne) {
+TEST_F(FrameValidatorTest, LetsNobodyInWhoseNIsNotTheExpectedOne) {
     judge = FrameValidator({.words = 8});
     EXPECT_EQ(hear(10), Validation::wrong_words);
     EXPECT_FALSE(judge.joined());
@@ -232,14 +232,14 @@ TEST_F(Judging, LetsNobodyInWhoseNIsNotTheExpectedOne) {
     EXPECT_EQ(hear(sample_of(second, 3, 8)), Validation::used);
 }
 
-TEST_F(Judging, TellsPeopleOnlyPrintableText) {
+TEST_F(FrameValidatorTest, ReportsOnlyPrintableText) {
     Sample rude = sample_of(first, 1);
     rude.source.host[2] = '\033';
     hear(rude);
     EXPECT_THAT(told(EventKind::wrong_crc), HasSubstr("wa?er1"));
 }
 
-TEST_F(Judging, KeepsAFewOthersInMindAndCountsTheRest) {
+TEST_F(FrameValidatorTest, KeepsAFewOthersInMindAndCountsTheRest) {
     hear(10);
     for (std::uint8_t id = 50; id < 80; ++id) hear(sample_of(source_named(id, "crowd"), 1));
     EXPECT_EQ(judge.others().size(), FrameValidator::max_others);

@@ -53,10 +53,9 @@ int describe(const DescribeOptions& options) {
     }
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
-        print_error(fmt::format(
-            "There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, safety, api, "
-            "{}.",
-            options.what, card_types()));
+        print_error(
+            fmt::format("Unknown topic '{}'. Known topics: rack-file, marking-job, sweep-file, safety, api, {}.",
+                        options.what, card_types()));
         return exit_usage;
     }
     const CardMap& map = kind->map();

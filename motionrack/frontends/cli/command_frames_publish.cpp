@@ -178,7 +178,7 @@ int publish(const PublishOptions& options) {
     dds::PublishingSettings settings;
     settings.speed = options.speed;
     settings.pace = from_seconds(to_seconds((*tap)->period()) / options.speed);
-    settings.most = options.count;
+    settings.max_frames = options.count;
     settings.stop = &stop_asked;
     const auto publisher =
         dds::Publisher::open({options.bus.name, options.bus.domain, (*tap)->period(), settings.pace});
@@ -208,8 +208,8 @@ void add_frames_publish(CLI::App& frames, Action& chosen) {
     command->add_flag("--json", options->json, "print events and the summary as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print only errors");
     command->footer(
-        "Example: motionrack frames publish stage.toml --bus stage\n"
-        "Example: motionrack frames publish stage.toml scan.ngc --bus stage --time-scale 0.1\n"
+        "Example: motionrack frames publish bus.toml --bus stage\n"
+        "Example: motionrack frames publish bus.toml scan.ngc --bus stage --time-scale 0.1\n"
         "Ctrl-C ends it. Exit code 4: another publisher was on the bus.");
     command->callback([options, &chosen] { chosen = [options] { return publish(*options); }; });
 }

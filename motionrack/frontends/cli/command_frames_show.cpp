@@ -224,9 +224,9 @@ void add_frames_show(CLI::App& frames, Action& chosen) {
     frames.add_flag("--json", options->json, "print the last table as JSON");
     frames.add_flag("-q,--quiet", options->quiet, "only the last table");
     frames.footer(
-        "Example: motionrack frames stage.toml\n"
-        "Example: motionrack frames stage.toml --duration 0.002 --vcd frames.vcd --picture frame.svg\n"
-        "Example: motionrack frames stage.toml --fault c1.off@0.05s\n"
+        "Example: motionrack frames bus.toml\n"
+        "Example: motionrack frames bus.toml --duration 0.002 --vcd frames.vcd --picture frame.svg\n"
+        "Example: motionrack frames bus.toml --fault c1.off@0.05s\n"
         "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
     frames.callback([options, &chosen, &frames] {
         if (!frames.get_subcommands().empty()) return;

@@ -57,7 +57,7 @@ void add_report(CLI::App& app, Action& chosen) {
     command->add_option("--report", options->files.report, "path of the page")->capture_default_str();
     command->add_flag("--no-report", options->files.no_report, "write no page");
     command->add_option("--csv", options->files.csv, "write the samples as CSV");
-    command->add_option("--events", options->files.events, "write the events (blocks, warnings, the stop) as CSV");
+    command->add_option("--events", options->files.events, "write the events (moves, warnings, the stop) as CSV");
     command->footer(
         "Example: motionrack report part.h5 --report part.html\n"
         "The page of a recording is the one that run wrote; of an incomplete recording it shows the available part.");

@@ -146,14 +146,17 @@ int run(const RunOptions& options) {
 
 void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
-    command->add_option("--signals", options->signals,
-                        "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
     command->add_option(
-        "--timescale-ns", options->unit_ns,
-        "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns (default: the coarsest that shows every "
-        "edge of the signals); sigrok-cli makes a sample of each unit: read fine units with -I vcd:downsample=N");
-    command->add_option("--csv", options->files.csv, "write the samples (position, speed, deviation every ms) as CSV");
-    command->add_option("--events", options->files.events, "write the events (blocks, warnings, the stop) as CSV");
+        "--signals", options->signals,
+        "signals for the VCD file, patterns with * and ?: X.step, X.enc_?, motion.* (default: all but pins that "
+        "a card drives on demand, such as c1.fout)");
+    command->add_option("--timescale-ns", options->unit_ns,
+                        "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns (default: the coarsest that shows every "
+                        "edge that cards and parts drive); sigrok-cli makes a sample of each unit: read fine units "
+                        "with -I vcd:downsample=N");
+    command->add_option("--csv", options->files.csv,
+                        "write the samples (position, velocity and deviation every ms) as CSV");
+    command->add_option("--events", options->files.events, "write the events (moves, warnings, the stop) as CSV");
     command
         ->add_option("--fault", options->faults,
                      "inject a fault during the run, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")

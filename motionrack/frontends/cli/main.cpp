@@ -69,8 +69,8 @@ const std::terminate_handler terminate_before = std::get_terminate();
     std::abort();
 }
 
-/// Names the present options for former ones, on a command line that was refused.
-void name_renamed_options(int argc, char** argv) {
+/// Names the present options for former ones, on a command line that was refused. Returns false if it has none.
+bool name_renamed_options(int argc, char** argv) {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> renamed = {
         {{"--speed", "--time-scale"},
          {"--free", "--unthrottled"},
@@ -78,11 +78,16 @@ void name_renamed_options(int argc, char** argv) {
          {"--for", "--duration"},
          {"--every", "--interval"},
          {"--fresh", "--restart"}}};
+    bool any = false;
     for (int i = 1; i < argc; ++i) {
         const std::string_view given = argv[i], name = given.substr(0, given.find('='));
-        for (const auto& [old, now] : renamed)
-            if (name == old) motionrack::cli::print_error(fmt::format("'{}' is now '{}'.", old, now));
+        for (const auto& [old, now] : renamed) {
+            if (name != old) continue;
+            motionrack::cli::print_error(fmt::format("'{}' is now '{}'.", old, now));
+            any = true;
+        }
     }
+    return any;
 }
 
 int run_command(int argc, char** argv) {
@@ -118,11 +123,12 @@ int run_command(int argc, char** argv) {
     add_manual(app, chosen);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::ExtrasError& e) {
+        if (!name_renamed_options(argc, argv)) app.exit(e);
+        return exit_usage;
     } catch (const CLI::ParseError& e) {
         // Help and version are not errors; all others are usage errors.
-        if (app.exit(e) == 0) return exit_done;
-        name_renamed_options(argc, argv);
-        return exit_usage;
+        return app.exit(e) == 0 ? exit_done : exit_usage;
     }
     return chosen ? flushed(chosen()) : exit_usage;
 }

@@ -44,8 +44,7 @@ Result<int> channel_of(int axis) {
 
 Result<unsigned> mode_word(int word) {
     if (word >= 0 && word <= 0xFFFF) return static_cast<unsigned>(word);
-    return fail(ErrorKind::refused,
-                fmt::format("WR1Reg is {}, but a word is 0 to 65535. Nothing was written, nothing moved.", word));
+    return fail(ErrorKind::refused, fmt::format("WR1Reg is {}; it must be 0 to 65535. Nothing was written.", word));
 }
 
 }  // namespace motionrack::mcx314lib

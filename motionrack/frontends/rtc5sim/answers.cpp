@@ -35,7 +35,7 @@ Result<std::string> bytes_of(const char* name, std::size_t limit) {
 Result<void> check_range(std::string_view what, UINT value, UINT least, UINT greatest) {
     if (value >= least && value <= greatest) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{} is {}, outside {} to {}; nothing was done", what, value, least, greatest));
+                fmt::format("{} is {}; it must be {} to {}; nothing was done", what, value, least, greatest));
 }
 
 Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim, UINT& answer) {

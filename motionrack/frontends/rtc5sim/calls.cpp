@@ -224,7 +224,7 @@ Result<std::int32_t> whole32(std::string_view what, long value) {
     if (value >= std::numeric_limits<std::int32_t>::min() && value <= std::numeric_limits<std::int32_t>::max())
         return static_cast<std::int32_t>(value);
     return fail(ErrorKind::refused,
-                fmt::format("{} is {}, outside -2147483648 to 2147483647; nothing was changed", what, value));
+                fmt::format("{} is {}; it must be -2147483648 to 2147483647; nothing was changed", what, value));
 }
 
 int small(UINT value) {

@@ -99,7 +99,7 @@ int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
         if (!(std::abs(counts_per_s) <= 1e9))
             return fail(
                 ErrorKind::refused,
-                fmt::format("the speed is {} counts/s, outside -1e9 to 1e9. Nothing was changed.", counts_per_s));
+                fmt::format("the speed is {} counts/s; it must be -1e9 to 1e9. Nothing was changed.", counts_per_s));
         move(card, Encoder, card.belt.count(Encoder, card.engine.tick()), counts_per_s);
         return {};
     });

@@ -82,11 +82,11 @@ RTC5_API void reset_error(UINT Code);
 
 /* load_program_file sets the card back to power-up; the name is not looked at. load_correction_file loads a .ct5 file
  * as table No 1 .. 4, a null pointer a 1:1 table; Dim is 2 or 3 (3D parts of a file are not used). 0, or 1 the file is
- * damaged (its checksum does not fit, K is 0, the table cannot be inverted), 3 it cannot be read, 10 a wrong parameter,
- * 11 no such card; the table is then as before. These numbers are from memory: no page of the manual that has them was
- * at hand. The checksum of programs before version 4.0 is not known: their files are loaded, and rtc5sim_table_note
- * says that theirs was not checked. ParaNo 0 .. 15 are the words of its
- * head, 1 is K in bits/mm. load_fly_2d_table: 0, 1 or 3; a null pointer: no table. */
+ * damaged (its checksum does not fit, K is 0 although one is known, the table cannot be inverted), 3 it cannot be read,
+ * 10 a wrong parameter, 11 no such card; the table is then as before. These numbers are from memory: no page of the
+ * manual that has them was at hand. The checksum of programs before version 4.0 is not known: their files are loaded,
+ * and rtc5sim_table_note says that theirs was not checked. ParaNo 0 .. 15 are the words of its head, 1 is K in bits/mm.
+ * load_fly_2d_table: 0, 1 or 3; a null pointer: no table. */
 RTC5_API UINT load_program_file(const char* Path);
 RTC5_API UINT load_correction_file(const char* Name, UINT No, UINT Dim);
 RTC5_API void select_cor_table(UINT HeadA, UINT HeadB);

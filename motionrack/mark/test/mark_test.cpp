@@ -131,6 +131,8 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[belt]\nprofile = [[0, 1], [0, 2]]\n"), HasSubstr("j.toml:4:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[fly]\nmode = 'simulated'\n"), HasSubstr("constant speed"));
     EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[parts]\nat_mm = [0, 40]\n"),
+                HasSubstr("'at_mm' is now 'part_positions_mm'."));
     const Result<Prepared> strange = prepare(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
     EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
     const MarkingJob fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = 200000\n");

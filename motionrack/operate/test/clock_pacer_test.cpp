@@ -38,7 +38,7 @@ TEST(ClockPacer, KeepsStepWithTheComputerAndDoesNotDrift) {
     const Instant begin = clock.now();
     for (int i = 0; i <= 5000; ++i) let_on(pacer, milliseconds(2) * i);
     EXPECT_EQ(clock.now() - begin, whole_seconds(10) + microseconds(70));
-    EXPECT_EQ(pacer.lateness().greatest(), microseconds(70));
+    EXPECT_EQ(pacer.lateness().max(), microseconds(70));
     EXPECT_EQ(pacer.lateness().count(), 5001);
 }
 
@@ -67,7 +67,7 @@ TEST(ClockPacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
     for (int i = 1; i <= 50; ++i) let_on(pacer, milliseconds(2) * i);
     EXPECT_EQ(clock.slept, Duration{0});
     EXPECT_EQ(pacer.lost(), Duration{0});
-    EXPECT_EQ(pacer.lateness().greatest(), milliseconds(98));
+    EXPECT_EQ(pacer.lateness().max(), milliseconds(98));
     clock.pass(whole_seconds(3));
     let_on(pacer, milliseconds(102));
     EXPECT_EQ(pacer.lost(), whole_seconds(3) - milliseconds(2));
@@ -124,7 +124,7 @@ TEST(Lateness, TellsHowManyWereHowLate) {
     EXPECT_EQ(lateness.within(1), microseconds(1000));
     lateness.add(whole_seconds(7));
     EXPECT_EQ(lateness.within(1), whole_seconds(7));
-    EXPECT_EQ(lateness.greatest(), whole_seconds(7));
+    EXPECT_EQ(lateness.max(), whole_seconds(7));
 }
 
 }  // namespace

@@ -26,12 +26,13 @@ rack::RackConfig table() {
 }
 
 /// A machine whose statuses are written to a journal.
-class ALogbook : public testing::Test {
+class JournalWriterTest : public testing::Test {
   protected:
-    ALogbook() : path_((fs::path(testing::TempDir()) / ("logbook_" + std::to_string(::getpid()) + ".db")).string()) {
+    JournalWriterTest()
+        : path_((fs::path(testing::TempDir()) / ("journal_writer_" + std::to_string(::getpid()) + ".db")).string()) {
         remove();
     }
-    ~ALogbook() override {
+    ~JournalWriterTest() override {
         journal_.reset();
         remove();
     }
@@ -84,7 +85,7 @@ class ALogbook : public testing::Test {
     Status last_;
 };
 
-TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
+TEST_F(JournalWriterTest, RecordsWhatRanAndWhereTheMachineStopped) {
     open();
     run(
         {},
@@ -107,7 +108,7 @@ TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
     EXPECT_TRUE(last.axes[0].position_valid);
 }
 
-TEST_F(ALogbook, HasOneEntryOfAStopThatCameOnTwoWays) {
+TEST_F(JournalWriterTest, HasOneEntryOfAStopThatCameOnTwoWays) {
     open();
     const auto stop = [&](int ms, const char* who, const char* address, bool releases = false) {
         book_->stopped({milliseconds(ms), {who, address, "STOP"}, {}, fmt::format("{} {}", who, ms), releases});
@@ -124,7 +125,7 @@ TEST_F(ALogbook, HasOneEntryOfAStopThatCameOnTwoWays) {
         << "a second later, and after a reset, it is another one";
 }
 
-TEST_F(ALogbook, IsNotFilledByStopsOfAMachineThatIsIdle) {
+TEST_F(JournalWriterTest, IsNotFilledByStopsOfAMachineThatIsIdle) {
     open();
     const auto stop = [&](int ms, MachineState state) {
         const std::string who = ms % 2 == 0 ? "even" : "odd";
@@ -139,7 +140,7 @@ TEST_F(ALogbook, IsNotFilledByStopsOfAMachineThatIsIdle) {
     EXPECT_EQ(stops.back(), "100000") << "one that stops something is always written";
 }
 
-TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
+TEST_F(JournalWriterTest, TheNextRunGoesOnWhereTheMachineStood) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; },
@@ -160,7 +161,7 @@ TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
     EXPECT_NEAR(last_.axes[0].true_position, 15, 1e-9);
 }
 
-TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
+TEST_F(JournalWriterTest, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 20; }, [](Machine& m) { m.quit(); },
@@ -176,7 +177,7 @@ TEST_F(ALogbook, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     EXPECT_TRUE(last.axes[0].position_valid);
 }
 
-TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
+TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     open();
     // No entry of the program's end is written: as if it had been killed during the move.
     run(
@@ -207,7 +208,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
 }
 
-TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
+TEST_F(JournalWriterTest, TellsAlarmsSettingsAndLostTrust) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },
@@ -226,7 +227,7 @@ TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
     EXPECT_THAT(texts("job"), Contains(HasSubstr("failed at line 1")));
 }
 
-TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
+TEST_F(JournalWriterTest, MakesNothingOfWhatItCannotRead) {
     for (const char* kept :
          {"", "[]", "7", "{\"axes\": 3}",
           "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"true_position\": 1, "
@@ -239,7 +240,7 @@ TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
     }
 }
 
-TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
+TEST_F(JournalWriterTest, TrustsNothingThatDoesNotFitItsChecksum) {
     const std::string kept =
         R"({"axes": [{"letter": "X", "true_position": 5, "commanded": 5, "position_valid": true}]})";
     EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].position_valid);
@@ -256,7 +257,7 @@ TEST_F(ALogbook, TrustsNothingThatDoesNotFitItsChecksum) {
     EXPECT_EQ(changed.sentence, "Entry 3 was changed.");
 }
 
-TEST_F(ALogbook, ReadsPositionsAsFormerVersionsWroteThem) {
+TEST_F(JournalWriterTest, ReadsPositionsAsFormerVersionsWroteThem) {
     const std::string kept = R"({"axes": [{"letter": "X", "place": 5, "commanded": 6, "trusted": true},
                                           {"letter": "Y", "place": 7, "commanded": 7, "trusted": false}]})";
     const LastKnownPositions last = read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table());
@@ -268,7 +269,7 @@ TEST_F(ALogbook, ReadsPositionsAsFormerVersionsWroteThem) {
     EXPECT_EQ(last.sentence, "");
 }
 
-TEST_F(ALogbook, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
+TEST_F(JournalWriterTest, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
     open();
     Status status;
     status.state = MachineState::standstill;

@@ -35,8 +35,8 @@ TEST(ALibraryOnThePage, IsDeclaredWithRangesAndUnits) {
         const json& set_v = functions[5];
         EXPECT_EQ(set_v["name"], "SetV");
         EXPECT_EQ(set_v["group"], "4.4 Basic motion");
-        EXPECT_EQ(set_v["arguments"][1]["least"], 1);
-        EXPECT_EQ(set_v["arguments"][1]["greatest"], 8000);
+        EXPECT_EQ(set_v["arguments"][1]["min"], 1);
+        EXPECT_EQ(set_v["arguments"][1]["max"], 8000);
         EXPECT_EQ(set_v["arguments"][0]["sum"], true);
         EXPECT_EQ(set_v["arguments"][0]["values"][3]["meaning"], "U");
     });

@@ -68,7 +68,7 @@ TEST(ABreach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
     EXPECT_EQ(breaches.all()[0].times, 2);
     EXPECT_EQ(sentence_of(breaches.all()[0]),
               "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000 the velocity step of X was 84.0 mm/s, above "
-              "its start speed of 2 mm/s; the worst of 2");
+              "its maximum of 2 mm/s (max_velocity_step); the worst of 2");
 }
 
 }  // namespace

@@ -79,8 +79,7 @@ TEST(FrameStepper, NamesTheCardsThatThereAre) {
     Rack router(*read_rack_text(*rack_template("router")).config);
     const auto none = FrameStepper::create(router, "");
     ASSERT_FALSE(none);
-    EXPECT_EQ(none.error().message,
-              "The rack has no card of type grating_bus, so that it has no frames. Nothing was done.");
+    EXPECT_EQ(none.error().message, "The rack has no grating_bus card and thus no frames. Nothing was done.");
 }
 
 }  // namespace

@@ -8,13 +8,13 @@ constexpr std::uint64_t shares = 8;
 class LosslessAtRandom : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Share, LosslessAtRandom, testing::Range<std::uint64_t>(0, shares));
 
-TEST_P(LosslessAtRandom, NoAxisJumpsWhateverIsWishedOnTheWay) {
+TEST_P(LosslessAtRandom, NoAxisExceedsItsMaxVelocityStepWhateverIsCommandedOnTheWay) {
     drive_share(GetParam(), shares, 200);
 }
 
 // A segment of two pulses that is cut for a deceleration may have one of them by rounding. That pulse is over before
 // the next segment arrives, so such a move is not cut.
-TEST(LosslessAtRandom, NoAxisJumpsWhereAPieceHasFewPulses) {
+TEST(LosslessAtRandom, NoAxisExceedsItsMaxVelocityStepWhereASegmentHasFewPulses) {
     for (const std::uint64_t seed : {732885138, 732887488}) drive_one(seed);
 }
 

@@ -54,7 +54,7 @@ TEST(AProgrammedPath, KnowsHowFarACornerWasCut) {
     EXPECT_NEAR(program.path.distance(part_of(0), 5, -0.2, 0.1).mm, std::hypot(0.2, 0.1), 1e-12);
 }
 
-TEST(AProgrammedPath, JudgesByTheToleranceOfTheMoveThatAllowsThePlace) {
+TEST(AProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
     Written program({0, 0});
     program.line(10, 0, PathControl::continuous, 0.5);
     program.line(10, 10, PathControl::exact_path, 0.5);

@@ -13,7 +13,7 @@ const planned = {
   x: unpack(drawing.planned.x), y: unpack(drawing.planned.y), z: unpack(drawing.planned.z),
   line: unpack(drawing.planned.line), kind: unpack(drawing.planned.kind),
 };
-const blocks = drawing.blocks;
+const moves = drawing.moves;
 
 const allTimes = [...charts.map((chart) => chart.t), driven.t].filter((t) => t.length > 0);
 const whole = {
@@ -22,8 +22,8 @@ const whole = {
 };
 if (!(whole.to > whole.from)) whole.to = whole.from + 1;
 
-// time: the cursor, null = none; from, to: what the charts show; block: the block pointed at, -1 = none.
-const state = { time: null, from: whole.from, to: whole.to, block: -1, bySpeed: false };
+// time: the cursor, null = none; from, to: what the charts show; move: the move pointed at, -1 = none.
+const state = { time: null, from: whole.from, to: whole.to, move: -1, bySpeed: false };
 const painters = [];
 let asked = false;
 const repaint = () => {
@@ -112,8 +112,8 @@ const place = (event, canvas) => {
   const box = canvas.getBoundingClientRect();
   return { x: event.clientX - box.left, y: event.clientY - box.top };
 };
-const blockAt = (time) => {
-  let low = 0, high = blocks.length;
-  while (low < high) { const middle = (low + high) >> 1; if (blocks[middle][1] <= time) low = middle + 1; else high = middle; }
-  return low > 0 && time <= blocks[low - 1][2] ? low - 1 : -1;
+const moveAt = (time) => {
+  let low = 0, high = moves.length;
+  while (low < high) { const middle = (low + high) >> 1; if (moves[middle][1] <= time) low = middle + 1; else high = middle; }
+  return low > 0 && time <= moves[low - 1][2] ? low - 1 : -1;
 };

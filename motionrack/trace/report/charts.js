@@ -78,8 +78,8 @@ const drawChart = (view, colours) => {
   pen.beginPath();
   pen.rect(edge.left, edge.top - 3, inner, deep + 6);
   pen.clip();
-  const block = blocks[state.block];
-  if (block) drawBand(pen, x(block[1]), Math.max(x(block[1]) + 2, x(block[2])), deep, colours.hot);
+  const move = moves[state.move];
+  if (move) drawBand(pen, x(move[1]), Math.max(x(move[1]) + 2, x(move[2])), deep, colours.hot);
   drawLimits(pen, view, place, colours);
   drawSeries(pen, view, place, colours);
   if (view.dragFrom !== null) drawBand(pen, Math.min(view.dragFrom, view.dragTo), Math.max(view.dragFrom, view.dragTo), deep, colours.accent);

@@ -1,5 +1,5 @@
 // Pointer, keys, the time bar and the tables.
-const lineAt = (time) => { const block = blockAt(time); return block >= 0 ? blocks[block][0] : 0; };
+const lineAt = (time) => { const move = moveAt(time); return move >= 0 ? moves[move][0] : 0; };
 
 // The edge nearest to a place on the canvas: its last point and how far along it (0 .. 1); null if none is near.
 const nearestEdge = (points, x, y, kinds) => {
@@ -142,18 +142,18 @@ if (allTimes.length > 0) {
   });
 }
 
-// Pointing at a block shows it in the path and in the charts; a click, or Enter, puts the cursor to its start.
+// Pointing at a move shows it in the path and in the charts; a click, or Enter, puts the cursor to its start.
 // Up and down go from row to row.
-const rows = [...document.querySelectorAll("tr[data-block], tr[data-time]")];
+const rows = [...document.querySelectorAll("tr[data-move], tr[data-time]")];
 for (const row of rows) {
-  const block = row.dataset.block === undefined ? -1 : Number(row.dataset.block);
-  const show = (on) => { if (block >= 0) { state.block = on ? block : -1; repaint(); } };
+  const move = row.dataset.move === undefined ? -1 : Number(row.dataset.move);
+  const show = (on) => { if (move >= 0) { state.move = on ? move : -1; repaint(); } };
   row.tabIndex = row.previousElementSibling ? -1 : 0;
   row.addEventListener("pointerenter", () => show(true));
   row.addEventListener("pointerleave", () => show(false));
   row.addEventListener("focus", () => show(true));
   row.addEventListener("blur", () => show(false));
-  const jump = () => setTime(block >= 0 ? blocks[block][1] : Number(row.dataset.time));
+  const jump = () => setTime(move >= 0 ? moves[move][1] : Number(row.dataset.time));
   row.addEventListener("click", jump);
   row.addEventListener("keydown", (event) => {
     const next = event.key === "ArrowDown" ? row.nextElementSibling : event.key === "ArrowUp" ? row.previousElementSibling : null;

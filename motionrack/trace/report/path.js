@@ -159,7 +159,7 @@ const drawDriven = (pen, view, to, colours) => {
     trace(pen, points);
     pen.stroke();
   }
-  const span = state.block >= 0 ? blocks[state.block] : state.from > whole.from || state.to < whole.to ? [0, state.from, state.to] : null;
+  const span = state.move >= 0 ? moves[state.move] : state.from > whole.from || state.to < whole.to ? [0, state.from, state.to] : null;
   if (!span || points.length === 0) return;
   const inside = [to(...drivenAt(span[1]))];
   for (let i = indexAt(driven.t, span[1]) + 1; i < driven.t.length && driven.t[i] < span[2]; ++i) inside.push(points[i]);

@@ -64,12 +64,12 @@ TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
     ReportData data;
     data.seconds = {0, 1, 2};
     data.driven = {{0, 0, 5}, {10, 0, 5}, {10, 4, 5}};
-    data.blocks.resize(2);
-    data.blocks[0].line = 3;
-    data.blocks[0].kind = "line";
-    data.blocks[1].line = 4;
-    data.blocks[1].kind = "arc";
-    data.blocks[1].start = 1;
+    data.moves.resize(2);
+    data.moves[0].line = 3;
+    data.moves[0].kind = "line";
+    data.moves[1].line = 4;
+    data.moves[1].kind = "arc";
+    data.moves[1].start = 1;
     data.warnings = {{1.5, 4, "Y, close to \"+\""}, {-1, 0, "No instant"}, {7, 0, "Later than the path"}};
     data.worst = ReportMaxDeviation{0.25, 0.5, 3, {5, 0.25, 5}};
     data.stop = ReportStop{2, 4, {10, 4, 5}, "Limit switch"};

@@ -7,7 +7,7 @@
 namespace motionrack::trace {
 namespace {
 
-TEST(ASampleKeeper, KeepsAllWhileTheyAreFew) {
+TEST(DecimatingBuffer, KeepsAllWhileTheyAreFew) {
     DecimatingBuffer<int> keeper(16);
     for (int i = 0; i < 16; ++i) keeper.add(i, 0.5 * i);
     ASSERT_EQ(keeper.samples().size(), 16u);
@@ -15,7 +15,7 @@ TEST(ASampleKeeper, KeepsAllWhileTheyAreFew) {
     EXPECT_EQ(keeper.deviations()[5], 2.5);
 }
 
-TEST(ASampleKeeper, KeepsTheGreatestDeviationWhereverItIs) {
+TEST(DecimatingBuffer, KeepsTheMaxDeviationWhereverItIs) {
     constexpr int all = 1000;
     for (int worst = 0; worst < all; ++worst) {
         DecimatingBuffer<int> keeper(16);

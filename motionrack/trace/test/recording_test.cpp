@@ -78,7 +78,7 @@ TEST(Recording, MakesTheReportOfItsRunAgain) {
     const Scratch scratch;
     PlainRecording plain = busy(5000);
     plain.samples[3].axes[0].accel = std::nanf("");
-    plain.end.report.blocks.push_back({3, "G1 X1", "line", 1.5, "mm", 0.1, 0.2, 1, 2, 3, 0.004});
+    plain.end.report.moves.push_back({3, "G1 X1", "line", 1.5, "mm", 0.1, 0.2, 1, 2, 3, 0.004});
     plain.end.report.planned.push_back({{{0, 0, 0}, {1.0 / 3, 2, 3}}, true, 4});
     plain.end.report.worst = ReportMaxDeviation{0.01, 0.5, 3, {1, 2, 3}};
     plain.end.report.notes = {"a <b> & \"c\""};

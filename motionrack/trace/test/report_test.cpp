@@ -47,7 +47,7 @@ ReportData circle(std::size_t samples) {
     data.axes[0].lost_steps = 3;
     data.tolerance_mm = 0.01;
     data.worst = ReportMaxDeviation{0.004, 12.48, 7, {20, 0, 0}};
-    data.blocks = {{7, "G3 X20 I-20", "arc", 125.664, "mm", 0, 12.48, 0, 10.5, 0, 0.004}};
+    data.moves = {{7, "G3 X20 I-20", "arc", 125.664, "mm", 0, 12.48, 0, 10.5, 0, 0.004}};
     data.warnings = {{3.25, 7, "Close to the limit."}};
     data.notes = {"Cutting forces."};
     return data;
@@ -139,7 +139,7 @@ TEST(Report, TextsOfARunCannotBreakOut) {
     data.title = data.program_name = data.rack_name = data.verdict.text = evil;
     data.numbers = {{evil, evil, evil}};
     for (ReportAxis& axis : data.axes) axis.name = axis.unit = evil;
-    data.blocks[0].text = data.blocks[0].kind = data.blocks[0].unit = evil;
+    data.moves[0].text = data.moves[0].kind = data.moves[0].unit = evil;
     data.warnings[0].text = evil;
     data.notes = {evil};
     data.stop = ReportStop{1, 7, {1, 2, 3}, evil};
@@ -196,7 +196,7 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     data.axes[1].max_position = infinity;
     data.axes[0].peak_accel = data.axes[0].actual_end = data.tolerance_mm = infinity;
     data.worst = ReportMaxDeviation{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
-    data.blocks[0].duration = data.blocks[0].length = not_a_number;
+    data.moves[0].duration = data.moves[0].length = not_a_number;
     data.warnings[0].seconds = not_a_number;
     const std::string page = report_html(data);
     for (const char* word :
@@ -250,8 +250,8 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
         const Xyz a = {jitter(random), jitter(random), jitter(random)},
                   b = {jitter(random), jitter(random), jitter(random)};
         data.planned.push_back({{a, b}, i % 2 == 0, static_cast<int>(i)});
-        data.blocks.push_back({static_cast<int>(i), std::string(300, '"'), "line", 1, "mm",
-                               0.001 * static_cast<double>(i), 1, 1, 1, 1, 1});
+        data.moves.push_back({static_cast<int>(i), std::string(300, '"'), "line", 1, "mm",
+                              0.001 * static_cast<double>(i), 1, 1, 1, 1, 1});
         data.warnings.push_back({1, 1, std::string(3000, '<')});
         data.notes.push_back("note");
     }
@@ -259,9 +259,9 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
     EXPECT_LT(page.size(), 4'000'000U);
     EXPECT_NE(page.find("The first 2\xC2\xA0"
                         "000 of 200\xC2\xA0"
-                        "000 blocks"),
+                        "000 moves"),
               std::string::npos);
-    EXPECT_EQ(count(page, "data-block="), 2000U);
+    EXPECT_EQ(count(page, "data-move="), 2000U);
 }
 
 TEST(Report, SaysThatItCouldNotBeWritten) {

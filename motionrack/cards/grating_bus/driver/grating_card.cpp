@@ -24,11 +24,10 @@ std::uint32_t GratingCard::read32(std::uint32_t at) {
 Result<CardInfo> GratingCard::open() {
     const std::uint16_t answer = port_.read(offset("SIGNATURE"));
     if (answer != signature)
-        return fail(
-            ErrorKind::refused,
-            fmt::format(
-                "What answers has the signature {:04X}h, but a card of a grating bus has {:04X}h. Check its address.",
-                answer, signature));
+        return fail(ErrorKind::refused, fmt::format("The card at this address has the signature {:04X}h; a grating_bus "
+                                                    "card has {:04X}h. Nothing was done. "
+                                                    "Check the address.",
+                                                    answer, signature));
     CardInfo info;
     const std::uint16_t role = port_.read(offset("ROLE"));
     info.host = HOST.test(role);
@@ -109,7 +108,7 @@ Result<Reading> GratingCard::wait(Duration timeout) {
                 "The wait for a frame was stopped by the user; no frame was read. The card keeps reading frames.");
         if (left <= Duration{0})
             return fail(ErrorKind::refused,
-                        fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?",
+                        fmt::format("No frame came within {} us. Check that the bus has a host and that it runs.",
                                     to_seconds(timeout) * 1e6));
         interrupt_.wait(left);
     }

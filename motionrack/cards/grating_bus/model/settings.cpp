@@ -33,8 +33,9 @@ Result<void> check_list(const std::vector<int>& addresses) {
                                                           addresses.size(), max_scales));
     for (auto at = addresses.begin(); at != addresses.end(); ++at) {
         if (*at < 0 || *at >= max_scales)
-            return fail(ErrorKind::invalid_input,
-                        fmt::format("The list has the address {}, but an address is 0 to {}.", *at, max_scales - 1));
+            return fail(
+                ErrorKind::invalid_input,
+                fmt::format("Address {} of the list is out of range; it must be 0 to {}.", *at, max_scales - 1));
         if (std::find(addresses.begin(), at, *at) != at)
             return fail(ErrorKind::invalid_input,
                         fmt::format("The list has the address {} twice; a frame reads each scale once.", *at));

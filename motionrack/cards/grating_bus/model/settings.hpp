@@ -61,7 +61,7 @@ Result<std::vector<int>> addresses_from_text(std::string_view text);
 /// time.
 Result<void> check(const CardSettings& settings);
 Result<void> check(const DecoderSettings& settings);
-/// Checks that a card can read its scales from this decoder within its waits. Errors: refused, with the numbers.
+/// Checks that the decoder answers within the card's bus wait times. Errors: refused, with the numbers.
 Result<void> check(const CardSettings& card, const DecoderSettings& decoder);
 
 }  // namespace motionrack::grating_bus

@@ -91,8 +91,8 @@ TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsPlace) {
     EXPECT_THAT(wrong("5, 2,"), HasSubstr("Character 6 of the list begins no whole number"));
     EXPECT_THAT(wrong("5 2"), HasSubstr("Character 3 of the list must be a comma"));
     EXPECT_THAT(wrong("5; 2"), HasSubstr("Character 2 of the list must be a comma"));
-    EXPECT_THAT(wrong("3, 128"), HasSubstr("the address 128, but an address is 0 to 127"));
-    EXPECT_THAT(wrong("-1"), HasSubstr("the address -1, but"));
+    EXPECT_THAT(wrong("3, 128"), HasSubstr("Address 128 of the list is out of range; it must be 0 to 127"));
+    EXPECT_THAT(wrong("-1"), HasSubstr("Address -1 of the list is out of range"));
     EXPECT_THAT(wrong("99999999999"), HasSubstr("Character 1"));
     EXPECT_THAT(wrong("3, 4, 3"), HasSubstr("the address 3 twice"));
     std::string many = "0";

@@ -18,7 +18,7 @@ struct Configuration {
     std::uint32_t crc = 0;  ///< CRC of the bytes received
     std::uint32_t received = 0;
     CfgError error = CfgError::none;
-    std::uint16_t known = 0;  ///< the model supports the project
+    std::uint16_t known = 0;  ///< 1 if the model supports the loaded project, else 0
     ImageHeader header;
     std::array<std::uint8_t, min_payload> payload{};  ///< beginning of the payload
     std::array<std::uint8_t, 4> reserved{};

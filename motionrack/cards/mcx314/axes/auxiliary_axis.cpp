@@ -12,9 +12,9 @@
 namespace motionrack::mcx314 {
 
 /// Sets a stationary channel up as the auxiliary.
-Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
+Result<void> ChipAxisGroup::take_auxiliary(int channel, std::int64_t at) {
     auxiliary_ = channel;
-    companion_target_ = companion_from_ = at;
+    auxiliary_target_ = auxiliary_from_ = at;
     double acceleration = max_units, start = 1, top = max_units;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] != channel) continue;
@@ -25,13 +25,13 @@ Result<void> ChipAxisGroup::take_companion(int channel, std::int64_t at) {
         top = limits.max_velocity * units;
     }
     auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, max_units)); };
-    companion_start_speed_ = whole(start);
-    companion_acceleration_ = whole(acceleration);
-    companion_top_speed_ = whole(top);
+    auxiliary_start_speed_ = whole(start);
+    auxiliary_acceleration_ = whole(acceleration);
+    auxiliary_top_speed_ = whole(top);
     const unsigned axis = 1u << channel;
     MOTIONRACK_CHECK(driver_.WriteRange(axis, range_));
-    MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));
-    MOTIONRACK_CHECK(driver_.SetA(axis, companion_acceleration_));
+    MOTIONRACK_CHECK(driver_.SetSV(axis, auxiliary_start_speed_));
+    MOTIONRACK_CHECK(driver_.SetA(axis, auxiliary_acceleration_));
     driver_.SetSCurve(axis, false);
     return {};
 }
@@ -59,7 +59,8 @@ double basic_pulses(const Segment& segment) {
 
 /// Approximate duration of the segment: from the velocity `from` to its own V, then constant.
 double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const {
-    const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
+    // Length of the segment: the time integral of V (V units x s).
+    const double length = basic_pulses(segment) * range_ / rules::clock_hz;
     const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
@@ -68,33 +69,33 @@ double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const
 }
 
 Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
-    const int c = segment.companion_channel;
+    const int c = segment.auxiliary_channel;
     const std::int64_t at = driver_.ReadLPS(c);
-    if (auxiliary_ != c) MOTIONRACK_CHECK(take_companion(c, at));
-    companion_target_ += segment.companion_pulses;
-    expected_[static_cast<std::size_t>(c)] = companion_target_;
+    if (auxiliary_ != c) MOTIONRACK_CHECK(take_auxiliary(c, at));
+    auxiliary_target_ += segment.auxiliary_pulses;
+    expected_[static_cast<std::size_t>(c)] = auxiliary_target_;
     const bool driving = driver_.status().driving(1u << c);
     if (segment.even) return steer_evenly(segment, driving, at);
-    const std::int64_t left = companion_target_ - at;
-    if (!driving && left != 0) companion_negative_ = left < 0;  // it reverses only at a standstill
-    const int direction = companion_negative_ ? -1 : 1;
-    const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
+    const std::int64_t left = auxiliary_target_ - at;
+    if (!driving && left != 0) auxiliary_negative_ = left < 0;  // it reverses only at a standstill
+    const int direction = auxiliary_negative_ ? -1 : 1;
+    const std::int64_t goal = auxiliary_target_ + segmenter_->auxiliary_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
     const double mean = std::max(0.0, static_cast<double>(direction * left)) /
                         segment_seconds(segment, driver_.ReadCV(generator_)) * range_ / rules::clock_hz;
-    const std::int32_t v = companion_speed(mean);
-    if (!driving) return drive_companion(at, goal, v);
+    const std::int32_t v = auxiliary_speed(mean);
+    if (!driving) return drive_auxiliary(at, goal, v);
     // While it decelerates it keeps its present end; a new drive then covers the remaining pulses.
-    if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};
-    const std::int64_t pulses = goal - companion_from_;
-    companion_brakes_at_ = companion_fall_from(pulses, v);
+    if (std::llabs(at - auxiliary_from_) >= auxiliary_brakes_at_) return {};
+    const std::int64_t pulses = goal - auxiliary_from_;
+    auxiliary_brakes_at_ = auxiliary_fall_from(pulses, v);
     MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
-    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_brakes_at_));
+    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, auxiliary_brakes_at_));
     return driver_.SetV(1u << c, v);
 }
 
-std::int32_t ChipAxisGroup::companion_speed(double v) const {
-    return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
+std::int32_t ChipAxisGroup::auxiliary_speed(double v) const {
+    return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(auxiliary_top_speed_)));
 }
 
 /// Changes the speed as evenly as that of the other axes: to the planned speed at the segment's end, corrected for
@@ -102,21 +103,21 @@ std::int32_t ChipAxisGroup::companion_speed(double v) const {
 /// its position stops slightly beyond it, and returns when all axes are stationary.
 Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
     const unsigned axis = 1u << auxiliary_;
-    if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
-    const int direction = companion_negative_ ? -1 : 1;
-    const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(auxiliary_, direction);
-    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_,
-                 start = companion_start_speed_;
+    if (!driving && segment.auxiliary_pulses != 0) auxiliary_negative_ = segment.auxiliary_pulses < 0;
+    const int direction = auxiliary_negative_ ? -1 : 1;
+    const std::int64_t ahead = direction * segmenter_->auxiliary_pulses_ahead(auxiliary_, direction);
+    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * auxiliary_acceleration_,
+                 start = auxiliary_start_speed_;
     const double from = driving ? driver_.ReadCV(auxiliary_) : start;
-    const auto left = static_cast<double>(direction * (companion_target_ - at));
+    const auto left = static_cast<double>(direction * (auxiliary_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it has already arrived
     const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
                  late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
     const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
-    const double planned = segment.companion_speed / pulses_per_v;
+    const double planned = segment.auxiliary_speed / pulses_per_v;
     double wished = planned + way / seconds - (from + planned) / 2, end = std::max(planned, start);
     if (ahead <= 0) end = wished = start;
-    const std::int32_t v = companion_speed(wished);
+    const std::int32_t v = auxiliary_speed(wished);
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
         slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
@@ -126,47 +127,47 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
     const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
                                                         static_cast<std::int64_t>(std::ceil(falls_in)));
-    if (!driving) return drive_companion(at, goal, v, false);
+    if (!driving) return drive_auxiliary(at, goal, v, false);
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
-    companion_brakes_at_ = std::llabs(goal - companion_from_);
-    MOTIONRACK_CHECK(driver_.Pulse(axis, goal - companion_from_));
-    return driver_.SetDecPoint(axis, companion_brakes_at_);
+    auxiliary_brakes_at_ = std::llabs(goal - auxiliary_from_);
+    MOTIONRACK_CHECK(driver_.Pulse(axis, goal - auxiliary_from_));
+    return driver_.SetDecPoint(axis, auxiliary_brakes_at_);
 }
 
 /// The pulse at which deceleration must begin to reach the start speed at the end.
-std::int64_t ChipAxisGroup::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
+std::int64_t ChipAxisGroup::auxiliary_fall_from(std::int64_t pulses, std::int32_t v) const {
     const std::int64_t all = std::llabs(pulses);
-    if (v <= companion_start_speed_) return all;
-    const double top = v, low = companion_start_speed_;
-    const double phase = speed_carry / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
+    if (v <= auxiliary_start_speed_) return all;
+    const double top = v, low = auxiliary_start_speed_;
+    const double phase = speed_carry / auxiliary_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
     return std::max<std::int64_t>(0, all - static_cast<std::int64_t>(phase / range_) - 2);
 }
 
 /// Starts a drive from standstill.
-Result<void> ChipAxisGroup::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
+Result<void> ChipAxisGroup::drive_auxiliary(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
     const unsigned axis = 1u << auxiliary_;
     const std::int64_t pulses = to - from;
     if (pulses == 0) return {};
-    companion_from_ = from;
-    companion_negative_ = pulses < 0;
-    companion_brakes_at_ = brakes ? companion_fall_from(pulses, v) : std::llabs(pulses);
+    auxiliary_from_ = from;
+    auxiliary_negative_ = pulses < 0;
+    auxiliary_brakes_at_ = brakes ? auxiliary_fall_from(pulses, v) : std::llabs(pulses);
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
-    MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_brakes_at_));
+    MOTIONRACK_CHECK(driver_.ManualDec(axis, auxiliary_brakes_at_));
     MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
-    driver_.Drive(axis, companion_negative_);
+    driver_.Drive(axis, auxiliary_negative_);
     return {};
 }
 
 /// Drives the remaining pulses once all axes are stationary.
-Result<void> ChipAxisGroup::finish_companion() {
+Result<void> ChipAxisGroup::finish_auxiliary() {
     const std::int64_t at = driver_.ReadLPS(auxiliary_);
     if (driver_.status().error(xyzu)) return {};  // an error that ended the path applies to all axes
     const std::int64_t target = expected_[static_cast<std::size_t>(auxiliary_)];
-    const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
+    const double start = auxiliary_start_speed_, slope = rules::rate_unit * auxiliary_acceleration_;
     const double half =
         0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
-    MOTIONRACK_CHECK(driver_.SetA(1u << auxiliary_, companion_acceleration_));
-    return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
+    MOTIONRACK_CHECK(driver_.SetA(1u << auxiliary_, auxiliary_acceleration_));
+    return drive_auxiliary(at, target, auxiliary_speed(std::sqrt(start * start + 2 * slope * half)));
 }
 
 }  // namespace motionrack::mcx314

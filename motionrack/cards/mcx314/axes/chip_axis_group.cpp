@@ -250,7 +250,7 @@ Result<void> ChipAxisGroup::begin_segment(const Segment& segment) {
     runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
     running_speed_ = segment.speed;
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
-    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(update_auxiliary_velocity(segment));
+    if (segment.auxiliary_channel >= 0) MOTIONRACK_CHECK(update_auxiliary_velocity(segment));
     return {};
 }
 
@@ -272,7 +272,7 @@ Result<void> ChipAxisGroup::wait_for_standstill() {
     chain_running_ = false;
     MOTIONRACK_CHECK(wait_until_all_stand());
     if (auxiliary_ >= 0) {
-        MOTIONRACK_CHECK(finish_companion());
+        MOTIONRACK_CHECK(finish_auxiliary());
         MOTIONRACK_CHECK(wait_until_all_stand());
     }
     auxiliary_ = -1;

@@ -69,13 +69,13 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> command(const Segment& segment);
     Result<void> begin_segment(const Segment& segment);
     Result<void> wait_until_all_stand();
-    Result<void> take_companion(int channel, std::int64_t at);
+    Result<void> take_auxiliary(int channel, std::int64_t at);
     Result<void> update_auxiliary_velocity(const Segment& segment);
     Result<void> steer_evenly(const Segment& segment, bool driving, std::int64_t at);
-    std::int32_t companion_speed(double v) const;
-    Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
-    Result<void> finish_companion();
-    std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v) const;
+    std::int32_t auxiliary_speed(double v) const;
+    Result<void> drive_auxiliary(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
+    Result<void> finish_auxiliary();
+    std::int64_t auxiliary_fall_from(std::int64_t pulses, std::int32_t v) const;
     double segment_seconds(const Segment& segment, double from) const;
     void tell_late(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
@@ -111,13 +111,13 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
     // The auxiliary's present drive.
     int auxiliary_ = -1;
-    std::int32_t companion_start_speed_ = 1;  ///< SV, A and the maximum V of its drive
-    std::int32_t companion_acceleration_ = 1;
-    std::int32_t companion_top_speed_ = 1;
-    bool companion_negative_ = false;
-    std::int64_t companion_from_ = 0;       ///< its counter at the start of the drive
-    std::int64_t companion_target_ = 0;     ///< its target at the end of the present segment
-    std::int64_t companion_brakes_at_ = 0;  ///< pulse of the drive at which deceleration begins
+    std::int32_t auxiliary_start_speed_ = 1;  ///< SV, A and the maximum V of its drive
+    std::int32_t auxiliary_acceleration_ = 1;
+    std::int32_t auxiliary_top_speed_ = 1;
+    bool auxiliary_negative_ = false;
+    std::int64_t auxiliary_from_ = 0;       ///< its counter at the start of the drive
+    std::int64_t auxiliary_target_ = 0;     ///< its target at the end of the present segment
+    std::int64_t auxiliary_brakes_at_ = 0;  ///< pulse of the drive at which deceleration begins
 };
 
 }  // namespace motionrack::mcx314

@@ -10,7 +10,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 // Share of the path acceleration for moves with a fourth axis.
-constexpr double companion_share = 0.3;
+constexpr double auxiliary_share = 0.3;
 // Share of an axis' velocity step used from chord to chord of an arc, if the chords have that many pulses.
 constexpr double joint_share = 0.7, shortest_chord = 16, max_angle = 0.5;
 
@@ -64,7 +64,7 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
     const double step = work.path.length / count;
     // An auxiliary receives one speed per segment, so the speeds of the segments change more slowly than its limit.
     const double top_speed = work.move.cruise_velocity,
-                 accel = work.auxiliary >= 0 ? companion_share * work.move.accel : work.move.accel;
+                 accel = work.auxiliary >= 0 ? auxiliary_share * work.move.accel : work.move.accel;
     // The forward pass applies the limits, the backward pass the chip's deceleration. The basic pulses per mm differ
     // from chord to chord, so the passes use the chip's own pulses and speed units.
     struct Chord {
@@ -95,7 +95,7 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
         const Chord& after = chords[i];
         const Pulses4 way = way_between(work, chords[i - 1].at, after.at);
         const std::int64_t pulses = basic_pulses(way);
-        const double share = work.auxiliary >= 0 ? companion_share : 1;
+        const double share = work.auxiliary >= 0 ? auxiliary_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed takes effect.
         const double slope = rules::rate_unit * after.acceleration * share,
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
@@ -114,8 +114,8 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
 void Segmenter::add_rest(const PendingMove& work, const MoveSpeeds& speeds) {
     if (at_ == work.to) return;
     const auto c = static_cast<std::size_t>(std::max(0, work.auxiliary));
-    if (work.auxiliary >= 0 && chain_open_ && !ready_.empty() && ready_.back().companion_channel == work.auxiliary) {
-        ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
+    if (work.auxiliary >= 0 && chain_open_ && !ready_.empty() && ready_.back().auxiliary_channel == work.auxiliary) {
+        ready_.back().auxiliary_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
         at_[c] = work.to[c];
         return;
     }

@@ -38,9 +38,9 @@ struct Segment {
     std::int32_t braking = 1;                 ///< A for a requested stop: the limit of the axes
     std::int32_t jerk = 65'535;               ///< K, s_curve only
     std::int32_t offset = 0;                  ///< AO, s_curve only: extra pulses of the deceleration
-    std::int32_t companion_pulses = 0;        ///< pulses of the fourth axis in this segment, signed
-    std::int32_t companion_channel = -1;      ///< its channel, -1: none
-    double companion_speed = 0;               ///< pulses/s at the end; only if `even`
+    std::int32_t auxiliary_pulses = 0;        ///< pulses of the fourth axis in this segment, signed
+    std::int32_t auxiliary_channel = -1;      ///< its channel, -1: none
+    double auxiliary_speed = 0;               ///< pulses/s at the end; only if `even`
     std::int32_t block = 0;                   ///< number of the planned move, from 0
     std::int32_t line = 0;                    ///< line of the part program
     double seconds = 0;                       ///< pause only

@@ -40,7 +40,7 @@ class Segmenter {
 
     /// Known pulses that this channel's auxiliary still has in the present chain while it continues in one direction: 1
     /// or -1.
-    std::int64_t companion_pulses_ahead(int channel, int direction) const;
+    std::int64_t auxiliary_pulses_ahead(int channel, int direction) const;
 
     /// Number of the next planned move, from 0.
     std::int32_t next_move() const { return next_block_; }

@@ -172,23 +172,23 @@ void Segmenter::append(Segment segment, const PendingMove& work, const Pulses4& 
     segment.line = work.move.move.line;
     if (work.auxiliary >= 0) {
         const auto c = static_cast<std::size_t>(work.auxiliary);
-        segment.companion_channel = work.auxiliary;
-        segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
+        segment.auxiliary_channel = work.auxiliary;
+        segment.auxiliary_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
         for (std::size_t i = 0; i < map_.channel.size(); ++i)
             if (map_.channel[i] == work.auxiliary)
-                segment.companion_speed =
+                segment.auxiliary_speed =
                     work.move.exit_velocity * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
     }
     at_ = to;
     ready_.push_back(segment);
 }
 
-std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const {
+std::int64_t Segmenter::auxiliary_pulses_ahead(int channel, int direction) const {
     std::int64_t sum = 0;
     for (const Segment& segment : ready_) {
-        if (segment.starts_chain || segment.companion_channel != channel || segment.companion_pulses * direction < 0)
+        if (segment.starts_chain || segment.auxiliary_channel != channel || segment.auxiliary_pulses * direction < 0)
             return sum;
-        sum += segment.companion_pulses;
+        sum += segment.auxiliary_pulses;
         if (segment.ends_chain) return sum;
     }
     if (!chain_open_ || !waiting_ || waiting_->auxiliary != channel) return sum;

@@ -58,7 +58,7 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
     if (!chain_.open)
         return fail(ErrorKind::refused,
                     fmt::format("{}: no chain is open. Nothing was written. Call ContStart first.", who));
-    const int generator = chain_.kept_back ? chain_.generator : channels_of(piece.axes).channel[0];
+    const int generator = chain_.pending_piece ? chain_.generator : channels_of(piece.axes).channel[0];
     MOTIONRACK_CHECK(check_piece(who, piece));
     MOTIONRACK_CHECK(check_initialised(1u << generator | 1u << channels_of(piece.axes).channel[0], who));
     if (v != 0) {
@@ -69,26 +69,26 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
                                                         who));
     }
     MOTIONRACK_CHECK(check_chain_speed(generator, v != 0 ? v : chain_.speeds.V));
-    if (chain_.kept_back) {
-        MOTIONRACK_CHECK(give_kept_back(false, timeout));
+    if (chain_.pending_piece) {
+        MOTIONRACK_CHECK(give_pending_piece(false, timeout));
     } else {
         MOTIONRACK_CHECK(check_free(piece.axes, who));
         chain_.generator = generator;
     }
-    chain_.kept_back = piece;
-    chain_.kept_back_v = v;
+    chain_.pending_piece = piece;
+    chain_.pending_v = v;
     return {};
 }
 
 /// Starts the chain with the held-back segment, or queues it behind the running one.
-Result<void> Driver::give_kept_back(bool last, Duration timeout) {
+Result<void> Driver::give_pending_piece(bool last, Duration timeout) {
     const int generator = chain_.generator;
     const unsigned own = 1u << generator;
-    Piece piece = *chain_.kept_back;
+    Piece piece = *chain_.pending_piece;
     if (!chain_.running) {
         MOTIONRACK_CHECK(check_free(piece.axes, "ContLine"));
         if (pattern_.axes != 0) close_pattern();
-        if (chain_.kept_back_v != 0) chain_.speeds.V = chain_.kept_back_v;
+        if (chain_.pending_v != 0) chain_.speeds.V = chain_.pending_v;
         const bool ramps = chain_.speeds.kind == Curve::t;
         CurveData curve = curve_of(generator, chain_.speeds, basic_pulses(piece));
         if (ramps) curve.dec_point = param::DP.max;
@@ -107,7 +107,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         MOTIONRACK_CHECK(wait_for_joint(timeout));
         if (chain_.next_v != 0) put(own, param::V, chain_.speeds.V = chain_.next_v);
         if (last) aim_at_end(piece);
-        chain_.next_v = chain_.kept_back_v;
+        chain_.next_v = chain_.pending_v;
         read_start(piece);  // reads the start of an axis that joins the chain here; the others are already moving
         for (const int i : channels_of(chain_.axes)) piece.from[i] = chain_.at[i];
     }
@@ -115,7 +115,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
     put_piece(piece);
     note_end(piece);
     ++chain_.segments;
-    chain_.kept_back.reset();
+    chain_.pending_piece.reset();
     return {};
 }
 
@@ -150,8 +150,8 @@ void Driver::aim_at_end(const Piece& piece) {
         }
         put(own, param::V, chain_.speeds.V = low);
     }
-    if (chain_.kept_back_v != 0 && !fits(chain_.kept_back_v)) chain_.kept_back_v = 0;
-    const std::int64_t top = std::max(chain_.speeds.V, chain_.kept_back_v);
+    if (chain_.pending_v != 0 && !fits(chain_.pending_v)) chain_.pending_v = 0;
+    const std::int64_t top = std::max(chain_.speeds.V, chain_.pending_v);
     put(own, param::DP, std::max<std::int64_t>(0, length - fall_pulses(curve, top) - 1));
 }
 
@@ -189,13 +189,13 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
 }
 
 Result<ContOutcome> Driver::ContEnd(Duration timeout) {
-    if (!chain_.open || !chain_.kept_back)
+    if (!chain_.open || !chain_.pending_piece)
         return fail(
             ErrorKind::refused,
             "ContEnd: no chain with a segment is open. Nothing was written. Call ContStart and ContLine first.");
     const bool first = !chain_.running;
-    const std::int64_t length = basic_pulses(*chain_.kept_back);
-    MOTIONRACK_CHECK(give_kept_back(true, timeout));
+    const std::int64_t length = basic_pulses(*chain_.pending_piece);
+    MOTIONRACK_CHECK(give_pending_piece(true, timeout));
     const bool ramps = chain_.speeds.kind == Curve::t;
     const CurveData curve = curve_of(chain_.generator, chain_.speeds, length);
     ContOutcome outcome{chain_.segments, ramps ? std::min(curve.SV, curve.V) : curve.V};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/driver/checks.hpp>
+#include <motionrack/cards/mcx314/driver/types.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -15,7 +16,7 @@ Result<void> check_axes(unsigned axes, const char* who) {
 Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value) {
     MOTIONRACK_CHECK(check_axes(axes, parameter.name));
     if (value >= parameter.min && value <= parameter.max) return {};
-    return fail(ErrorKind::refused, fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.",
+    return fail(ErrorKind::refused, fmt::format("{} of {} is {}; it must be {} to {}. Nothing was written.",
                                                 parameter.name, axes_text(axes), value, parameter.min, parameter.max));
 }
 

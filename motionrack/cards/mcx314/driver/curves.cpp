@@ -171,7 +171,7 @@ class Walk {
         straight_middle_ |= law_.phase == RatePhase::constant;
     }
 
-    /// Ends a span at a change of the speed.
+    /// Ends the open span and starts the next one at the present speed.
     void flush() {
         open_.ticks = tick_ - open_.tick;
         open_.ramp = direction_;
@@ -209,7 +209,7 @@ Result<void> check(const CurveData& data) {
         const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.min;
         if (item.used && (item.value < least || item.value > item.parameter.max))
             return fail(ErrorKind::refused,
-                        fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
+                        fmt::format("{} of the plan is {}; it must be {} to {}. Nothing was planned.",
                                     item.parameter.name, item.value, least, item.parameter.max));
     }
     return {};

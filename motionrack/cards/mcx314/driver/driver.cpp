@@ -159,8 +159,8 @@ Result<void> Driver::SetPulseLevels(unsigned axes, bool negative, bool direction
 Result<void> Driver::SetMultiple(unsigned axes, std::int64_t multiple) {
     if (multiple < 1 || multiple > max_multiple)
         return fail(ErrorKind::refused,
-                    fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
-                                multiple, max_multiple));
+                    fmt::format("SetMultiple: the multiple is {}; it must be 1 to {}. Nothing was written.", multiple,
+                                max_multiple));
     MOTIONRACK_CHECK(check_axes(axes, "SetMultiple"));
     MOTIONRACK_CHECK(check_standing(axes, "SetMultiple"));
     return WriteRange(axes, range_of_multiple(multiple));

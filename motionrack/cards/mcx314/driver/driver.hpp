@@ -278,8 +278,8 @@ class Driver {
         int generator = 0;
         unsigned axes = 0;
         Speeds speeds = {};
-        std::optional<Piece> kept_back = {};
-        std::int64_t kept_back_v = 0,
+        std::optional<Piece> pending_piece = {};
+        std::int64_t pending_v = 0,
                      next_v = 0;  ///< V to be written at the start of a segment: the held-back one, the queued one
         std::int64_t segments = 0;
         FourAxes at = {};  ///< LP at the end of all segments given
@@ -359,7 +359,7 @@ class Driver {
     Result<void> line(const char* who, const LINEDATA& data, unsigned axes, int count, Curve kind);
     Result<void> circle(const char* who, const CIRCLEDATA& data, unsigned axes, bool clockwise, Curve kind);
     Result<void> add_to_chain(const char* who, const Piece& piece, std::int64_t v, Duration timeout);
-    Result<void> give_kept_back(bool last, Duration timeout);
+    Result<void> give_pending_piece(bool last, Duration timeout);
     void aim_at_end(const Piece& piece);
     void note_end(const Piece& piece);
     Result<void> wait_for_joint(Duration timeout, bool may_end = false);

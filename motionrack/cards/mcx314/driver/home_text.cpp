@@ -212,6 +212,10 @@ std::string Home::why_failed(const PollData& look) const {
             what = fmt::format("{} lasted {:.3f} s, longer than it may; it had made {}", failed_in_,
                                to_seconds(report_.stays[report_.stays.size() - 3].took), text(failed_after_));
             next = "Check whether nINPOS is enabled but never active, or the home input keeps changing";
+            if (failed_in_ == "SEARCH_WAIT")
+                next =
+                    "Check the home switch's wire and level, and whether nINPOS is enabled but never active, or "
+                    "give the search more time";
             break;
         case HomeFault::foreign_stop:
             what =

@@ -119,8 +119,8 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
 
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range) {
     if (range < param::R.min || range > param::R.max)
-        return fail(ErrorKind::refused, fmt::format("{} is {}, but the chip takes {} to {}. Nothing was set.",
-                                                    param::R.name, range, param::R.min, param::R.max));
+        return fail(ErrorKind::refused, fmt::format("{} is {}; it must be {} to {}. Nothing was set.", param::R.name,
+                                                    range, param::R.min, param::R.max));
     MOTIONRACK_CHECK(check_drive(scale, drive, clock_hz / static_cast<double>(range)));
     return with_range(scale, drive, range);
 }

@@ -53,7 +53,7 @@ constexpr std::array divisions = {ValueInfo{0, "all"}, ValueInfo{1, "every secon
 constexpr std::array active_level = {one_of("n", low_high, "the input acts at"), axes};
 constexpr std::array limit_stop = {one_of("n", at_once_or_ramp, "a limit switch stops"), axes};
 constexpr std::array switch_all = {one_of("n", off_on, "of all axes")};
-constexpr std::array compared = {one_of("n", counters, "of all axes, COMP+ and COMP- are compared with")};
+constexpr std::array compared = {one_of("n", counters, "counter that COMP+ and COMP- are compared with, on all axes")};
 constexpr std::array encoder = {one_of("n", encoders, "encoder inputs"), axes};
 constexpr std::array division = {one_of("n", divisions, "counted edges of A/B"), axes};
 

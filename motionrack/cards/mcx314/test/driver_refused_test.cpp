@@ -165,18 +165,15 @@ TEST_F(Refused, CurvesWithOneWrongNumber) {
     set_up();
     forbid_writing();
     const std::vector<Whole> calls = {
-        {[](Driver& d) { return d.TCurve_F(3, 0, 100, 100, 10); },
-         "initial speed SV of XY is 0, but the chip takes 1 to 8000"},
+        {[](Driver& d) { return d.TCurve_F(3, 0, 100, 100, 10); }, "initial speed SV of XY is 0; it must be 1 to 8000"},
         {[](Driver& d) { return d.TCurve_F(3, 1, 8'001, 100, 10); },
-         "drive speed V of XY is 8001, but the chip takes 1 to 8000"},
-        {[](Driver& d) { return d.TCurve_F(3, 1, 100, -5, 10); },
-         "acceleration A of XY is -5, but the chip takes 1 to 8000"},
+         "drive speed V of XY is 8001; it must be 1 to 8000"},
+        {[](Driver& d) { return d.TCurve_F(3, 1, 100, -5, 10); }, "acceleration A of XY is -5; it must be 1 to 8000"},
         {[](Driver& d) { return d.TCurve_F(3, 1, 100, 5, 268'435'456); },
-         "268435456, but the chip takes -268435455 to 268435455"},
-        {[](Driver& d) { return d.SCurve_F(3, 1, 100, 5, 0, 10); }, "rate K of XY is 0, but the chip takes 1 to 65535"},
-        {[](Driver& d) { return d.SCurve_C(3, 1, 100, 5, 65'536); },
-         "rate K of XY is 65536, but the chip takes 1 to 65535"},
-        {[](Driver& d) { return d.TCurve_C(3, 1, 0, 5); }, "drive speed V of XY is 0, but the chip takes 1 to 8000"},
+         "268435456; it must be -268435455 to 268435455"},
+        {[](Driver& d) { return d.SCurve_F(3, 1, 100, 5, 0, 10); }, "rate K of XY is 0; it must be 1 to 65535"},
+        {[](Driver& d) { return d.SCurve_C(3, 1, 100, 5, 65'536); }, "rate K of XY is 65536; it must be 1 to 65535"},
+        {[](Driver& d) { return d.TCurve_C(3, 1, 0, 5); }, "drive speed V of XY is 0; it must be 1 to 8000"},
         {[](Driver& d) { return d.TCurve_F(9, 1, 100, 5, 10); }, "the multiple of U is not set"},
         {[](Driver& d) { return d.DriveFixed(axis_x); }, "The drive speed V of X is not set"},
     };
@@ -198,7 +195,7 @@ TEST_F(Refused, LinesAndArcsThatCannotBe) {
         {[](Driver& d) {
              return d.Line2D_T({1, 100, 5, 0, 0, {1, 8'388'608}}, 0x3);
          },
-         "of Y is 8388608, but the chip takes -8388608 to"},
+         "of Y is 8388608; it must be -8388608 to"},
         {[](Driver& d) {
              return d.Line3D_C({0, 100, 0, 0, 0, {1, 1, -8'388'609}}, 0x7);
          },

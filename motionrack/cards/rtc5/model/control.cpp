@@ -76,8 +76,8 @@ Result<void> Engine::set_hi(int head, Point gain, Point offset) {
     MOTIONRACK_CHECK(check_parameter("set_hi", "HeadNo", head, 1, 3));
     MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainX", gain.x, -16, 16));
     MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainY", gain.y, -16, 16));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetX", offset.x, field_least, field_greatest, "bits"));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetY", offset.y, field_least, field_greatest, "bits"));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetX", offset.x, min_field, max_field, "bits"));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetY", offset.y, min_field, max_field, "bits"));
     for (std::size_t i = 0; i < head_count; ++i)
         if (head >> i & 1) state_.heads[i].gain = gain, state_.heads[i].offset = offset;
     return {};

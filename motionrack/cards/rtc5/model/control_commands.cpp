@@ -135,7 +135,7 @@ constexpr ControlCommand commands[] = {
      "JumpLengthLimit have delays down to MinJumpDelay; DirectMove3D changes nothing", by_header},
     {"set_hi",
      {{{"HeadNo", 1, 3}, {"GalvoGainX", -16, 16, "", false}, {"GalvoGainY", -16, 16, "", false},
-       {"GalvoOffsetX", field_least, field_greatest, "bits"}, {"GalvoOffsetY", field_least, field_greatest, "bits"}}},
+       {"GalvoOffsetX", min_field, max_field, "bits"}, {"GalvoOffsetY", min_field, max_field, "bits"}}},
      0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.set_hi(small(p[0]), {p[1], p[2]}, {p[3], p[4]})); },
      "gain and offset behind the table of head 1 (A), 2 (B), or both (3)", by_header},

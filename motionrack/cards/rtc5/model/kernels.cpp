@@ -64,8 +64,8 @@ inline Pair node(const Table::GridNode& n) {
     return Pair{static_cast<double>(n.x), static_cast<double>(n.y)};
 }
 inline double into_field(double v) {
-    v = v > field_least ? v : field_least;
-    return v < field_greatest ? v : field_greatest;
+    v = v > min_field ? v : min_field;
+    return v < max_field ? v : max_field;
 }
 
 template <bool corrected>

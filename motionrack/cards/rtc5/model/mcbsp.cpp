@@ -29,7 +29,7 @@ bool McBsp::goes_to(int location) const {
 Result<std::int32_t> McBsp::read(int location) const {
     if (location < 0 || location > 3)
         return fail(ErrorKind::refused,
-                    fmt::format("read_mcbsp: No is {}, outside 0 to 3; nothing was done", location));
+                    fmt::format("read_mcbsp: No is {}; it must be 0 to 3; nothing was done", location));
     if (filled >> location & 1) return memory[static_cast<std::size_t>(location)];
     if (!goes_to(location))
         return fail(ErrorKind::refused, fmt::format("read_mcbsp: location {} is empty; first use {}", location,

@@ -87,10 +87,10 @@ void Engine::check_flags(std::size_t n) {
     };
     const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
     const Bound bounds[] = {
-        {marking_bit("FLY_X_UNDERFLOW"), &b.x, field_least, e.min_x, e.max_x, false},
-        {marking_bit("FLY_X_OVERFLOW"), &b.x, field_greatest, e.min_x, e.max_x, true},
-        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, field_least, e.min_y, e.max_y, false},
-        {marking_bit("FLY_Y_OVERFLOW"), &b.y, field_greatest, e.min_y, e.max_y, true},
+        {marking_bit("FLY_X_UNDERFLOW"), &b.x, min_field, e.min_x, e.max_x, false},
+        {marking_bit("FLY_X_OVERFLOW"), &b.x, max_field, e.min_x, e.max_x, true},
+        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, min_field, e.min_y, e.max_y, false},
+        {marking_bit("FLY_Y_OVERFLOW"), &b.y, max_field, e.min_y, e.max_y, true},
         {marking_bit("LIMIT_X_MIN"), &b.x, limit(0), e.min_x, e.max_x, false},
         {marking_bit("LIMIT_X_MAX"), &b.x, limit(1), e.min_x, e.max_x, true},
         {marking_bit("LIMIT_Y_MIN"), &b.y, limit(2), e.min_y, e.max_y, false},
@@ -117,8 +117,8 @@ void Engine::check_z(std::size_t n) {
             at_type2 = static_cast<double>(static_cast<std::int32_t>(scratch_->words[i]) >> 3);
         const double z = multi ? state_.z + at_type2 : state_.z + f.scale_z * scratch_->ec[encoder][i];
         std::uint32_t bits = 0;
-        if (z < z_least) bits |= marking_bit("FLY_Z_UNDERFLOW");
-        if (z > z_greatest) bits |= marking_bit("FLY_Z_OVERFLOW");
+        if (z < min_z) bits |= marking_bit("FLY_Z_UNDERFLOW");
+        if (z > max_z) bits |= marking_bit("FLY_Z_OVERFLOW");
         if (z < static_cast<double>(state_.limits[4])) bits |= marking_bit("LIMIT_Z_MIN");
         if (z > static_cast<double>(state_.limits[5])) bits |= marking_bit("LIMIT_Z_MAX");
         if (bits != 0) raise(bits, state_.tick + static_cast<std::int64_t>(i));
@@ -160,7 +160,7 @@ void Engine::keep_output(std::size_t n) {
                                      : std::array<std::int32_t, 2>{};
     o.corrected = {b.x[n - 1], b.y[n - 1]};
     const bool moves = state_.fly.z || state_.fly.kind == FlyKind::multi;
-    o.z = std::clamp(n > 1 && moves ? block_z_ : z_now(), z_least, z_greatest);
+    o.z = std::clamp(n > 1 && moves ? block_z_ : z_now(), min_z, max_z);
     evaluated_ = true;
 }
 
@@ -191,8 +191,8 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     if (n > 1 << 28) return std::nullopt;
     const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
     const auto inside = [&](double v, std::size_t axis) {
-        const double least = std::max(field_least, static_cast<double>(state_.limits[2 * axis])) + 1;
-        const double greatest = std::min(field_greatest, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
+        const double least = std::max(min_field, static_cast<double>(state_.limits[2 * axis])) + 1;
+        const double greatest = std::min(max_field, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
         return v > least && v < greatest;
     };
     const Point words = mcbsp_now();

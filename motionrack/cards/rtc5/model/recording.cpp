@@ -50,7 +50,7 @@ void Engine::record() {
 }
 
 std::int32_t Engine::value_of(const SignalInfo& s) const {
-    if (s.laser_only && !state_.laser.on) return whole(field_least);
+    if (s.laser_only && !state_.laser.on) return whole(min_field);
     const Head& head = state_.heads[s.head];
     const bool no_head = s.head == 1 && head.table == 0;
     Point p = state_.output.corrected;

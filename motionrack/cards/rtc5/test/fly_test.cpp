@@ -313,7 +313,7 @@ TEST(Rtc5Fly, TheExtentSaysHowMuchRoomAJobLeavesWhetherOneLooksOrNot) {
         EXPECT_NEAR(seen.min_y, unseen.min_y, 1e-6);
         EXPECT_NEAR(seen.min_y, -7000, 1e-6);
         EXPECT_EQ(seen.max_y, 9000);
-        EXPECT_EQ(seen.max_x > field_greatest, scale == 100.0);
+        EXPECT_EQ(seen.max_x > max_field, scale == 100.0);
     }
 }
 

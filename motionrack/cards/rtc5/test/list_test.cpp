@@ -157,7 +157,7 @@ TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirPlace) {
     const auto angle = list_command(Op::arc_abs, {0, 0, 4000});
     ASSERT_FALSE(angle);
     EXPECT_EQ(angle.error().message,
-              "arc_abs: Angle is 4000, outside -3600 to 3600 degrees; the command was not added to the list");
+              "arc_abs: Angle is 4000; it must be -3600 to 3600 degrees; the command was not added to the list");
     EXPECT_EQ(list_command(Op::mark_abs, {1e12, -1e12})->p, (std::array<double, 4>{8388607, -8388608, 0, 0}))
         << "coordinates are clipped";
     EXPECT_EQ(list_command(Op::set_mark_speed, {1})->p[0], 1.6);

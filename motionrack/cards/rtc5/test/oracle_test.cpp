@@ -55,8 +55,8 @@ class Keeper final : public Sink {
     static unsigned outside(const Samples& b, std::size_t i) {
         if (b.corrected_x.empty()) return 0;
         const double x = b.corrected_x[i], y = b.corrected_y[i];
-        return (x < field_least ? 1u : 0) | (x > field_greatest ? 2u : 0) | (y < field_least ? 4u : 0) |
-               (y > field_greatest ? 8u : 0);
+        return (x < min_field ? 1u : 0) | (x > max_field ? 2u : 0) | (y < min_field ? 4u : 0) |
+               (y > max_field ? 8u : 0);
     }
     std::int64_t first = 0;
     std::vector<twin::Sample> got;

@@ -40,7 +40,7 @@ TEST(AxisProfile, FromRestToRestIsTheSCurve) {
     }
 }
 
-TEST(AxisProfile, HoldsItsLimitsGoesOnWithoutJumpsAndEndsExactly) {
+TEST(AxisProfile, KeepsItsLimitsHasNoStepsAndEndsExactly) {
     Tasks tasks(2);
     for (int i = 0; i < 20'000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();

@@ -106,7 +106,7 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
             return call(place, interpreter);
         case OWord::endsub:
         case OWord::return_sub:
-            return give_back(place, interpreter);
+            return return_sub(place, interpreter);
         case OWord::if_true:
             return choose(at, interpreter);
         case OWord::else_if:
@@ -125,7 +125,7 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
             return good;
         }
         case OWord::endwhile:
-            go_on(place_at(place.begin));
+            continue_loop(place_at(place.begin));
             return true;
         case OWord::repeat:
             return begin_repeat(place, at, interpreter);
@@ -133,10 +133,10 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
             end_repeat(place);
             return true;
         case OWord::break_loop:
-            leave_loop(place_at(place.begin));
+            break_loop(place_at(place.begin));
             return true;
         case OWord::continue_loop:
-            go_on(place_at(place.begin));
+            continue_loop(place_at(place.begin));
             return true;
         case OWord::endif:
         case OWord::do_once:
@@ -195,13 +195,13 @@ void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
         repeats_.pop_back();
 }
 
-void ProgramFlow::leave_loop(const OWordLocation& loop) {
+void ProgramFlow::break_loop(const OWordLocation& loop) {
     forget_repeats(loop.begin, loop.end);
     jump(place_at(loop.end));
 }
 
 /// Starts the next iteration of a loop, or leaves it.
-void ProgramFlow::go_on(const OWordLocation& loop) {
+void ProgramFlow::continue_loop(const OWordLocation& loop) {
     forget_repeats(loop.begin + 1, loop.end);
     const OWordLocation& decides = loop.word == OWord::while_true ? loop : place_at(loop.end);
     // The deciding line is executed again: returns to the end of the line before it.

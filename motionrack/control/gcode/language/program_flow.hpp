@@ -102,10 +102,10 @@ class ProgramFlow {
     bool choose(std::int32_t at, Interpreter& interpreter);
     bool begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
     void end_repeat(const OWordLocation& place);
-    void leave_loop(const OWordLocation& loop);
-    void go_on(const OWordLocation& loop);
+    void break_loop(const OWordLocation& loop);
+    void continue_loop(const OWordLocation& loop);
     bool call(const OWordLocation& place, Interpreter& interpreter);
-    bool give_back(const OWordLocation& place, Interpreter& interpreter);
+    bool return_sub(const OWordLocation& place, Interpreter& interpreter);
     bool find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
     bool look_for(const std::string& label, bool numbered, Target& target);
     bool load(const OWordLocation& place, const std::string& label, bool numbered, Target& target);

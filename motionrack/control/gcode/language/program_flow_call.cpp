@@ -177,7 +177,7 @@ bool ProgramFlow::load(const OWordLocation& place, const std::string& label, boo
     return true;
 }
 
-bool ProgramFlow::give_back(const OWordLocation& place, Interpreter& interpreter) {
+bool ProgramFlow::return_sub(const OWordLocation& place, Interpreter& interpreter) {
     std::vector<double> values;
     bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;

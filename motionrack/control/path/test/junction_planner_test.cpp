@@ -52,13 +52,13 @@ unsigned chosen(const ChoiceRow& row) {
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
         choice.add(row.legs[i], row.joints[i + 1]);
         while (choice.decided() > 0) stops |= static_cast<unsigned>(choice.take()) << taken++;
-        EXPECT_LE(i + 1 - taken, JunctionPlanner::most);
+        EXPECT_LE(i + 1 - taken, JunctionPlanner::max_junctions);
     }
     EXPECT_EQ(taken, row.legs.size());
     return stops;
 }
 
-TEST(AChoiceOfJoints, IsTheQuickestOfAllRows) {
+TEST(JunctionPlanner, ChoosesTheQuickestOfAllSequences) {
     for (unsigned seed = 1; seed <= 300; ++seed) {
         const ChoiceRow row = random_row(seed, 1 + seed % 9);
         double least = std::numeric_limits<double>::infinity();
@@ -68,7 +68,7 @@ TEST(AChoiceOfJoints, IsTheQuickestOfAllRows) {
     }
 }
 
-TEST(AChoiceOfJoints, OfALongRowIsMadeWithoutItsEnd) {
+TEST(JunctionPlanner, DecidesALongSequenceWithoutItsEnd) {
     for (unsigned seed = 1; seed <= 20; ++seed) chosen(random_row(seed, 30));
 }
 

@@ -185,7 +185,7 @@ TEST(Curve, KeepsRotaryAxesInProportionToTheWay) {
     }
 }
 
-TEST(Curve, OfAnArcHasItsBendAndNoMoreThanAThirteenthMoreAtItsJoints) {
+TEST(Curve, OfAnArcHasItsCurvatureAndNoMoreThanAThirteenthMoreAtItsJunctions) {
     for (const double tolerance : {half_pulse, 0.01, 0.1})
         for (const double radius : {0.5, 10.0, 300.0})
             for (const double sweep : {0.3, 2.0, 6.0, 50.0}) {

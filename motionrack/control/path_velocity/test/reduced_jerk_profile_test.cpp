@@ -39,7 +39,7 @@ class ALineWithEasedEnds : public testing::Test {
     std::mt19937 random_{7};
 };
 
-TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutJumpsAndIsNoSlowerThanByCells) {
+TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutStepsAndIsNoSlowerThanByCells) {
     int written = 0;
     for (int n = 0; n < 2000; ++n) {
         SCOPED_TRACE(n);

@@ -84,7 +84,7 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
     return out;
 }
 
-TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
+TEST(VelocityPlanner, PlansTheQuickestSCurveForIntervalsThatAreAlike) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
         for (const double speed : {100.0, 5.0}) {
@@ -100,7 +100,7 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
 }
 
 /// Jerk may last for a distance so short that nearby positions have no digits for it.
-TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
+TEST(VelocityPlanner, KeepsTheJerkOfOneIntervalHoweverShortItLasts) {
     VelocityPlanner planner;
     for (const double jerk : {1e9, 1e12, 1e15}) {
         const std::vector<LimitInterval> intervals = {{92, 50, 1000, jerk}};
@@ -113,7 +113,7 @@ TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
     }
 }
 
-TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
+TEST(VelocityPlanner, IsNearlyAsQuickForIntervalsThatAreNearlyAlike) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
         const std::vector<LimitInterval> intervals = {{0.5 * length, 100, 1000, 20'000},
@@ -125,7 +125,7 @@ TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
     }
 }
 
-TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
+TEST(VelocityPlanner, KeepsEveryLimitAtEveryInstant) {
     VelocityPlanner planner;
     RandomSpans random(20261122);
     for (int run = 0; run < 3000; ++run) {
@@ -139,7 +139,7 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
 }
 
 /// Acceleration and deceleration have separate limits.
-TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
+TEST(VelocityPlanner, AcceleratesAndDeceleratesEachAsQuicklyAsItMay) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
     double up = 0, down = 0;
@@ -154,7 +154,7 @@ TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
 }
 
 /// A stop may be faster than passing a slow interval, because it needs no velocity for leaving it.
-TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
+TEST(VelocityPlanner, IsQuickerThanStoppingBetweenIntervals) {
     VelocityPlanner planner;
     RandomSpans random(7);
     int slower = 0;
@@ -170,7 +170,7 @@ TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
     EXPECT_LT(slower, 60);
 }
 
-TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
+TEST(VelocityPlanner, PassesASlowIntervalAtItsVelocity) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {
         {50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
@@ -185,7 +185,7 @@ TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
 }
 
 /// A slalom: the velocity limit from its curvature rises and falls, and the profile follows it.
-TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
+TEST(VelocityPlanner, FollowsLimitsThatChangeSlowly) {
     VelocityPlanner planner;
     std::vector<LimitInterval> intervals;
     double quickest = 0;
@@ -198,7 +198,7 @@ TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
     EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * quickest + ends);
 }
 
-TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
+TEST(VelocityPlanner, DoesNotDependOnWhatWasPlannedBefore) {
     VelocityPlanner used, fresh;
     RandomSpans random(3);
     for (int run = 0; run < 50; ++run) {
@@ -213,7 +213,7 @@ TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
     }
 }
 
-TEST(AFeedProfile, TakesLimitsOfAnySize) {
+TEST(VelocityPlanner, TakesLimitsOfAnySize) {
     VelocityPlanner planner;
     RandomSpans random(11);
     for (int run = 0; run < 2000; ++run) {
@@ -231,7 +231,7 @@ TEST(AFeedProfile, TakesLimitsOfAnySize) {
     }
 }
 
-TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
+TEST(VelocityPlanner, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::vector<LimitInterval> intervals;
     for (int i = 0; i < 300; ++i)
         intervals.push_back(
@@ -245,12 +245,12 @@ TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
     EXPECT_EQ(fold, 713957576561859831u);
 }
 
-TEST(AFeedProfile, OfNothingIsEmpty) {
+TEST(VelocityPlanner, MakesNoSegmentsOfNothing) {
     VelocityPlanner planner;
     EXPECT_TRUE(planner.plan({}).empty());
 }
 
-TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
+TEST(ProfileSegment, IsAsLongAsItSaysAndMovesAsItsVelocity2Says) {
     const ProfileSegment cell = feed_cell(5, 2, 100, 30, 8);
     EXPECT_NEAR(cell.at(0).speed, 10, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);
@@ -275,7 +275,7 @@ std::vector<LimitInterval> intervals_from(const std::vector<LimitInterval>& inte
     return out;
 }
 
-TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
+TEST(VelocityPlannerReplan, BeginsAsItWasAndKeepsTheLimits) {
     VelocityPlanner planner, on_the_way;
     RandomSpans random(77);
     int steady = 0, steady_found = 0, found = 0, all = 0;
@@ -311,7 +311,7 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
     EXPECT_GT(found, 0.85 * all);
 }
 
-TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
+TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {{0.2, 10, 1000, 20'000}};
     EXPECT_TRUE(planner.plan_from({100, 0}, intervals).empty());  // the jerk needs 0.2236 mm

@@ -138,7 +138,7 @@ TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     EXPECT_EQ(fold, 18085057422729386909u);
 }
 
-TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
+TEST(OfflineTrajectory, IsNeverQuickerThanWithAnyJerk) {
     for (const double jerk : {1e3, 1e6})
         for (const double chord : {0.1, 0.25, 1.0})
             for (const auto& shape : {circle(chord), sine(chord), spiral(chord)}) {
@@ -160,7 +160,7 @@ struct Nearness {
 /// With a jerk that costs no time. At the feed rate the loss is at the ends and on curves that are tighter than the
 /// feed rate allows. Without it the loss is where the velocity changes on curves, because a limit applies to a part of
 /// the curve at its tightest point. Long chords have an intermittent curvature.
-TEST(ARide, IsNearTheQuickestOnSmoothShapes) {
+TEST(OfflineTrajectory, IsNearTheQuickestOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
         {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},
         {"circle 1", circle(1), 1.001, 1.011},      {"sine 0.1", sine(0.1), 1.008, 1.023},

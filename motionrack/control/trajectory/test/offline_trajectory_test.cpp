@@ -56,7 +56,7 @@ std::vector<Move> square_wave(int legs, double length, double tolerance_mm) {
     return out;
 }
 
-TEST(ARide, KeepsEveryAxisWithinItsLimitsAtEveryInstant) {
+TEST(OfflineTrajectory, KeepsEveryAxisWithinItsLimitsAtEveryInstant) {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         const Ridden ridden = ride(curve_test::ProgramMaker(seed).program(4));
         ASSERT_LE(ridden.speed, 1 + 1e-6) << seed;
@@ -65,7 +65,7 @@ TEST(ARide, KeepsEveryAxisWithinItsLimitsAtEveryInstant) {
     }
 }
 
-TEST(ARide, HasNoJumps) {
+TEST(OfflineTrajectory, HasNoStepsInPositionOrVelocity) {
     std::vector<Move> moves = square_wave(6, 10, 0.05);
     const Move arc = arc_from(moves.back().end, 0, 8, 4);
     moves.push_back(arc);
@@ -80,14 +80,14 @@ TEST(ARide, HasNoJumps) {
     }
 }
 
-TEST(ARide, OfAStraightLineIsAnSCurve) {
+TEST(OfflineTrajectory, OfAStraightLineIsAnSCurve) {
     const Ridden ridden = ride({line_to({100, 0})});
     EXPECT_NEAR(ridden.seconds, 1 + 100.0 / 2000 + 2000.0 / 40'000,
                 1e-9);  // distance / velocity + velocity / acceleration + acceleration / jerk
     EXPECT_EQ(ridden.end[0], 100);
 }
 
-TEST(ARide, GainsWhatTheToleranceOfACornerAllows) {
+TEST(OfflineTrajectory, GainsWhatTheToleranceOfACornerAllows) {
     const double stopping = ride_test::seconds_stopping(square_wave(40, 20, 0), machine());
     double last = stopping * 1.015;
     for (const double tolerance : {0.001, 0.01, 0.1}) {
@@ -98,7 +98,7 @@ TEST(ARide, GainsWhatTheToleranceOfACornerAllows) {
     EXPECT_LT(last, 0.9 * stopping);
 }
 
-TEST(ARide, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
+TEST(OfflineTrajectory, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
     for (const double tolerance : {0.001, 0.02, 0.2}) {
         const std::vector<Move> moves = square_wave(8, 10, tolerance);
         const std::vector<Geometry> paths = curve_test::paths_of(moves);
@@ -114,7 +114,7 @@ TEST(ARide, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
     }
 }
 
-TEST(ARide, OfAZigzagIsHardlySlowerThanWithExactStops) {
+TEST(OfflineTrajectory, OfAZigzagIsHardlySlowerThanWithExactStops) {
     for (const double tolerance : {0.001, 0.02, 0.1, 1.0})
         for (const double length : {0.5, 5.0, 50.0}) {
             std::vector<Move> moves;
@@ -124,7 +124,7 @@ TEST(ARide, OfAZigzagIsHardlySlowerThanWithExactStops) {
         }
 }
 
-TEST(ARide, TakesACircleAtTheSpeedOfItsBend) {
+TEST(OfflineTrajectory, TakesACircleAtTheVelocityOfItsCurvature) {
     const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
     double fastest = 0;
     for (const TrajectoryPoint& state : ridden.states)
@@ -133,14 +133,14 @@ TEST(ARide, TakesACircleAtTheSpeedOfItsBend) {
     EXPECT_EQ(ridden.rests, 1);
 }
 
-TEST(ARide, DoesNotStopAtTangentJoints) {
+TEST(OfflineTrajectory, DoesNotStopAtTangentJunctions) {
     std::vector<Move> moves = {line_to({50, 0}), arc_from({50, 0}, 0, 10, pi), line_to({0, 20})};
     for (Move& move : moves) move.path = PathControl::exact_path;
     EXPECT_EQ(ride(moves).rests, 1);
 }
 
 /// Chords on a smooth curve take at most the time of its curvature and feed rate, plus one double-S profile.
-TEST(ARide, RunsThroughManyChordsAsThroughTheCurve) {
+TEST(OfflineTrajectory, RunsThroughManyChordsAsThroughTheCurve) {
     std::vector<Move> moves;
     double quickest = 0;
     Point at{};
@@ -158,7 +158,7 @@ TEST(ARide, RunsThroughManyChordsAsThroughTheCurve) {
     EXPECT_LE(ride(moves).seconds, 1.12 * quickest + 0.1);
 }
 
-TEST(ARide, RestsForDwells) {
+TEST(OfflineTrajectory, RestsForDwells) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;

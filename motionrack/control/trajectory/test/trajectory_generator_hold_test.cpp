@@ -22,7 +22,7 @@ using ride_test::program;
 
 /// Any path to the stop: corners, curves, the end of the known path. If a leg has started before the previous one has
 /// ended, both are executed as planned until that one ends.
-TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
+TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDeceleratesForAFeedHold) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
         const std::vector<Move> moves = program(random);
@@ -57,7 +57,7 @@ TEST(ARiderDisturbedAtRandom, NeverSpeedsUpAgainOnceItSlowsDownForAHold) {
     }
 }
 
-TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
+TEST(TrajectoryGenerator, StopsSoonAfterFeedHoldAndResumesFromThere) {
     Driven driven({long_line(50)}, {});
     while (driven.now < 0.5) driven.step(0.001, true);
     driven.generator.hold();
@@ -85,7 +85,7 @@ std::vector<std::vector<Move>> ways_at(double feed) {
     return out;
 }
 
-TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
+TEST(TrajectoryGenerator, StopsAsSoonWhileItDeceleratesForOverrides) {
     for (const std::vector<Move>& way : ways_at(50)) {
         const auto held_after = [&](double feed, double after) {
             Driven driven(way, {});
@@ -108,7 +108,7 @@ TEST(ARider, StandsAsSoonWhileItSlowsDownForOverrides) {
 
 /// The curvature alone takes nearly all of the acceleration of X and Y alternately, and most of their jerk;
 /// deceleration needs both as well.
-TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
+TEST(TrajectoryGenerator, StopsSoonOnACircleAtItsMaxVelocity) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
     for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
@@ -127,7 +127,7 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
 }
 
 /// During acceleration, and at full velocity, where hardly any jerk remains for deceleration.
-TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
+TEST(TrajectoryGenerator, StopsAndDeceleratesSoonOnCurvesThatTakeNearlyAllOfTheJerk) {
     const auto speed_of = [](const Driven& driven) { return std::hypot(driven.last.speed[0], driven.last.speed[1]); };
     for (const double radius : {2, 10})
         for (double when = 0.05; when < 0.6; when += 0.05) {
@@ -150,7 +150,7 @@ TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
 }
 
 /// The next line would start before this one has ended.
-TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
+TEST(TrajectoryGenerator, StopsAtTheCornerBeforeWhichItIsHeld) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);
     const double whole = driven.generator.seconds_to_standstill();

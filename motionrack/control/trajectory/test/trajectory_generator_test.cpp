@@ -19,7 +19,7 @@ using ride_test::long_line;
 using ride_test::machine;
 using ride_test::program;
 
-TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
+TEST(TrajectoryGeneratorLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -34,7 +34,7 @@ TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
     }
 }
 
-TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
+TEST(TrajectoryGeneratorDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -64,7 +64,7 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
 }
 
 /// The section may grow while the start of the next one is planned already.
-TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
+TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesCome) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -86,7 +86,7 @@ TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
 }
 
 /// The section behind a corner grows when its start is planned already.
-TEST(ARider, GoesOnPastACornerToWhatCameBeforeIt) {
+TEST(TrajectoryGenerator, GoesOnPastACornerToWhatCameBeforeIt) {
     std::vector<Move> moves = {line_to({20}, 0.05)};
     for (int i = 1; i <= 80; ++i) moves.push_back(line_to({20 - 0.002 * i * i, 0.4 * i}, 0.01));
     int late = 0;
@@ -107,7 +107,7 @@ TEST(ARider, GoesOnPastACornerToWhatCameBeforeIt) {
     EXPECT_GT(late, 10);
 }
 
-TEST(ARider, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
+TEST(TrajectoryGenerator, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
     Driven driven({long_line(20)}, {});
     const auto speed_after = [&](double seconds) {
         for (const double until = driven.now + seconds; driven.now < until;) driven.step(0.001, true);
@@ -123,7 +123,7 @@ TEST(ARider, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
     expect_limits(driven);
 }
 
-TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
+TEST(TrajectoryGenerator, AlwaysStopsWithinTheMovesItKnows) {
     std::mt19937 random(3);
     const std::vector<Move> moves = program(random);
     Driven driven(moves, {40});
@@ -138,7 +138,7 @@ TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
     EXPECT_GT(looks, 100);
 }
 
-TEST(ARider, TellsWhichMoveItIsOnAndKeepsNoOther) {
+TEST(TrajectoryGenerator, ReportsWhichMoveItIsOnAndKeepsNoOther) {
     std::vector<Move> moves;
     for (int i = 1; i <= 3000; ++i) moves.push_back(line_to({0.3 * i, i % 2 * 0.2}, 0.001));
     Driven driven(moves, {500});

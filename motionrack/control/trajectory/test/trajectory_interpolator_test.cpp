@@ -42,7 +42,7 @@ std::vector<Move> curvy() {
     return out;
 }
 
-TEST(TheMovesOfARide, MeetInPlaceAndSpeedAndBeginAndEndAtRest) {
+TEST(TrajectoryInterpolator, MakesMovesThatMeetInPositionAndVelocityAndStartAndEndAtStandstill) {
     const std::vector<PlannedMove> moves = moves_of(curvy());
     ASSERT_GT(moves.size(), 100U);
     EXPECT_EQ(moves.front().entry_velocity, 0);
@@ -82,7 +82,7 @@ double distance_to(const std::vector<PlannedMove>& moves, const Point& place) {
 }
 
 /// A slow trajectory has corners within the duration of a move.
-TEST(TheMovesOfARide, PassNoCornerByMoreThanItsToleranceAndAPulse) {
+TEST(TrajectoryInterpolator, PassesNoCornerByMoreThanItsToleranceAndAPulse) {
     constexpr double tolerance = 0.002;
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::mt19937 random(seed);
@@ -102,7 +102,7 @@ TEST(TheMovesOfARide, PassNoCornerByMoreThanItsToleranceAndAPulse) {
     }
 }
 
-TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
+TEST(TrajectoryInterpolator, StepsAtJunctionsByLessThanTheMaxVelocityStep) {
     const std::vector<PlannedMove> moves = moves_of(curvy());
     double greatest = 0;
     for (std::size_t i = 1; i < moves.size(); ++i)
@@ -119,7 +119,7 @@ TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
 
 /// A card observes the acceleration of each axis on a line: with too little deceleration it enters the corner too fast.
 /// On a return stroke the ends of two lines overlap.
-TEST(TheMovesOfARide, LetACardThatKeepsTheAccelerationsOnEachOfThemComeSlowIntoATurn) {
+TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterACornerSlowly) {
     MachineLimits limits = machine();
     limits[2].max_accel = 0.5 * limits[0].max_accel;
     for (double height = 1.5; height < 20; height *= 1.2) {
@@ -138,7 +138,7 @@ TEST(TheMovesOfARide, LetACardThatKeepsTheAccelerationsOnEachOfThemComeSlowIntoA
     }
 }
 
-TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
+TEST(TrajectoryInterpolator, TakesAsLongAsTheTrajectoryGenerator) {
     double seconds = 0;
     for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
     double ride = 0;
@@ -159,7 +159,7 @@ TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
     EXPECT_NEAR(seconds, ride, 0.01 * ride);
 }
 
-TEST(TheMovesOfARide, KeepDwellsWholeOrCutThem) {
+TEST(TrajectoryInterpolator, KeepsDwellsWholeOrCutsThem) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;
@@ -180,7 +180,7 @@ TEST(TheMovesOfARide, KeepDwellsWholeOrCutThem) {
     EXPECT_EQ(count, 3);
 }
 
-TEST(TheMovesOfARide, RefuseWhatNoPlannerTakesAndGoOn) {
+TEST(TrajectoryInterpolator, RejectsInvalidMovesAndContinues) {
     TrajectoryInterpolator planner(machine(), {});
     Move bad = line_to({1});
     bad.feed = 0;
@@ -202,7 +202,7 @@ class TwoAxes : public DriveConstraints {
     double min_velocity_update_s() const override { return 0.01; }
 };
 
-TEST(TheMovesOfARide, StandBeforeACornerThatWouldTakeMoreAxesThanTheCardDraws) {
+TEST(TrajectoryInterpolator, StopsBeforeACornerThatWouldTakeMoreAxesThanTheCardInterpolates) {
     const TwoAxes rule;
     InterpolatorSettings settings;
     settings.drive = &rule;

@@ -65,10 +65,11 @@ Result<std::vector<std::string>> read_cards(std::string_view text, std::string_v
                             in_quotes(line)),
                 file, number);
         if (std::find(names.begin(), names.end(), name) != names.end())
-            return wrong(fmt::format("There are two cards {}. Nothing was opened. Rename one.", name), file, number);
-        if (names.size() == max_cards)
-            return wrong(fmt::format("There are more than {} cards. Nothing was opened. Remove some.", max_cards), file,
+            return wrong(fmt::format("Two cards have the name {}. Nothing was opened. Rename one.", name), file,
                          number);
+        if (names.size() == max_cards)
+            return wrong(fmt::format("The rack has more than {} cards. Nothing was opened. Remove some.", max_cards),
+                         file, number);
         names.push_back(name);
     }
     if (names.empty())

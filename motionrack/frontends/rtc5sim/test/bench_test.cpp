@@ -128,7 +128,7 @@ TEST(Rtc5simErrors, WhatIsRefusedIsSaidAndKeptInTheBits) {
     set_mark_speed_ctrl(std::numeric_limits<double>::infinity());
     EXPECT_STREQ(rtc5sim_last_error(), "set_mark_speed_ctrl: Speed is inf, which is not a number; nothing was changed");
     set_ext_start_delay(3'000'000'000L, 0);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("set_ext_start_delay: Delay is 3000000000, outside"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("set_ext_start_delay: Delay is 3000000000; it must be"));
     simulate_encoder(4);
     get_status(nullptr, nullptr);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_status: The first address of the answer is a null pointer"));
@@ -218,7 +218,7 @@ TEST_F(Rtc5simFiles, ACorrectionFileIsUsedAndADamagedOneLeavesTheOldTable) {
     rtc5sim_advance_us(10);
     EXPECT_EQ(output_x(), 1000);
     EXPECT_EQ(get_table_para(2, 16), 0);
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_table_para: ParaNo is 16, outside 0 to 15"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_table_para: ParaNo is 16; it must be 0 to 15"));
 }
 
 TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsTold) {

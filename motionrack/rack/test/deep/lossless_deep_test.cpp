@@ -8,7 +8,7 @@ constexpr std::uint64_t shares = 16;
 class ThousandsOfPrograms : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Share, ThousandsOfPrograms, testing::Range<std::uint64_t>(0, shares));
 
-TEST_P(ThousandsOfPrograms, NoAxisJumpsWhateverIsWishedOnTheWay) {
+TEST_P(ThousandsOfPrograms, NoAxisExceedsItsMaxVelocityStepWhateverIsCommandedOnTheWay) {
     drive_share(GetParam(), shares, 10'000);
 }
 

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 const char* const part = "G21 G90 F1200\nG1 X30 Y0\nG2 X40 Y10 I10\nM2\n";
 
-TEST(Looking, LeavesTheTraceOfAJobAsItIs) {
+TEST(Queries, LeaveTheTraceOfAJobAsItIs) {
     const auto traced = [](bool viewer) {
         Asked a(demonstration());
         std::shared_ptr<ChannelSet> set;
@@ -143,7 +143,7 @@ TEST(AProgram, IsPlannedBeforeItRunsAndItsPathIsShown) {
         EXPECT_TRUE(answer.body["ok"].get<bool>()) << answer.body;
         EXPECT_NEAR(answer.body["length_mm"].get<double>(), 20 + M_PI * 5, 7);
         EXPECT_GT(answer.body["path"].size(), 10U);
-        EXPECT_EQ(answer.body["greatest"]["X"], 40);
+        EXPECT_EQ(answer.body["max"]["X"], 40);
         EXPECT_GT(answer.body["duration_s"].get<double>(), 1);
     });
     a.at(0.1, eve, "check", {{"text", "G1 X1\nG1 F100 X900\n"}}, [](const Answer& answer) {
