@@ -63,8 +63,6 @@ build_in() {
     shift 2
     if command -v ccache >/dev/null 2>&1; then
         set -- "$@" -DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache
-        # The compiler tells what it read: nothing is preprocessed a second time to learn it.
-        export CCACHE_DEPEND=1
     fi
     local stamp="$folder/.configured-with" want="$*" is
     is=$(cat "$stamp" 2>/dev/null) || is=""
