@@ -121,7 +121,7 @@ void tell(const operate::ClockPacer& pacer) {
     fmt::print(
         "slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness "
         "max    {:.3f} ms\nlost            {:.3f} ms\n",
-        late.count(), ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()),
+        late.count(), ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.max()),
         ms(pacer.lost()));
 }
 
