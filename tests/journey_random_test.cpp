@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <random>
+#include <tests/goes_on.hpp>
 
 #include "journey.hpp"
 #include "random_program.hpp"
@@ -17,18 +18,13 @@ double max_deviation(const RackConfig& config, const test::RandomProgram& progra
     return 3.0 / 640 + (program.chords ? 0.0021 : 0) + (config.jerk_limited() ? 1 : 0.25) * outcome.tolerance_mm;
 }
 
-/// Whether there is another program: the first ones of few may all be of no use.
-bool goes_on(std::uint64_t made, std::uint64_t count, std::uint64_t used, std::uint64_t everyday) {
-    return made < count || (4 * used <= made && made < everyday);
-}
-
 /// Executes them one after the other; returns the share that the reader accepted (an arc may leave the travel).
 double drive_random(const std::string& profile, test::ProgramSize size) {
     const std::uint64_t first = seed_from_environment(), everyday = thorough() ? 40 : 10,
                         count = cases("MOTIONRACK_PROGRAMS", everyday);
     const RackConfig config = router(profile);
     std::uint64_t driven = 0, made = 0;
-    for (; goes_on(made, count, driven, everyday); ++made) {
+    for (; goes_on(made, count, everyday, 4 * driven > made); ++made) {
         const std::uint64_t seed = first + made;
         const test::RandomProgram program = test::ProgramMaker(seed, size).make();
         if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;
@@ -71,7 +67,7 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
                         count = cases("MOTIONRACK_PROGRAMS", everyday);
     const RackConfig config = router(GetParam());
     std::uint64_t stopped = 0, made = 0;
-    for (; goes_on(made, count, stopped, everyday); ++made) {
+    for (; goes_on(made, count, everyday, 4 * stopped > made); ++made) {
         const std::uint64_t seed = first + made;
         const test::RandomProgram program = test::ProgramMaker(seed, test::ProgramSize::mixed).make();
         if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;

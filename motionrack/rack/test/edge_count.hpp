@@ -18,6 +18,7 @@
 #include <motionrack/rack/wave_recorder.hpp>
 #include <string>
 #include <tests/environment.hpp>
+#include <tests/goes_on.hpp>
 #include <vector>
 
 namespace motionrack::rack {
@@ -150,8 +151,8 @@ class Mcx314Moves {
 };
 
 /// Whether there is another move: the first ones of few may all be too short for a pulse.
-inline bool goes_on(std::uint64_t made, std::uint64_t moves, std::int64_t edges) {
-    return made < moves || (edges == 0 && made < moves + 100);
+inline bool moves_on(std::uint64_t made, std::uint64_t moves, const Counted& bench) {
+    return goes_on(made, moves, moves + 100, bench.seen.first != 0);
 }
 
 /// Pulses of one axis against its logical position.
@@ -161,7 +162,7 @@ inline void count_mcx314(std::uint64_t moves, char axis, bool is_one_pulse) {
     Counted bench("card.c1 = \"mcx314\"", pin + "pp", pin + "pm",
                   is_one_pulse ? Wires::low_is_forwards : Wires::both_ways);
     Mcx314Moves driving(bench, axis, is_one_pulse ? 0x0040 : 0, 8'000, 400);
-    for (std::uint64_t i = 0; goes_on(i, moves, bench.seen.first); ++i) {
+    for (std::uint64_t i = 0; moves_on(i, moves, bench); ++i) {
         driving.make(random);
         ASSERT_EQ(bench.seen.count, driving.value("LP")) << "move " << i << " of " << axis;
     }
@@ -180,7 +181,7 @@ inline void count_databoard4002(std::uint64_t moves) {
         for (int i = 0; i < bytes; ++i) out(0, value >> (8 * i));
     };
     out(1, 13);
-    for (std::uint64_t i = 0; goes_on(i, moves, bench.seen.first); ++i) {
+    for (std::uint64_t i = 0; moves_on(i, moves, bench); ++i) {
         command('R', drawn(random, 15'000, 16'383), 2);
         command('N', drawn(random, -60, 60), 3);
         command('G', 0, 0);
@@ -210,7 +211,7 @@ inline void count_grating_bus(std::uint64_t moves, const char* card) {
     Counted bench("card.c1 = \"grating_bus\"\ncard.c2 = \"grating_bus\"\n", name + ".frame_done", name + ".int_n",
                   Wires::both_ways);
     const auto frames = [&] { return bench.value(card, "FRAMES_L") | bench.value(card, "FRAMES_H") << 16; };
-    for (std::uint64_t i = 0; goes_on(i, moves, bench.seen.first); ++i) {
+    for (std::uint64_t i = 0; moves_on(i, moves, bench); ++i) {
         bench.pass(microseconds(drawn(random, 1, 3'000)));
         if (drawn(random, 0, 1) != 0)  // CLAIM, RELEASE
             bench.rack.card(card)->bus_write(16, 0, static_cast<std::uint32_t>(drawn(random, 1, 2)));

@@ -84,7 +84,7 @@ inline void count_encoder(std::uint64_t moves, char letter, const EncoderAxis& a
     // At most 5 million counts per second, the limit of the encoder's electronics.
     const std::int64_t max_speed = std::min<std::int64_t>(8'000, 10'000 * 3'200 / axis.counts_per_rev);
     Mcx314Moves driving(bench, letter == 'X' ? 'x' : 'y', 0, max_speed, 400);
-    for (std::uint64_t i = 0; goes_on(i, moves, bench.seen.first) && !testing::Test::HasFailure(); ++i) {
+    for (std::uint64_t i = 0; moves_on(i, moves, bench) && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE(fmt::format("move {}", i));
         driving.make(random);
         bench.pass(milliseconds(10));  // a motor that was stopped too quickly shows it within 8 ms

@@ -7,6 +7,7 @@
 #include <limits>
 #include <motionrack/control/path/test/path_builder_support.hpp>
 #include <tests/environment.hpp>
+#include <tests/goes_on.hpp>
 
 namespace motionrack::control {
 namespace {
@@ -36,7 +37,7 @@ struct Case {
 template <class Shown, class Check>
 void for_programs(std::uint64_t everyday, Shown shown, Check check) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
-    for (std::uint64_t seed = first; seed < first + count || (seed < first + everyday && !shown()); ++seed) {
+    for (std::uint64_t seed = first; goes_on(seed - first, count, everyday, shown()); ++seed) {
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
         ProgramMaker maker(seed);
         Case one = {seed, maker.program(1 + maker.one_of(12)), {}};
