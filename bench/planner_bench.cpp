@@ -16,7 +16,7 @@ namespace motionrack::control {
 namespace {
 
 struct Task {
-    double distance, speed, accel, jerk, entry, exit;
+    double distance, velocity, accel, jerk, entry, exit;
 };
 
 /// Enough that the branch predictor cannot learn them.
@@ -28,12 +28,12 @@ std::vector<Task> tasks() {
     std::uniform_real_distribution<double> part(0, 1);
     std::vector<Task> out(task_count);
     for (Task& task : out) {
-        task.speed = 20 + 180 * part(random);
+        task.velocity = 20 + 180 * part(random);
         task.accel = 200 + 2000 * part(random);
         task.jerk = 5'000 + 50'000 * part(random);
         task.distance = 100 * part(random) * part(random) * part(random);
-        task.entry = task.speed * part(random) * 0.2;
-        task.exit = task.speed * part(random) * 0.2;
+        task.entry = task.velocity * part(random) * 0.2;
+        task.exit = task.velocity * part(random) * 0.2;
     }
     return out;
 }
@@ -43,7 +43,7 @@ void trapezoid_plan(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const TrapezoidalProfile p(t.distance, t.speed, t.accel);
+        const TrapezoidalProfile p(t.distance, t.velocity, t.accel);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -54,7 +54,7 @@ void trapezoid_plan_between_speeds(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const TrapezoidalProfile p(t.distance, t.entry, t.exit, t.speed, t.accel);
+        const TrapezoidalProfile p(t.distance, t.entry, t.exit, t.velocity, t.accel);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -67,12 +67,12 @@ void trapezoid_plan_by_steps_of_1_ms(benchmark::State& state) {
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
         double position = 0;
-        double speed = 0;
+        double velocity = 0;
         int steps = 0;
         while (position < t.distance && steps < 1'000'000) {
-            const bool brake = speed * speed >= 2 * t.accel * (t.distance - position);
-            speed = std::clamp(speed + (brake ? -t.accel : t.accel) * 1e-3, t.accel * 1e-4, t.speed);
-            position += speed * 1e-3;
+            const bool brake = velocity * velocity >= 2 * t.accel * (t.distance - position);
+            velocity = std::clamp(velocity + (brake ? -t.accel : t.accel) * 1e-3, t.accel * 1e-4, t.velocity);
+            position += velocity * 1e-3;
             ++steps;
         }
         benchmark::DoNotOptimize(steps);
@@ -85,7 +85,7 @@ void s_curve_plan(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const SCurveProfile p(t.distance, t.speed, t.accel, t.jerk);
+        const SCurveProfile p(t.distance, t.velocity, t.accel, t.jerk);
         benchmark::DoNotOptimize(p);
     }
 }
@@ -97,16 +97,16 @@ void s_curve_plan_by_bisection(benchmark::State& state) {
     std::size_t i = 0;
     for (auto _ : state) {
         const Task& t = work[i++ & (task_count - 1)];
-        const auto speed_up = [&t](double v) {
+        const auto accel_duration = [&t](double v) {
             return v * t.jerk >= t.accel * t.accel ? v / t.accel + t.accel / t.jerk : 2 * std::sqrt(v / t.jerk);
         };
         double low = 0;
-        double high = t.speed;
+        double high = t.velocity;
         for (int k = 0; k < 52; ++k) {
             const double v = 0.5 * (low + high);
-            (v * speed_up(v) <= t.distance ? low : high) = v;
+            (v * accel_duration(v) <= t.distance ? low : high) = v;
         }
-        benchmark::DoNotOptimize(speed_up(low) + t.distance / low);
+        benchmark::DoNotOptimize(accel_duration(low) + t.distance / low);
     }
 }
 BENCHMARK(s_curve_plan_by_bisection);
@@ -144,15 +144,15 @@ void sample_s_curve_through_all_phases(benchmark::State& state) {
     const double jerks[7] = {2e4, 0, -2e4, 0, -2e4, 0, 2e4};
     double t = 0;
     for (auto _ : state) {
-        double position = 0, speed = 0, accel = 0, begin = 0;
+        double position = 0, velocity = 0, accel = 0, begin = 0;
         for (int k = 0; k < 7 && begin < t; ++k) {
             const double dt = std::min(t, ends[static_cast<std::size_t>(k)]) - begin;
-            position += dt * (speed + dt * (0.5 * accel + dt * jerks[k] / 6));
-            speed += dt * (accel + 0.5 * jerks[k] * dt);
+            position += dt * (velocity + dt * (0.5 * accel + dt * jerks[k] / 6));
+            velocity += dt * (accel + 0.5 * jerks[k] * dt);
             accel += jerks[k] * dt;
             begin += dt;
         }
-        benchmark::DoNotOptimize(position + speed + accel);
+        benchmark::DoNotOptimize(position + velocity + accel);
         t += 1e-4;
         if (t > p.duration()) t = 0;
     }
@@ -232,14 +232,15 @@ void look_ahead_with_full_passes(benchmark::State& state) {
         const Move& move = moves[i];
         const Geometry path = geometry_of(move, at);
         const AlongPathLimits along = limits.along(path, move);
-        const double joint = window.empty() ? 0
-                                            : limits.max_junction_velocity2(last, last_along.speed, path, along.speed,
-                                                                            move.path, move.tolerance_mm);
+        const double joint = window.empty()
+                                 ? 0
+                                 : limits.max_junction_velocity2(last, last_along.velocity, path, along.velocity,
+                                                                 move.path, move.tolerance_mm);
         if (window.size() == 1024) {
             committed = window[1].entry;
             window.erase(window.begin());
         }
-        window.push_back({joint, 2 * along.accel * path.length, along.speed * along.speed, 0});
+        window.push_back({joint, 2 * along.accel * path.length, along.velocity * along.velocity, 0});
         double entry = 0;
         for (std::size_t k = window.size(); k-- > 0;) {
             entry = std::min(window[k].joint, entry + window[k].reach);

@@ -25,16 +25,16 @@ std::vector<Task> tasks(double moving) {
     };
     std::vector<Task> out(task_count);
     for (Task& t : out) {
-        t.limits.speed = between(20, 200);
+        t.limits.velocity = between(20, 200);
         t.limits.accel = between(200, 2000);
         t.limits.jerk = between(4e3, 4e4);
         for (KinematicState* state : {&t.from, &t.to}) {
             state->position = between(-100, 100);
             // limits acceleration so that half of the velocity remains
-            const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.speed * t.limits.jerk));
+            const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.velocity * t.limits.jerk));
             state->accel = moving * between(-most, most);
-            const double room = t.limits.speed - 0.5 * state->accel * state->accel / t.limits.jerk;
-            state->speed = moving * between(-room, room);
+            const double room = t.limits.velocity - 0.5 * state->accel * state->accel / t.limits.jerk;
+            state->velocity = moving * between(-room, room);
         }
     }
     return out;
@@ -55,7 +55,8 @@ auto travel_of(const Task& t) {
 
 void s_curve_from_rest_to_rest(benchmark::State& state) {
     solve_all(state, tasks(0), [](const Task& t) {
-        return SCurveProfile(std::fabs(t.to.position - t.from.position), t.limits.speed, t.limits.accel, t.limits.jerk);
+        return SCurveProfile(std::fabs(t.to.position - t.from.position), t.limits.velocity, t.limits.accel,
+                             t.limits.jerk);
     });
 }
 BENCHMARK(s_curve_from_rest_to_rest);
@@ -81,14 +82,14 @@ BENCHMARK(travel_between_any_states_near);
 /// Initial velocity and acceleration up to twice their limits.
 void travel_from_outside(benchmark::State& state) {
     auto work = tasks(1);
-    for (Task& t : work) t.from = {t.from.position, 2 * t.from.speed, 2 * t.from.accel};
+    for (Task& t : work) t.from = {t.from.position, 2 * t.from.velocity, 2 * t.from.accel};
     solve_all(state, work, travel_of);
 }
 BENCHMARK(travel_from_outside);
 
 void change_of_speed(benchmark::State& state) {
     solve_all(state, tasks(1),
-              [](const Task& t) { return velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits); });
+              [](const Task& t) { return velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits); });
 }
 BENCHMARK(change_of_speed);
 

@@ -1,7 +1,7 @@
 // The canonical axis: the commands and queries of one axis, the same for every card. Units are mm or degrees, and
 // seconds.
 //
-//   position invalid ── home(), set_position() ──► valid ── emergency stop, alarm, stop_now() at speed ──► invalid
+//   position invalid ── home(), set_position() ──► valid ── emergency stop, alarm, stop_now() in motion ──► invalid
 //
 // Only wait() blocks. Commands start an action and step() continues it, so that one loop can serve many axes.
 #pragma once
@@ -20,18 +20,19 @@ class Axis {
     virtual ~Axis() = default;
 
     // ---- commands; a refused command (ErrorKind::refused) moves nothing
-    /// Starts a move to `position` at no more than `speed` (> 0); a double-S profile where the axis has a jerk limit.
-    /// Refused: position not valid, target outside the travel, speed above the axis limit or not finite, axis moving.
-    virtual Result<void> move_to(double position, double speed) = 0;
+    /// Starts a move to `position` at no more than `velocity` (> 0); a double-S profile if the axis has a jerk limit.
+    /// Refused: position not valid, target outside the travel, velocity above the axis limit or not finite, or the axis
+    /// is moving.
+    virtual Result<void> move_to(double position, double velocity) = 0;
     /// Starts a relative move by `distance`; also allowed while the position is not valid, because the travel is
     /// unknown then.
-    virtual Result<void> move_by(double distance, double speed) = 0;
-    /// Jogs at `speed`; the sign is the direction, 0 ends the jog. Keep calling: the axis decelerates when the calls
+    virtual Result<void> move_by(double distance, double velocity) = 0;
+    /// Jogs at `velocity`; the sign is the direction, 0 ends the jog. Keep calling: the axis decelerates when the calls
     /// stop for longer than its hold time. Changes the velocity on the fly; a reversal goes through a stop. Refused:
     /// above the limit, into an active limit switch, while the axis moves otherwise.
-    virtual Result<void> jog(double speed, Instant now) = 0;
+    virtual Result<void> jog(double velocity, Instant now) = 0;
     /// Starts homing. The position is not valid until home is found. Refused: switch or index not available, invalid
-    /// speeds, axis moving, alarm, emergency stop.
+    /// velocities, axis moving, alarm, emergency stop.
     virtual Result<void> home(const HomingRequest& order, Instant now) = 0;
     /// Sets the current position to `position`, which is valid afterwards. Refused while moving.
     virtual Result<void> set_position(double position) = 0;

@@ -19,10 +19,10 @@ enum class HomingMethod : std::uint8_t {
 
 struct HomingRequest {
     HomingMethod type = HomingMethod::twice_to_switch;
-    bool towards_plus = false;  ///< direction of the search
-    double speed = 0;           ///< search velocity, > 0, at most the velocity limit
-    double slow_speed = 0;  ///< latch velocity: second approach and index search, > 0, at most the velocity step limit
-    double position = 0;    ///< home offset: position value assigned at home
+    bool towards_plus = false;   ///< direction of the search
+    double search_velocity = 0;  ///< > 0, at most the velocity limit
+    double latch_velocity = 0;   ///< for the second approach and the index search, > 0, at most the velocity step limit
+    double position = 0;         ///< home offset: position value assigned at home
     /// Switch hysteresis: distance back until release. Edges that it does not explain invalidate the result. Absent:
     /// edges are not compared.
     std::optional<double> hysteresis;
@@ -42,9 +42,9 @@ struct HomingEdge {
     std::string what;   ///< "switch on", "switch off", "index"
     std::string state;  ///< homing state in which it was seen
     double position = 0;
-    double within = 0;   ///< position uncertainty, backwards along the motion; 0: exact to the pulse
-    double speed = 0;    ///< velocity of the axis at the edge
-    double seconds = 0;  ///< since the start of homing
+    double within = 0;    ///< position uncertainty, backwards along the motion; 0: exact to the pulse
+    double velocity = 0;  ///< velocity of the axis at the edge
+    double seconds = 0;   ///< since the start of homing
 };
 
 struct HomingStateVisit {

@@ -61,18 +61,18 @@ Result<void> LookAheadPlanner::push(const Move& move) {
 /// Returns the limits along a move, with a velocity that respects the minimum duration of the hardware.
 AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
     AlongPathLimits along = limits_.along(path, move);
-    if (min_seconds_ > 0) along.speed = std::min(along.speed, path.length / min_seconds_);
+    if (min_seconds_ > 0) along.velocity = std::min(along.velocity, path.length / min_seconds_);
     return along;
 }
 
 /// Returns the square of the junction velocity.
 double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& path,
                                             const AlongPathLimits& along) const {
-    const double joint = limits_.max_junction_velocity2(before.path, before.along.speed, path, along.speed,
+    const double joint = limits_.max_junction_velocity2(before.path, before.along.velocity, path, along.velocity,
                                                         before.control, before.tolerance_mm);
     if (joint <= 0 || drive_ == nullptr) return joint;
-    const double speed = drive_->max_junction_velocity(before.path, path);
-    return std::min(joint, speed * speed);
+    const double velocity = drive_->max_junction_velocity(before.path, path);
+    return std::min(joint, velocity * velocity);
 }
 
 /// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
@@ -83,21 +83,21 @@ LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geome
     if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return {};
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
-    const double ratio = drive_->speed_ratio(before.path, path);
+    const double ratio = drive_->velocity_ratio(before.path, path);
     return {std::max(1.0, ratio * ratio), cosine < min_cosine};
 }
 
 LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
                                                  const Gain& gain) const {
     const double usable = path.length - (drive_ != nullptr ? drive_->constant_velocity_length(path) : 0);
-    return {joint, 2 * along.accel * usable, along.speed * along.speed, 0, gain, along.accel * late_seconds_};
+    return {joint, 2 * along.accel * usable, along.velocity * along.velocity, 0, gain, along.accel * late_seconds_};
 }
 
 /// Returns the velocity2 from which a move can decelerate to the square `exit`: v^2 + 2 lag v = exit + reach.
 double LookAheadPlanner::braked(const Node& node, double exit) {
     if (node.lag == 0) return exit + node.reach;
-    const double speed = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
-    return speed * speed;
+    const double velocity = std::sqrt(node.lag * node.lag + exit + node.reach) - node.lag;
+    return velocity * velocity;
 }
 
 /// Returns the lowest velocity2 at the end of a move that begins with the square `entry`.
@@ -148,7 +148,7 @@ bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) 
 /// be used for changing the velocity.
 double LookAheadPlanner::min_length(const Geometry& path, const Move& move) const {
     constexpr double spent_lengths = 12;
-    return std::max(limits_.along(path, move).speed * min_seconds_,
+    return std::max(limits_.along(path, move).velocity * min_seconds_,
                     spent_lengths * drive_->constant_velocity_length(path));
 }
 

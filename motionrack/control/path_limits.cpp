@@ -42,7 +42,7 @@ PathLimits::PathLimits(const MachineLimits& limits) {
     for (int i = 0; i < axis_count; ++i) {
         const AxisLimits& axis = limits[i];
         present_[i] = axis.present;
-        per_speed_[i] = reciprocal(axis.max_velocity);
+        per_velocity_[i] = reciprocal(axis.max_velocity);
         per_accel_[i] = reciprocal(axis.max_accel);
         per_jump_[i] = reciprocal(axis.max_velocity_step);
         per_jerk_[i] = axis.max_jerk > 0 ? 1 / axis.max_jerk : -1;
@@ -60,28 +60,28 @@ int PathLimits::missing_axis(const Geometry& path) const {
 AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const {
     const bool arc = path.shape == PathShape::arc;
     const Point worst = max_tangent_components(path);
-    double per_speed = 0;
+    double per_velocity = 0;
     double per_accel = 0;
     for (int i = 0; i < axis_count; ++i) {
-        per_speed = std::max(per_speed, worst[i] * per_speed_[i]);
+        per_velocity = std::max(per_velocity, worst[i] * per_velocity_[i]);
         const bool in_plane = arc && (i == path.first || i == path.second);
         if (!in_plane) per_accel = std::max(per_accel, worst[i] * per_accel_[i]);
     }
     AlongPathLimits found;
-    found.speed = 1 / per_speed;
+    found.velocity = 1 / per_velocity;
     if (arc) {
         const double fraction = plane_fraction(path);
         const double per_plane_accel = std::max(per_accel_[path.first], per_accel_[path.second]);
         per_accel = std::max(per_accel, fraction * per_plane_accel / share_along_arc);
         const double pull_limit = share_towards_centre * path.radius / (per_plane_accel * fraction * fraction);
-        found.speed = std::min(found.speed, std::sqrt(pull_limit));
+        found.velocity = std::min(found.velocity, std::sqrt(pull_limit));
     }
     found.accel = 1 / per_accel;
     if (move.kind == MoveKind::rapid) {
-        found.speed *= move.rapid_override;
+        found.velocity *= move.rapid_override;
     } else {
-        found.speed =
-            std::min(found.speed, move.feed_mode == FeedMode::inverse_time ? path.length * move.feed : move.feed);
+        found.velocity =
+            std::min(found.velocity, move.feed_mode == FeedMode::inverse_time ? path.length * move.feed : move.feed);
     }
     if (any_jerk_ && !arc) {
         double per_jerk = 0;
@@ -121,11 +121,11 @@ double PathLimits::max_corner_velocity2(const Point& in, const Point& out, doubl
     return limit;
 }
 
-double PathLimits::max_junction_velocity2(const Geometry& before, double speed_before, const Geometry& after,
-                                          double speed_after, PathControl path, double tolerance_mm) const {
+double PathLimits::max_junction_velocity2(const Geometry& before, double velocity_before, const Geometry& after,
+                                          double velocity_after, PathControl path, double tolerance_mm) const {
     if (path == PathControl::exact_stop) return 0;
     if ((before.shape == PathShape::rotary) != (after.shape == PathShape::rotary)) return 0;
-    double limit = square(std::min(speed_before, speed_after));
+    double limit = square(std::min(velocity_before, velocity_after));
     if (!is_same_direction(before.tangent_out, after.tangent_in)) {
         if (path == PathControl::exact_path) return 0;
         const double mean_length = 0.5 * (before.length + after.length);

@@ -18,9 +18,9 @@ bool is_same_direction(const Point& in, const Point& out);
 
 /// Per unit of path length and second.
 struct AlongPathLimits {
-    double speed = 0;  ///< the feed rate, or less where an axis or the centripetal acceleration requires it
-    double accel = 0;  ///< for acceleration and deceleration, at every point of the path
-    double jerk = 0;   ///< straight moves whose axes all have a jerk limit; otherwise 0
+    double velocity = 0;  ///< the feed rate, or less where an axis or the centripetal acceleration requires it
+    double accel = 0;     ///< for acceleration and deceleration, at every point of the path
+    double jerk = 0;      ///< straight moves whose axes all have a jerk limit; otherwise 0
 };
 
 /// The axis limits, prepared so that a move costs a few products and one division.
@@ -30,7 +30,7 @@ class PathLimits {
 
     /// Returns the limits along `path`, which is not PathShape::nothing.
     ///
-    /// Lines and rotary moves: component * speed and component * acceleration stay within each axis' limits.
+    /// Lines and rotary moves: component * velocity and component * acceleration stay within each axis' limits.
     ///
     /// Arcs: let a be the lower acceleration limit of the plane's two axes. The centripetal acceleration stays within
     /// 0.8 a and the tangential one within 0.4 a. They are at right angles, so their sum is within 0.9 a in every
@@ -38,7 +38,7 @@ class PathLimits {
     AlongPathLimits along(const Geometry& path, const Move& move) const;
 
     /// Returns the square of the junction velocity between `before` and `after`, whose cruise velocities are
-    /// `speed_before` and `speed_after`. `path` and `tolerance_mm` belong to the move before the junction.
+    /// `velocity_before` and `velocity_after`. `path` and `tolerance_mm` belong to the move before the junction.
     ///
     /// exact_stop: 0. exact_path: 0 if the direction changes (see tangent_angle_rad).
     /// continuous: the machine passes the corner itself, so the velocity of each axis has a step. It stays within
@@ -48,8 +48,8 @@ class PathLimits {
     ///   - the mean acceleration from the middle of one move to the middle of the next, so that a curve made of many
     ///     short lines is not faster than the same curve as an arc.
     /// 0 between moves of XYZ and moves of ABC only, because their lengths have different units.
-    double max_junction_velocity2(const Geometry& before, double speed_before, const Geometry& after,
-                                  double speed_after, PathControl path, double tolerance_mm) const;
+    double max_junction_velocity2(const Geometry& before, double velocity_before, const Geometry& after,
+                                  double velocity_after, PathControl path, double tolerance_mm) const;
 
     /// Returns an axis that moves on `path` but is missing on the machine, or -1.
     int missing_axis(const Geometry& path) const;
@@ -58,7 +58,7 @@ class PathLimits {
     double max_corner_velocity2(const Point& in, const Point& out, double mean_length, double tolerance_mm) const;
 
     // 1 / limit: large for an axis without a velocity step, -1 for an axis without a jerk limit
-    std::array<double, axis_count> per_speed_;
+    std::array<double, axis_count> per_velocity_;
     std::array<double, axis_count> per_accel_;
     std::array<double, axis_count> per_jerk_;
     std::array<double, axis_count> per_jump_;

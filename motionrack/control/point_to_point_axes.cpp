@@ -35,7 +35,7 @@ Result<void> PointToPointAxes::begin() {
     return {};
 }
 
-double PointToPointAxes::speed_of(const PlannedMove& move, std::size_t axis) const {
+double PointToPointAxes::velocity_of(const PlannedMove& move, std::size_t axis) const {
     const double most = limits_[axis].max_velocity;
     if (move.move.kind == MoveKind::rapid) return most;
     const double feed = move.move.feed_mode == FeedMode::inverse_time ? move.move.feed * move.length : move.move.feed;
@@ -55,7 +55,7 @@ Result<void> PointToPointAxes::order(const PlannedMove& move) {
                         move.move.line));
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (!moves(i)) continue;
-        if (Result<void> begun = axes_[i]->move_to(move.move.end[i], speed_of(move, i)); !begun) {
+        if (Result<void> begun = axes_[i]->move_to(move.move.end[i], velocity_of(move, i)); !begun) {
             stop(false);
             static_cast<void>(wait());
             return begun;

@@ -33,7 +33,7 @@ class PointToPointAxes final : public AxisGroup {
     Result<void> dwell(double seconds);
     Result<void> order(const PlannedMove& move);
     Result<void> wait();
-    double speed_of(const PlannedMove& move, std::size_t axis) const;
+    double velocity_of(const PlannedMove& move, std::size_t axis) const;
 
     std::array<Axis*, axis_count> axes_;
     MachineLimits limits_;

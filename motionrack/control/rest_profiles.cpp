@@ -20,11 +20,11 @@ double cube_root(double x) {
     return x * y * y;
 }
 
-TrapezoidalProfile::TrapezoidalProfile(double distance, double speed, double accel)
+TrapezoidalProfile::TrapezoidalProfile(double distance, double velocity, double accel)
     : distance_(distance), accel_(accel) {
     const double reach = accel * distance;
-    if (reach > speed * speed) {
-        cruise_at(speed);
+    if (reach > velocity * velocity) {
+        cruise_at(velocity);
         return;
     }
     peak_ = std::sqrt(reach);
@@ -33,7 +33,7 @@ TrapezoidalProfile::TrapezoidalProfile(double distance, double speed, double acc
     duration_ = 2 * cruise_from_;
 }
 
-TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel)
+TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exit, double velocity, double accel)
     : distance_(distance), entry_(entry), exit_(exit), accel_(accel) {
     const double reach = accel * distance;
     const double half_gain = 0.5 * (exit - entry) * (exit + entry);  // change of velocity2
@@ -42,8 +42,8 @@ TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exi
         return;
     }
     const double peak_squared = 0.5 * (entry * entry + exit * exit) + reach;
-    if (peak_squared > speed * speed) {
-        cruise_at(std::max({speed, entry, exit}));
+    if (peak_squared > velocity * velocity) {
+        cruise_at(std::max({velocity, entry, exit}));
         return;
     }
     peak_ = std::max({std::sqrt(peak_squared), entry, exit});
@@ -55,14 +55,14 @@ TrapezoidalProfile::TrapezoidalProfile(double distance, double entry, double exi
     duration_ = cruise_from_ + 2 * (distance - cruise_start_) / (exit + peak_);
 }
 
-void TrapezoidalProfile::cruise_at(double speed) {
+void TrapezoidalProfile::cruise_at(double velocity) {
     const double per_accel = 1 / accel_;
-    const double up = (speed - entry_) * per_accel;
-    const double down = (speed - exit_) * per_accel;
-    peak_ = speed;
+    const double up = (velocity - entry_) * per_accel;
+    const double down = (velocity - exit_) * per_accel;
+    peak_ = velocity;
     cruise_from_ = up;
-    cruise_start_ = 0.5 * (entry_ + speed) * up;
-    cruise_until_ = up + std::max(0.0, (distance_ - cruise_start_ - 0.5 * (exit_ + speed) * down) / speed);
+    cruise_start_ = 0.5 * (entry_ + velocity) * up;
+    cruise_until_ = up + std::max(0.0, (distance_ - cruise_start_ - 0.5 * (exit_ + velocity) * down) / velocity);
     duration_ = cruise_until_ + down;
 }
 
@@ -78,52 +78,52 @@ void TrapezoidalProfile::clamp_exit_velocity() {
     }
 }
 
-SCurveProfile::SCurveProfile(double distance, double speed, double accel, double jerk) : distance_(distance) {
+SCurveProfile::SCurveProfile(double distance, double velocity, double accel, double jerk) : distance_(distance) {
     if (!(distance > 0)) return;
     const double accel_squared = accel * accel;
-    double rise = 0;      // s, phases 0 and 2
-    double speed_up = 0;  // s, phases 0 to 2
+    double rise = 0;            // s, phases 0 and 2
+    double accel_duration = 0;  // s, phases 0 to 2
     double cruise = 0;
-    peak_ = speed;
+    peak_ = velocity;
     peak_accel_ = accel;
-    if (speed * jerk >= accel_squared) {
+    if (velocity * jerk >= accel_squared) {
         rise = accel / jerk;
-        speed_up = rise + speed / accel;
-        if (distance >= speed * speed_up) {
-            cruise = distance / speed - speed_up;
+        accel_duration = rise + velocity / accel;
+        if (distance >= velocity * accel_duration) {
+            cruise = distance / velocity - accel_duration;
         } else if (distance * jerk >= 2 * accel * rise * accel) {
             // peak^2 + accel rise peak = accel distance
             const double b = accel * rise;
             peak_ = 2 * accel * distance / (b + std::sqrt(b * b + 4 * accel * distance));
-            speed_up = distance / peak_;
+            accel_duration = distance / peak_;
         } else {
             rise = cube_root(0.5 * distance / jerk);
-            speed_up = 2 * rise;
+            accel_duration = 2 * rise;
             peak_accel_ = jerk * rise;
             peak_ = peak_accel_ * rise;
         }
     } else {
-        rise = std::sqrt(speed / jerk);
-        speed_up = 2 * rise;
-        if (distance >= speed * speed_up) {
-            cruise = distance / speed - speed_up;
+        rise = std::sqrt(velocity / jerk);
+        accel_duration = 2 * rise;
+        if (distance >= velocity * accel_duration) {
+            cruise = distance / velocity - accel_duration;
         } else {
             rise = cube_root(0.5 * distance / jerk);
-            speed_up = 2 * rise;
+            accel_duration = 2 * rise;
             peak_ = jerk * rise * rise;
         }
         peak_accel_ = jerk * rise;
     }
     cruise = std::max(cruise, 0.0);
-    duration_ = 2 * speed_up + cruise;
+    duration_ = 2 * accel_duration + cruise;
 
-    const double speed_0 = 0.5 * peak_accel_ * rise;  // at the end of phase 0
-    ends_ = {rise, speed_up - rise, speed_up};
+    const double velocity_0 = 0.5 * peak_accel_ * rise;  // at the end of phase 0
+    ends_ = {rise, accel_duration - rise, accel_duration};
     const double sixth = jerk * (1.0 / 6);
     phases_[0] = {0, 0, 0, 0, sixth, jerk};
-    phases_[1] = {rise, speed_0 * rise * (1.0 / 3), speed_0, 0.5 * peak_accel_, 0, 0};
+    phases_[1] = {rise, velocity_0 * rise * (1.0 / 3), velocity_0, 0.5 * peak_accel_, 0, 0};
     // phase 2 is stored backwards from its end, where the acceleration is 0
-    phases_[2] = {speed_up, 0.5 * peak_ * speed_up, peak_, 0, -sixth, -jerk};
+    phases_[2] = {accel_duration, 0.5 * peak_ * accel_duration, peak_, 0, -sixth, -jerk};
 }
 
 std::array<double, 7> SCurveProfile::phase_ends() const {

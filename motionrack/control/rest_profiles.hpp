@@ -19,7 +19,7 @@ namespace motionrack::control {
 /// Kinematic state at an instant of a profile.
 struct ProfileSample {
     double position;  ///< from the start of the profile
-    double speed;
+    double velocity;
     double accel;
     double jerk;  ///< in the current phase; 0 for trapezoids
 };
@@ -29,12 +29,12 @@ class TrapezoidalProfile {
   public:
     TrapezoidalProfile() = default;
 
-    /// From standstill to standstill. `distance` >= 0, `speed` > 0, `accel` > 0, all finite.
-    TrapezoidalProfile(double distance, double speed, double accel);
+    /// From standstill to standstill. `distance` >= 0, `velocity` > 0, `accel` > 0, all finite.
+    TrapezoidalProfile(double distance, double velocity, double accel);
 
-    /// From `entry` to `exit`, both 0 .. `speed`. If the distance is too short for this change of velocity, clamps the
-    /// exit velocity to the nearest reachable one; see exit().
-    TrapezoidalProfile(double distance, double entry, double exit, double speed, double accel);
+    /// From `entry` to `exit`, both 0 .. `velocity`. If the distance is too short for this change of velocity, clamps
+    /// the exit velocity to the nearest reachable one; see exit().
+    TrapezoidalProfile(double distance, double entry, double exit, double velocity, double accel);
 
     double distance() const { return distance_; }  ///< length
     double duration() const { return duration_; }  ///< s
@@ -49,7 +49,7 @@ class TrapezoidalProfile {
     ProfileSample sample(double t) const;
 
   private:
-    void cruise_at(double speed);
+    void cruise_at(double velocity);
     void clamp_exit_velocity();
 
     double distance_ = 0;
@@ -70,7 +70,7 @@ class SCurveProfile {
     SCurveProfile() = default;
 
     /// `distance` >= 0, the others > 0, all finite.
-    SCurveProfile(double distance, double speed, double accel, double jerk);
+    SCurveProfile(double distance, double velocity, double accel, double jerk);
 
     double distance() const { return distance_; }      ///< length
     double duration() const { return duration_; }      ///< s
@@ -88,7 +88,7 @@ class SCurveProfile {
     struct CubicPhase {
         double zero = 0;
         double position = 0;
-        double speed = 0;
+        double velocity = 0;
         double half_accel = 0;
         double sixth_jerk = 0;
         double jerk = 0;
@@ -127,10 +127,10 @@ inline ProfileSample SCurveProfile::sample(double t) const {
     if (u >= ends_[2]) return {0.5 * distance_ + peak_ * (t - 0.5 * duration_), peak_, 0, 0};
     const CubicPhase& p = phases_[static_cast<std::size_t>((u >= ends_[0]) + (u >= ends_[1]))];
     const double s = u - p.zero;
-    const double position = p.position + s * (p.speed + s * (p.half_accel + s * p.sixth_jerk));
-    const double speed = p.speed + s * (2 * p.half_accel + 3 * p.sixth_jerk * s);
+    const double position = p.position + s * (p.velocity + s * (p.half_accel + s * p.sixth_jerk));
+    const double velocity = p.velocity + s * (2 * p.half_accel + 3 * p.sixth_jerk * s);
     const double accel = 2 * p.half_accel + p.jerk * s;
-    return {first_half ? position : distance_ - position, speed, first_half ? accel : -accel, p.jerk};
+    return {first_half ? position : distance_ - position, velocity, first_half ? accel : -accel, p.jerk};
 }
 
 }  // namespace motionrack::control

@@ -107,7 +107,7 @@ void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
     cut.step.move.index = read_++;
     if (on_move_) on_move_(cut.step.move, read_to_);
     if (cut.path.shape == PathShape::nothing) return;
-    const double wanted = limits_.along(cut.path, step.move).speed * settings_.slice_s;
+    const double wanted = limits_.along(cut.path, step.move).velocity * settings_.slice_s;
     const Point worst = max_tangent_components(cut.path);
     double pulses = 0;  // pulses of the fastest axis per unit of length
     for (std::size_t i = 0; i < worst.size(); ++i)

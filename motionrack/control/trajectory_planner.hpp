@@ -23,7 +23,7 @@ class DriveConstraints {
     /// Returns the minimum time between two velocity updates of an auxiliary axis, s.
     virtual double min_velocity_update_s() const { return 0; }
     /// Returns the factor on the path velocity at the junction of two moves while the hardware keeps its pulse rate.
-    virtual double speed_ratio(const Geometry& before, const Geometry& after) const {
+    virtual double velocity_ratio(const Geometry& before, const Geometry& after) const {
         (void)before, (void)after;
         return 1;
     }

@@ -76,13 +76,14 @@ constexpr std::array<Setting, 22> table = {{
      nullptr},
     {24, 3, "homing feed, mm/min",
      [](const RackConfig& c) {
-         return of_homing(c,
-                          [](const control::HomingRequest& order, const RackAxis&) { return order.slow_speed * 60; });
+         return of_homing(
+             c, [](const control::HomingRequest& order, const RackAxis&) { return order.latch_velocity * 60; });
      },
      nullptr},
     {25, 3, "homing seek, mm/min",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.speed * 60; });
+         return of_homing(
+             c, [](const control::HomingRequest& order, const RackAxis&) { return order.search_velocity * 60; });
      },
      nullptr},
     {26, 0, "homing debounce, ms",

@@ -294,10 +294,10 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
     control::HomingRequest order;
     order.type = static_cast<control::HomingMethod>(h.type);
     order.towards_plus = plus;
-    order.speed =
+    order.search_velocity =
         h.speed.value_or(std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
-    const double slow = std::min(axis.max_velocity_step, order.speed);
-    order.slow_speed = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
+    const double slow = std::min(axis.max_velocity_step, order.search_velocity);
+    order.latch_velocity = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
     // The switch is active at and below its position, so a search upwards ends at its release.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);

@@ -29,7 +29,7 @@ std::string head_line(const HomedAxis& axis) {
     const control::HomingResult& o = axis.outcome;
     std::string out = fmt::format("axis {}  method {}, {} direction, search at {:.4g} {}/s, latch at {:.4g} {}/s\n",
                                   axis.letter, static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
-                                  axis.order.speed, axis.unit, axis.order.slow_speed, axis.unit);
+                                  axis.order.search_velocity, axis.unit, axis.order.latch_velocity, axis.unit);
     if (!axis.begun) return out + "  not begun\n";
     return out + fmt::format("  {} after {:.3f} s, {}\n", o.homed ? "homed" : "not homed", o.took_s,
                              o.homed ? "the position is trusted" : "the position is not trusted");
@@ -49,7 +49,7 @@ std::string axis_text(const HomedAxis& axis) {
         out += fmt::format("\n  {:<14} {:>9} {:>9} {:>12} {:>12}   {}\n", "found", "at s", axis.unit + "/s",
                            "at " + axis.unit, "or before", "in");
     for (const control::HomingEdge& edge : o.edges)
-        out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:>12}   {}\n", edge.what, edge.seconds, edge.speed,
+        out += fmt::format("  {:<14} {:9.3f} {:9.3f} {:12.4f} {:>12}   {}\n", edge.what, edge.seconds, edge.velocity,
                            plain(edge.position), edge.within > 0 ? fmt::format("{:.4f}", edge.within) : "exact",
                            edge.state);
     out += '\n';
@@ -70,8 +70,8 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
                                 {"unit", axis.unit},
                                 {"method", static_cast<int>(axis.order.type)},
                                 {"search_direction", axis.order.towards_plus ? "plus" : "minus"},
-                                {"search_velocity", axis.order.speed},
-                                {"latch_velocity", axis.order.slow_speed},
+                                {"search_velocity", axis.order.search_velocity},
+                                {"latch_velocity", axis.order.latch_velocity},
                                 {"begun", axis.begun},
                                 {"homed", o.homed},
                                 {"duration_s", rounded(o.took_s)},
@@ -90,7 +90,7 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
                               {"time_s", rounded(edge.seconds)},
                               {"position", rounded(edge.position)},
                               {"within", rounded(edge.within)},
-                              {"velocity", rounded(edge.speed)}});
+                              {"velocity", rounded(edge.velocity)}});
     j["switch_to_index"] =
         o.switch_to_index ? nlohmann::ordered_json(rounded(*o.switch_to_index)) : nlohmann::ordered_json(nullptr);
     j["bounces"] = o.bounces;

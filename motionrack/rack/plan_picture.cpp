@@ -22,11 +22,11 @@ constexpr double looks = 8000, min_looks = 24;
 /// Values over time.
 struct Track {
     std::vector<double> seconds;
-    std::vector<float> speed;
+    std::vector<float> velocity;
 
     void add(double time, double value) {
         seconds.push_back(time);
-        speed.push_back(static_cast<float>(value));
+        velocity.push_back(static_cast<float>(value));
     }
 };
 
@@ -95,7 +95,7 @@ class Looks {
     }
 
     void add(double time, const control::TrajectoryPoint& state) {
-        const control::Point& v = state.speed;
+        const control::Point& v = state.velocity;
         path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : greatest(v[3], v[4], v[5]));
         driven.push_back({state.place[0], state.place[1], state.place[2]});
         for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -109,7 +109,7 @@ class Looks {
     }
     void drop() {
         path.seconds.pop_back();
-        path.speed.pop_back();
+        path.velocity.pop_back();
         driven.pop_back();
         for (AxisTrack& axis : axes) axis.accel.pop_back(), axis.jerk.pop_back();
     }
@@ -136,7 +136,8 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                 double from = 0;
                 for (const double end : curve.phase_ends()) {
                     for (int i = 0; i <= 5; ++i)
-                        out.add(begin + from + (end - from) * i / 5, curve.sample(from + (end - from) * i / 5).speed);
+                        out.add(begin + from + (end - from) * i / 5,
+                                curve.sample(from + (end - from) * i / 5).velocity);
                     from = end;
                 }
             } else {
@@ -144,7 +145,7 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                                                             planned.exit_velocity, planned.cruise_velocity,
                                                             planned.accel);
                 out.add(begin, planned.entry_velocity);
-                for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).speed);
+                for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).velocity);
             }
             begin += control::seconds_of(planned);
         }
@@ -166,11 +167,11 @@ Track looked_at(const Track& corners, double end) {
     for (int i = 0; i <= static_cast<int>(looks); ++i) {
         const double time = end * i / looks;
         while (k + 1 < corners.seconds.size() && corners.seconds[k + 1] <= time) ++k;
-        const double from = static_cast<double>(corners.speed[k]);
+        const double from = static_cast<double>(corners.velocity[k]);
         if (k + 1 == corners.seconds.size())
             out.add(time, time > corners.seconds[k] ? 0 : from);
         else
-            out.add(time, from + (static_cast<double>(corners.speed[k + 1]) - from) * (time - corners.seconds[k]) /
+            out.add(time, from + (static_cast<double>(corners.velocity[k + 1]) - from) * (time - corners.seconds[k]) /
                                      (corners.seconds[k + 1] - corners.seconds[k]));
     }
     return out;
@@ -179,8 +180,8 @@ Track looked_at(const Track& corners, double end) {
 std::vector<trace::SvgChart> charts_of(const Looks& plan, const Track& trapezoids, const RackConfig& config) {
     std::vector<trace::SvgChart> out;
     out.push_back({fmt::format("path speed, {}/s", plan.is_linear() ? "mm" : "deg"),
-                   {{"trapezoids", "b", trapezoids.seconds, trapezoids.speed},
-                    {"jerk-limited", "z", plan.path.seconds, plan.path.speed}},
+                   {{"trapezoids", "b", trapezoids.seconds, trapezoids.velocity},
+                    {"jerk-limited", "z", plan.path.seconds, plan.path.velocity}},
                    {}});
     for (const RackAxis& axis : config.axes) {
         const AxisTrack& track = plan.axes[static_cast<std::size_t>(axis.index())];
@@ -209,9 +210,9 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
     const int height =
         std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : max_path_height,
                    min_path_height, max_path_height);
-    const double most = static_cast<double>(*std::max_element(plan.path.speed.begin(), plan.path.speed.end()));
+    const double most = static_cast<double>(*std::max_element(plan.path.velocity.begin(), plan.path.velocity.end()));
     return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false},
-                            {plan.path.speed, most, "mm/s"}),
+                            {plan.path.velocity, most, "mm/s"}),
             height};
 }
 

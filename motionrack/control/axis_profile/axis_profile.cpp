@@ -18,32 +18,32 @@ struct Scale {
     explicit Scale(const KinematicLimits& limits)
         : accel(1 / limits.accel),
           seconds(limits.accel / limits.jerk),
-          speed(limits.jerk * accel * accel),
-          position(speed * limits.jerk * accel),
-          top(limits.speed * speed) {}
+          velocity(limits.jerk * accel * accel),
+          position(velocity * limits.jerk * accel),
+          top(limits.velocity * velocity) {}
     double accel;
     double seconds;  ///< user seconds in one scaled second
-    double speed;
+    double velocity;
     double position;
     double top;
 };
 
 /// Returns the velocity when the acceleration has reached 0.
-double speed_at_last(double speed, double accel) {
-    return speed + 0.5 * accel * std::fabs(accel);
+double velocity_at_last(double velocity, double accel) {
+    return velocity + 0.5 * accel * std::fabs(accel);
 }
 
-bool ends_within(double speed, double accel, double top) {
-    return std::fabs(accel) <= to_roundings && std::fabs(speed) + 0.5 * accel * accel <= top * to_roundings;
+bool ends_within(double velocity, double accel, double top) {
+    return std::fabs(accel) <= to_roundings && std::fabs(velocity) + 0.5 * accel * accel <= top * to_roundings;
 }
 
 bool usable(const KinematicLimits& limits) {
     const auto amount = [](double x) { return x > 0 && std::isfinite(x); };
-    return amount(limits.speed) && amount(limits.accel) && amount(limits.jerk);
+    return amount(limits.velocity) && amount(limits.accel) && amount(limits.jerk);
 }
 
 bool finite(const KinematicState& s) {
-    return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel);
+    return std::isfinite(s.position) && std::isfinite(s.velocity) && std::isfinite(s.accel);
 }
 
 }  // namespace
@@ -54,17 +54,17 @@ class AxisProfileBuilder {
     AxisProfileBuilder(AxisProfile& out, const KinematicState& from, const KinematicLimits& limits, const Scale& scale)
         : out_(out), at_(from), limits_(limits), scale_(scale) {
         out_.start_ = from;
-        speed_ = from.speed * scale.speed;
+        velocity_ = from.velocity * scale.velocity;
         accel_ = from.accel * scale.accel;
     }
 
     double way() const { return way_; }
 
     /// Returns the conditions from the current state to a velocity in user units, the other values scaled.
-    BoundaryConditions course_to(double speed, double accel, double way) const {
-        const double end = speed * scale_.speed;
-        const double change = time_ == 0 ? (speed - at_.speed) * scale_.speed : end - speed_;
-        return {speed_, accel_, end, accel, way, change};
+    BoundaryConditions course_to(double velocity, double accel, double way) const {
+        const double end = velocity * scale_.velocity;
+        const double change = time_ == 0 ? (velocity - at_.velocity) * scale_.velocity : end - velocity_;
+        return {velocity_, accel_, end, accel, way, change};
     }
 
     void bring_accel_within() {
@@ -75,14 +75,14 @@ class AxisProfileBuilder {
     }
 
     /// Returns the maximum velocity for the following phases, which the start may exceed by rounding.
-    double bring_speed_within() {
-        const double last = speed_at_last(speed_, accel_);
-        const double most = std::max(std::fabs(last), std::fabs(speed_));
+    double bring_velocity_within() {
+        const double last = velocity_at_last(velocity_, accel_);
+        const double most = std::max(std::fabs(last), std::fabs(velocity_));
         if (most <= scale_.top * to_roundings) return std::max(most, scale_.top);
         if (std::fabs(last) > scale_.top) {
             brake(last > 0 ? 1 : -1);
         } else {
-            brake(speed_ > 0 ? 1 : -1);
+            brake(velocity_ > 0 ? 1 : -1);
         }
         return scale_.top;
     }
@@ -102,7 +102,7 @@ class AxisProfileBuilder {
             forward(-side, p.fall);
         }
         if (p.cruise > 0) {
-            at_.speed = way * (top > scale_.top ? top / scale_.speed : limits_.speed);
+            at_.velocity = way * (top > scale_.top ? top / scale_.velocity : limits_.velocity);
             at_.accel = 0;
             forward(0, p.cruise);
         }
@@ -126,8 +126,8 @@ class AxisProfileBuilder {
             const Part& part = tail_[k];
             if (part.jerk == 0) at.accel = part.hold * limits_.accel;
             const double jerk = part.jerk * limits_.jerk, seconds = part.seconds * scale_.seconds;
-            out_.phases_[static_cast<std::size_t>(--last)] = {end[k + 1], end[k + 1], -seconds, at.position,
-                                                              at.speed,   at.accel,   jerk};
+            out_.phases_[static_cast<std::size_t>(--last)] = {end[k + 1],  end[k + 1], -seconds, at.position,
+                                                              at.velocity, at.accel,   jerk};
             at = after(at, jerk, -seconds);
         }
         out_.duration_ = end[3];
@@ -135,13 +135,13 @@ class AxisProfileBuilder {
     }
 
     /// Adds a direct velocity change, stored forwards.
-    void change(const DirectVelocityChange& change, double speed, double accel) {
+    void change(const DirectVelocityChange& change, double velocity, double accel) {
         const double side = change.mirrored ? -1 : 1;
         forward(side, change.rise);
         hold(side, change.hold);
         forward(-side, change.fall);
         out_.duration_ = time_;
-        out_.target_ = {at_.position, speed, accel};
+        out_.target_ = {at_.position, velocity, accel};
     }
 
   private:
@@ -150,8 +150,8 @@ class AxisProfileBuilder {
     };
 
     static KinematicState after(const KinematicState& s, double jerk, double t) {
-        return {s.position + t * (s.speed + t * (0.5 * s.accel + t * jerk * (1.0 / 6))),
-                s.speed + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
+        return {s.position + t * (s.velocity + t * (0.5 * s.accel + t * jerk * (1.0 / 6))),
+                s.velocity + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
     }
 
     /// `sign`: of the jerk; `scaled`: duration in scaled s.
@@ -167,8 +167,8 @@ class AxisProfileBuilder {
             last->end = time_;
             last->seconds += seconds;
         } else if (time_ > zero) {
-            out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,     zero,      seconds, at_.position,
-                                                                     at_.speed, at_.accel, jerk};
+            out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,        zero,      seconds, at_.position,
+                                                                     at_.velocity, at_.accel, jerk};
         }
         goes_on_ = goes_on_ || time_ > zero;
         at_ = after(at_, jerk, seconds);
@@ -182,16 +182,16 @@ class AxisProfileBuilder {
 
     /// Adds a phase before the solution; tracks it in scaled units as well, for the remaining distance.
     void ramp(double sign, double t) {
-        way_ += t * (speed_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
-        speed_ += t * (accel_ + 0.5 * t * sign);
+        way_ += t * (velocity_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
+        velocity_ += t * (accel_ + 0.5 * t * sign);
         accel_ += t * sign;
         forward(sign, t);
     }
 
     void keep(double t) {
         if (!(t > 0)) return;
-        way_ += t * (speed_ + 0.5 * t * accel_);
-        speed_ += t * accel_;
+        way_ += t * (velocity_ + 0.5 * t * accel_);
+        velocity_ += t * accel_;
         hold(accel_ > 0 ? 1 : -1, t);
     }
 
@@ -199,23 +199,24 @@ class AxisProfileBuilder {
     /// that keeps the velocity above minus the maximum.
     void brake(double side) {
         const double top = scale_.top;
-        const double over = side * speed_ - top, accel = side * accel_;
+        const double over = side * velocity_ - top, accel = side * accel_;
         const double steepest = -std::min(1.0, 2 * std::sqrt(top));
         const double at_top = -std::sqrt(std::max(0.0, accel * accel + 2 * over));
         if (at_top >= steepest) {
             ramp(-side, std::max(0.0, accel - at_top));
             accel_ = side * at_top;
         } else {
-            const DirectVelocityChange change = direct_velocity_change({side * speed_, accel, top, steepest, 0, -over});
+            const DirectVelocityChange change =
+                direct_velocity_change({side * velocity_, accel, top, steepest, 0, -over});
             ramp(-side, change.rise);
             if (change.hold > 0) accel_ = -side;
             keep(change.hold);
             ramp(side, change.fall);
             accel_ = side * steepest;
         }
-        speed_ = side * top;
+        velocity_ = side * top;
         // continue exactly at the limit: far outside, rounding errors are large relative to the limits
-        at_.speed = side * limits_.speed;
+        at_.velocity = side * limits_.velocity;
         at_.accel = accel_ * limits_.accel;
         goes_on_ = false;
     }
@@ -225,44 +226,45 @@ class AxisProfileBuilder {
     const KinematicLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
-    bool goes_on_ = true;             ///< at_ is exactly the end of the last phase
-    double speed_, accel_, way_ = 0;  ///< scaled
+    bool goes_on_ = true;                ///< at_ is exactly the end of the last phase
+    double velocity_, accel_, way_ = 0;  ///< scaled
     std::array<Part, 3> tail_ = {};
 };
 
-bool is_feasible_end(double speed, double accel, const KinematicLimits& limits) {
+bool is_feasible_end(double velocity, double accel, const KinematicLimits& limits) {
     const Scale scale(limits);
-    return usable(limits) && ends_within(speed * scale.speed, accel * scale.accel, scale.top);
+    return usable(limits) && ends_within(velocity * scale.velocity, accel * scale.accel, scale.top);
 }
 
 std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, const KinematicState& to,
                                                 const KinematicLimits& limits) {
     const Scale scale(limits);
-    const double end_speed = to.speed * scale.speed;
+    const double end_velocity = to.velocity * scale.velocity;
     const double end_accel = std::clamp(to.accel * scale.accel, -1.0, 1.0);
     if (!usable(limits) || !finite(from) || !finite(to)) return std::nullopt;
-    if (!ends_within(end_speed, to.accel * scale.accel, scale.top)) return std::nullopt;
+    if (!ends_within(end_velocity, to.accel * scale.accel, scale.top)) return std::nullopt;
     std::optional<AxisProfile> out(std::in_place);
     AxisProfileBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
-    double top = builder.bring_speed_within();
-    top = std::max(top, std::fabs(end_speed) + 0.5 * end_accel * end_accel);
+    double top = builder.bring_velocity_within();
+    top = std::max(top, std::fabs(end_velocity) + 0.5 * end_accel * end_accel);
     const double way = (to.position - from.position) * scale.position - builder.way();
     const double slack = 4.5e-16 * (std::fabs(from.position) + std::fabs(to.position)) * scale.position;
-    builder.add(solve_time_optimal(builder.course_to(to.speed, end_accel, way), top, slack), top);
+    builder.add(solve_time_optimal(builder.course_to(to.velocity, end_accel, way), top, slack), top);
     builder.end_at(to);
     return out;
 }
 
-std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
+std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double velocity, double accel,
                                                    const KinematicLimits& limits) {
     const Scale scale(limits);
-    const double end_speed = speed * scale.speed, end_accel = accel * scale.accel;
-    if (!usable(limits) || !finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
+    const double end_velocity = velocity * scale.velocity, end_accel = accel * scale.accel;
+    if (!usable(limits) || !finite(from) || !ends_within(end_velocity, end_accel, scale.top)) return std::nullopt;
     std::optional<AxisProfile> out(std::in_place);
     AxisProfileBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
-    builder.change(direct_velocity_change(builder.course_to(speed, std::clamp(end_accel, -1.0, 1.0), 0)), speed, accel);
+    builder.change(direct_velocity_change(builder.course_to(velocity, std::clamp(end_accel, -1.0, 1.0), 0)), velocity,
+                   accel);
     return out;
 }
 

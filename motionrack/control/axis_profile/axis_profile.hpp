@@ -22,13 +22,13 @@ namespace motionrack::control {
 /// Position, velocity and acceleration of an axis.
 struct KinematicState {
     double position = 0;
-    double speed = 0;  ///< signed
-    double accel = 0;  ///< signed
+    double velocity = 0;  ///< signed
+    double accel = 0;     ///< signed
 };
 
 /// Absolute limits, for both directions; all > 0 and finite.
 struct KinematicLimits {
-    double speed = 0;
+    double velocity = 0;
     double accel = 0;
     double jerk = 0;
 };
@@ -41,8 +41,8 @@ class AxisProfile {
         double end;  ///< s from the start of the profile
         double
             zero;  ///< s from the start of the profile: start of the phase, or its end if the phase is stored backwards
-        double seconds;                 ///< duration, more exact than `end`; < 0 if the phase is stored backwards
-        double position, speed, accel;  ///< at `zero`
+        double seconds;                    ///< duration, more exact than `end`; < 0 if the phase is stored backwards
+        double position, velocity, accel;  ///< at `zero`
         double jerk;
 
         /// Returns the state at `t`, s from the start of the profile, within the phase.
@@ -50,8 +50,8 @@ class AxisProfile {
             // `end` of a long profile is less exact than the duration of a phase, and must not cause a limit violation
             double s = t - zero;
             s = seconds < 0 ? (s < seconds ? seconds : s > 0 ? 0 : s) : (s > seconds ? seconds : s < 0 ? 0 : s);
-            return {position + s * (speed + s * (0.5 * accel + s * jerk * (1.0 / 6))),
-                    speed + s * (accel + 0.5 * s * jerk), accel + s * jerk, jerk};
+            return {position + s * (velocity + s * (0.5 * accel + s * jerk * (1.0 / 6))),
+                    velocity + s * (accel + 0.5 * s * jerk), accel + s * jerk, jerk};
         }
     };
     static constexpr int max_phases = 9;
@@ -80,9 +80,9 @@ class AxisProfile {
 };
 
 /// Returns true if a motion can end in this state and continue within the limits. This requires |accel| <= limits.accel
-/// and |speed| + accel^2 / (2 limits.jerk) <= limits.speed, to 1e-10 of the limits. Returns false for numbers that are
-/// not finite.
-bool is_feasible_end(double speed, double accel, const KinematicLimits& limits);
+/// and |velocity| + accel^2 / (2 limits.jerk) <= limits.velocity, to 1e-10 of the limits. Returns false for numbers
+/// that are not finite.
+bool is_feasible_end(double velocity, double accel, const KinematicLimits& limits);
 
 /// Computes the time-optimal profile from `from` to `to`; its duration is exact to 1e-8 of itself and of 1 s. Velocity
 /// and acceleration stay within 1 + 1e-9 of the limits. `from` is any state of finite numbers. An acceleration outside
@@ -97,7 +97,7 @@ std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, cons
 /// Computes the fastest change to a velocity and an acceleration; the end position is free. An acceleration outside the
 /// limits is brought within them first; a velocity outside is left on the way to the target. Returns nothing as
 /// time_optimal_profile().
-std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double speed, double accel,
+std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, double velocity, double accel,
                                                    const KinematicLimits& limits);
 
 /// Computes the fastest stop; the end position is free; as velocity_change_profile() to 0. Returns nothing if a number
@@ -105,8 +105,8 @@ std::optional<AxisProfile> velocity_change_profile(const KinematicState& from, d
 std::optional<AxisProfile> stop_profile(const KinematicState& from, const KinematicLimits& limits);
 
 inline ProfileSample AxisProfile::sample(double t) const {
-    if (!(t > 0)) return {start_.position, start_.speed, start_.accel, count_ > 0 ? phases_[0].jerk : 0};
-    if (t >= duration_) return {target_.position, target_.speed, target_.accel, 0};
+    if (!(t > 0)) return {start_.position, start_.velocity, start_.accel, count_ > 0 ? phases_[0].jerk : 0};
+    if (t >= duration_) return {target_.position, target_.velocity, target_.accel, 0};
     const CubicPhase* p = phases_.data();
     while (t >= p->end) ++p;
     return p->at(t);

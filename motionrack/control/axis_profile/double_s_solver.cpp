@@ -63,7 +63,7 @@ DirectVelocityChange direct_velocity_change(const BoundaryConditions& c) {
     const double sum = c.start_accel + c.end_accel;
     const double ramp = 0.5 * sum * std::fabs(c.end_accel - c.start_accel);
     const double size =
-        std::fabs(c.start_speed) + std::fabs(c.end_speed) + squared(c.start_accel) + squared(c.end_accel);
+        std::fabs(c.start_velocity) + std::fabs(c.end_velocity) + squared(c.start_accel) + squared(c.end_accel);
     const double more = c.change - ramp;
     const bool mirrored = std::fabs(more) <= 2 * relative_rounding * size ? sum < 0 : more < 0;
     const double sign = mirrored ? -1 : 1;
@@ -78,12 +78,12 @@ DirectVelocityChange direct_velocity_change(const BoundaryConditions& c) {
 DoubleSSolver::DoubleSSolver(const BoundaryConditions& c, double top)
     : start_accel_(c.start_accel),
       end_accel_(c.end_accel),
-      start_foot_(c.start_speed - 0.5 * squared(c.start_accel)),
-      end_foot_(c.end_speed - 0.5 * squared(c.end_accel)),
+      start_foot_(c.start_velocity - 0.5 * squared(c.start_accel)),
+      end_foot_(c.end_velocity - 0.5 * squared(c.end_accel)),
       rise_(c.change + 0.5 * (c.start_accel - c.end_accel) * (c.start_accel + c.end_accel)),
       both_(start_foot_ + end_foot_),
-      reach_(c.distance - (c.end_speed * c.end_accel - cube_third(c.end_accel)) +
-             (c.start_speed * c.start_accel - cube_third(c.start_accel))),
+      reach_(c.distance - (c.end_velocity * c.end_accel - cube_third(c.end_accel)) +
+             (c.start_velocity * c.start_accel - cube_third(c.start_accel))),
       top_(top),
       least_(-c.end_accel) {
     if (rise_ < 0 && end_accel_ < 0) {
@@ -278,14 +278,14 @@ TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double t
     const BoundaryConditions course = direct.mirrored ? given.mirrored() : given;
     // distance of the direct change, phase by phase from both ends
     const double a = course.start_accel, b = course.end_accel;
-    const double first = direct.rise * (course.start_speed + direct.rise * (0.5 * a + direct.rise * (1.0 / 6)));
-    const double last = direct.fall * (course.end_speed - direct.fall * (0.5 * b + direct.fall * (1.0 / 6)));
-    const double speed = course.start_speed + direct.rise * (a + 0.5 * direct.rise);
-    const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
+    const double first = direct.rise * (course.start_velocity + direct.rise * (0.5 * a + direct.rise * (1.0 / 6)));
+    const double last = direct.fall * (course.end_velocity - direct.fall * (0.5 * b + direct.fall * (1.0 / 6)));
+    const double velocity = course.start_velocity + direct.rise * (a + 0.5 * direct.rise);
+    const double held = direct.hold * (velocity + 0.5 * direct.hold * (a + direct.rise));
     const double more = course.distance - (first + held + last);
     const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
-    const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
-    const double sensitive = speeds * speeds + (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b));
+    const double velocities = std::fabs(course.start_velocity) + std::fabs(course.end_velocity);
+    const double sensitive = velocities * velocities + (velocities + a * a + b * b) * (std::fabs(a) + std::fabs(b));
     const double most = std::max(a + direct.rise, std::max(std::fabs(a), std::fabs(b)));
     const double noise = slack + noise_of(parts, sensitive, most);
     if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};

@@ -28,16 +28,16 @@ namespace motionrack::control {
 
 /// Velocity and acceleration at both ends, and the distance.
 struct BoundaryConditions {
-    double start_speed, start_accel;
-    double end_speed, end_accel;
+    double start_velocity, start_accel;
+    double end_velocity, end_accel;
     double distance;
     double change;  ///< velocity difference: more exact than the difference of nearly equal velocities
 
     BoundaryConditions mirrored() const {
-        return {-start_speed, -start_accel, -end_speed, -end_accel, -distance, -change};
+        return {-start_velocity, -start_accel, -end_velocity, -end_accel, -distance, -change};
     }
     BoundaryConditions backwards() const {
-        return {-end_speed, end_accel, -start_speed, start_accel, -distance, change};
+        return {-end_velocity, end_accel, -start_velocity, start_accel, -distance, change};
     }
 };
 

@@ -223,7 +223,7 @@ const CanonCall* Interpreter::pull_next() {
     event_.flood = modes_.flood;
     event_.overridable = modes_.feed_override;
     switch (what) {
-        case todo_speed:
+        case todo_spindle_speed:
             event_.kind = CanonCallKind::spindle_speed;
             break;
         case todo_tool_select:

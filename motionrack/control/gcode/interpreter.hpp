@@ -164,7 +164,7 @@ class Interpreter {
     enum Todo : std::uint32_t {
         todo_held = 1,
         todo_comments = 2,
-        todo_speed = 4,
+        todo_spindle_speed = 4,
         todo_tool_select = 8,
         todo_wait = 16,
         todo_port = 32,

@@ -8,7 +8,7 @@ namespace motionrack::control::gcode {
 bool Interpreter::apply_machine_words() {
     if (block_.has('S')) {
         next_.speed_rpm = block_['S'];
-        todo_ |= todo_speed;
+        todo_ |= todo_spindle_speed;
     }
     if (block_.has('T')) {
         next_.tool_selected = static_cast<std::int32_t>(block_['T']);

@@ -52,9 +52,9 @@ struct Sum {
         for (int i = 0; i < 3; ++i) width -= (at(width) - room) / slope(width);
         return width;
     }
-    double need(double speed) const {
-        const double by_accel = 2 * per_accel * speed * speed / unnoticed;
-        const double by_jerk = std::sqrt(4 * per_jerk * speed * speed * speed / unnoticed);
+    double need(double velocity) const {
+        const double by_accel = 2 * per_accel * velocity * velocity / unnoticed;
+        const double by_jerk = std::sqrt(4 * per_jerk * velocity * velocity * velocity / unnoticed);
         return std::max({by_accel, by_jerk, narrowest_need});
     }
 };
@@ -132,7 +132,7 @@ double CornerBlends::proposed_width(std::int64_t k) const {
         const double d_before = before >= first ? own.u - (*this)[before].u : most;
         const double d_after = after < past ? (*this)[after].u - own.u : most;
         const double width = std::min(most, 2 * std::min(d_before, d_after));
-        const double need = std::max(sum.need(own.speed), from);
+        const double need = std::max(sum.need(own.velocity), from);
         const double widest = std::min(need, width);
         if (widest > 0 && sum.at(widest) >= own.tolerance) return sum.solve(widest, own.tolerance);
         if (need <= width) return need;

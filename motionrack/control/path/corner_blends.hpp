@@ -27,7 +27,7 @@ struct CornerBlend {
     double rotary = 0;           ///< change of the rotary axis with the largest change
     double tolerance = 0;        ///< largest deviation from the corner by blending: mm, or degrees where only ABC move
     double room_per_rotary = 0;  ///< weight of a degree of the rotary axes in `tolerance`
-    double speed = 0;            ///< maximum du/dt here
+    double velocity = 0;         ///< maximum du/dt here
     double per_accel =
         0;  ///< change relative to the axis limit, largest over the axes: gives the blend length for a velocity
     double per_jerk = 0;

@@ -23,7 +23,7 @@ double rising_seconds(const LegLimits& leg) {
     const double full = leg.accel / leg.jerk, by_jerk = cube_root(4 * leg.length / leg.jerk);
     const double to_middle =
         by_jerk > 2 * full ? 0.5 * full + std::sqrt(0.25 * full * full + leg.length / leg.accel) : by_jerk;
-    return std::min(ramp_duration_s(leg.speed, leg), to_middle);
+    return std::min(ramp_duration_s(leg.velocity, leg), to_middle);
 }
 
 /// Returns the time in which the acceleration of such a leg rises, s.
@@ -35,8 +35,9 @@ double rise_of(const LegLimits& leg) {
 double leg_seconds_over(double way, const LegLimits& leg) {
     const double rise = rise_of(leg), left = way - leg.jerk * rise * rise * rise / 6;
     if (left <= 0) return cube_root(6 * way / leg.jerk);
-    const double accel = leg.jerk * rise, speed = 0.5 * accel * rise;
-    return std::min(rising_seconds(leg), rise + 2 * left / (speed + std::sqrt(speed * speed + 2 * accel * left)));
+    const double accel = leg.jerk * rise, velocity = 0.5 * accel * rise;
+    return std::min(rising_seconds(leg),
+                    rise + 2 * left / (velocity + std::sqrt(velocity * velocity + 2 * accel * left)));
 }
 
 LegLimits eased(LegLimits leg, double share) {
@@ -61,14 +62,14 @@ JerkReduction ease_for(const LegLimits& leg, double share, double seconds) {
 double cost_of(const JerkReduction& ease, const LegLimits& leg) {
     const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
     const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;
-    const double speed_then = 0.5 * slow * first, speed = speed_then + 0.5 * (slow + accel) * second;
-    const double way = ease.length + second * (speed_then + second * (0.5 * slow + second * leg.jerk / 6));
+    const double velocity_then = 0.5 * slow * first, velocity = velocity_then + 0.5 * (slow + accel) * second;
+    const double way = ease.length + second * (velocity_then + second * (0.5 * slow + second * leg.jerk / 6));
     const double rise = accel / leg.jerk;
-    const double later = first + second - speed / accel - 0.5 * rise,
-                 nearer = accel * rise * rise / 24 - (way - 0.5 * speed * speed / accel);
+    const double later = first + second - velocity / accel - 0.5 * rise,
+                 nearer = accel * rise * rise / 24 - (way - 0.5 * velocity * velocity / accel);
     const double all_of_it =
         (rising_seconds(eased(leg, ease.share)) - rising_seconds(leg)) * 2 * ease.length / leg.length;
-    return std::max(all_of_it, later + nearer / std::max(speed, accel * (rising_seconds(leg) - rise)));
+    return std::max(all_of_it, later + nearer / std::max(velocity, accel * (rising_seconds(leg) - rise)));
 }
 
 double max_overlap_s(const LegLimits& before, const LegLimits& after, double corner_tolerance_mm) {

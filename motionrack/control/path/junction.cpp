@@ -11,7 +11,7 @@ constexpr double no_corner_limit = 1e300;
 /// Number of bisections for velocities: durations are compared, not executed.
 constexpr int corner_halvings = 12;
 
-/// Returns the largest velocity in least .. most for which distance(speed), an increasing function, is at most
+/// Returns the largest velocity in least .. most for which distance(velocity), an increasing function, is at most
 /// `length`.
 template <class Distance>
 double fastest(double least, double most, double length, Distance distance) {
@@ -25,11 +25,11 @@ double fastest(double least, double most, double length, Distance distance) {
 
 /// A passed end of a leg.
 struct Side {
-    double speed = 0, half_blend_length = 0;
+    double velocity = 0, half_blend_length = 0;
 };
 Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
     if (stops) return {};
-    return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half_blend_length : 0};
+    return {std::min(joint.velocity, leg.velocity), joint.velocity < leg.velocity ? joint.half_blend_length : 0};
 }
 
 /// Returns the minimum of limit / |tangent| over the axes, and of `least`.
@@ -69,8 +69,8 @@ Junction junction_between(const LegLimits& before, const LegLimits& after, const
     const double by_jerk = cube_root(0.25 * max_curvature_share * width * width * max_jerk_along(change, limits));
     Junction joint;
     joint.can_pass = true;
-    joint.speed = std::min(by_accel, by_jerk);
-    joint.can_stop = joint.speed < std::max(before.speed, after.speed);
+    joint.velocity = std::min(by_accel, by_jerk);
+    joint.can_stop = joint.velocity < std::max(before.velocity, after.velocity);
     joint.half_blend_length = 0.5 * width;
     return joint;
 }
@@ -78,24 +78,24 @@ Junction junction_between(const LegLimits& before, const LegLimits& after, const
 double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at_begin, const Junction& end,
                       bool stops_at_end) {
     Side low = side_at(begin, stops_at_begin, leg), high = side_at(end, stops_at_end, leg);
-    if (low.speed > high.speed) std::swap(low, high);
+    if (low.velocity > high.velocity) std::swap(low, high);
     const double rest = std::max(0.0, leg.length - low.half_blend_length - high.half_blend_length);
     const double gain = 0.5 * ((stops_at_begin ? begin.gain : 0) + (stops_at_end ? end.gain : 0));
     const auto way = [&](double from, double to) { return 0.5 * (from + to) * ramp_duration_s(to - from, leg); };
     const auto turn_seconds = [](const Side& side) {
-        return side.half_blend_length > 0 ? side.half_blend_length / side.speed : 0;
+        return side.half_blend_length > 0 ? side.half_blend_length / side.velocity : 0;
     };
     double seconds = turn_seconds(low) - gain;
-    if (way(low.speed, high.speed) > rest) {
-        high.speed = fastest(low.speed, high.speed, rest, [&](double to) { return way(low.speed, to); });
-        return high.speed > 0 ? seconds + turn_seconds(high) + ramp_duration_s(high.speed - low.speed, leg)
-                              : no_corner_limit;
+    if (way(low.velocity, high.velocity) > rest) {
+        high.velocity = fastest(low.velocity, high.velocity, rest, [&](double to) { return way(low.velocity, to); });
+        return high.velocity > 0 ? seconds + turn_seconds(high) + ramp_duration_s(high.velocity - low.velocity, leg)
+                                 : no_corner_limit;
     }
     seconds += turn_seconds(high);
-    const auto ways = [&](double top) { return way(low.speed, top) + way(high.speed, top); };
-    const double top = fastest(high.speed, leg.speed, rest, ways);
+    const auto ways = [&](double top) { return way(low.velocity, top) + way(high.velocity, top); };
+    const double top = fastest(high.velocity, leg.velocity, rest, ways);
     if (top > 0)
-        seconds += ramp_duration_s(top - low.speed, leg) + ramp_duration_s(top - high.speed, leg) +
+        seconds += ramp_duration_s(top - low.velocity, leg) + ramp_duration_s(top - high.velocity, leg) +
                    std::max(0.0, rest - ways(top)) / top;
     return seconds;
 }

@@ -18,13 +18,13 @@ inline constexpr double max_curvature_share = 0.8;
 /// A move and the limits of the axes along it; mm or degrees, and s.
 struct LegLimits {
     double length = 0;
-    double speed = 0, accel = 0, jerk = 0;
+    double velocity = 0, accel = 0, jerk = 0;
 };
 
 struct Junction {
     bool can_stop = true;
     bool can_pass = false;
-    double speed = 0;              ///< junction velocity that the axes allow
+    double velocity = 0;           ///< junction velocity that the axes allow
     double half_blend_length = 0;  ///< half of the blend length, mm or degrees
     double gain = 0;  ///< time gained by a stop because the next move starts before the previous one ends, s
 

@@ -193,7 +193,7 @@ void PathBuilder::add_corner(const MergedSegment& segment) {
     const Tolerance room = room_between(last_, segment);
     turn.tolerance = segment.rotary ? room.rotary : room.linear;
     turn.room_per_rotary = turn.tolerance / room.rotary;
-    turn.speed = std::max(last_.speed, segment.speed);
+    turn.velocity = std::max(last_.velocity, segment.velocity);
     turn.feed = segment.feed;
     turn.line = segment.line;
     turns_.added();

@@ -141,7 +141,7 @@ MergedSegment SegmentMerger::segment_of(const Move& move, const Geometry& path) 
             move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
     else
         segment.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * segment.length : move.feed;
-    segment.speed = std::min(segment.feed, fastest);
+    segment.velocity = std::min(segment.feed, fastest);
     return segment;
 }
 
@@ -219,19 +219,19 @@ Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegmen
     }
     joint.can_stop = false;
     joint.can_pass = true;
-    joint.speed = std::numeric_limits<double>::infinity();
+    joint.velocity = std::numeric_limits<double>::infinity();
     return joint;
 }
 
 LegLimits SegmentMerger::leg_of(const MergedSegment& segment) const {
-    LegLimits leg{segment.length, segment.speed, max_accel_along(segment.tangent_in, limits_),
+    LegLimits leg{segment.length, segment.velocity, max_accel_along(segment.tangent_in, limits_),
                   max_jerk_along(segment.tangent_in, limits_)};
     if (segment.kind != MergedSegmentKind::arc) return leg;
     for (const Point& tangent : {segment.tangent_out, segment.arc.at(0.5 * segment.length).tangent}) {
         leg.accel = std::min(leg.accel, max_accel_along(tangent, limits_));
         leg.jerk = std::min(leg.jerk, max_jerk_along(tangent, limits_));
     }
-    leg.speed = std::min(leg.speed, std::sqrt(max_curvature_share * leg.accel / segment.arc.max_curvature()));
+    leg.velocity = std::min(leg.velocity, std::sqrt(max_curvature_share * leg.accel / segment.arc.max_curvature()));
     return leg;
 }
 
@@ -287,7 +287,7 @@ bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
     last_.end = next.end;
     make_line(last_);
     last_.feed = std::min(last_.feed, next.feed);
-    last_.speed = std::min(last_.speed, next.speed);
+    last_.velocity = std::min(last_.velocity, next.velocity);
     return true;
 }
 
@@ -338,7 +338,7 @@ void SegmentMerger::add_left_out() {
         double turned = 0;
         for (int i = 3; i < axis_count; ++i) turned = std::max(turned, std::fabs(path.end[i] - path.start[i]));
         if (turned > path.length) last_.feed *= path.length / turned;
-        last_.speed = std::min(last_.speed, last_.feed);
+        last_.velocity = std::min(last_.velocity, last_.feed);
     }
     open_ = true;
     inner_count_ = 0;

@@ -47,7 +47,7 @@ struct MergedSegment {
     Tolerance tolerance;  ///< total tolerance
     Tolerance merged;     ///< share used by merging chords
     double feed = 0;      ///< maximum du/dt by the programmed feed rate
-    double speed = 0;     ///< the lower of this and the limits of the axes
+    double velocity = 0;  ///< the lower of this and the limits of the axes
     JerkReduction ease_in, ease_out;
     double seconds = 0;              ///< rest
     double corner_tolerance_mm = 0;  ///< rest: largest distance of the path from the sides of the corner here

@@ -7,10 +7,10 @@ namespace motionrack::control {
 /// limits of every axis.
 struct LimitInterval {
     double length = 0;
-    double speed = 0;
-    double accel = 0;      ///< acceleration limit at any velocity up to `speed`
+    double velocity = 0;
+    double accel = 0;      ///< acceleration limit at any velocity up to `velocity`
     double jerk = 0;       ///< in both directions, at any velocity and acceleration up to these
-    double brake = accel;  ///< deceleration limit at any velocity up to `speed`
+    double brake = accel;  ///< deceleration limit at any velocity up to `velocity`
 };
 
 }  // namespace motionrack::control

@@ -48,9 +48,9 @@ Series series_of(double square) {
 }
 
 /// Returns the position on a cell after `time`.
-double moved(const ProfileSegment& cell, double speed, double time) {
+double moved(const ProfileSegment& cell, double velocity, double time) {
     const Series series = series_of(0.5 * cell.velocity2_curvature * time * time);
-    return speed * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
+    return velocity * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
 }
 
 double square_at(const ProfileSegment& cell, double x) {
@@ -74,14 +74,14 @@ ProfileSegment feed_cell(double begin, double length, double square, double slop
 void settle(ProfileSegment& cell) {
     if (cell.phase != ProfileSegmentKind::cell) return;
     const double length = cell.length, slope = cell.velocity2_slope, bend = cell.velocity2_curvature;
-    const double speed = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
+    const double velocity = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
     // It is slower than at both ends only if it decelerates first and accelerates again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
-    const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
-    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)),
+    const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(velocity, end);
+    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(velocity, end)),
            time = std::min(most, cell.seconds);
     for (int step = 0; step < 60; ++step) {
-        const double there = moved(cell, speed, time);
+        const double there = moved(cell, velocity, time);
         (there < length ? least : most) = time;
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
         const bool inside = next > least && next < most;
@@ -93,14 +93,14 @@ void settle(ProfileSegment& cell) {
     cell.seconds = time;
 }
 
-ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {
-    return {ProfileSegmentKind::ramp, begin, length, seconds, speed * speed, 2 * accel, 0, jerk};
+ProfileSegment feed_ramp(double begin, double length, double seconds, double velocity, double accel, double jerk) {
+    return {ProfileSegmentKind::ramp, begin, length, seconds, velocity * velocity, 2 * accel, 0, jerk};
 }
 
-// speed = jerk t^2/2, length = jerk t^3/6
+// velocity = jerk t^2/2, length = jerk t^3/6
 ProfileSegment feed_launch(double begin, double length, double square) {
-    const double speed = std::sqrt(square), seconds = 3 * length / speed;
-    return {ProfileSegmentKind::launch, begin, length, seconds, 0, 0, 0, 2 * speed / (seconds * seconds)};
+    const double velocity = std::sqrt(square), seconds = 3 * length / velocity;
+    return {ProfileSegmentKind::launch, begin, length, seconds, 0, 0, 0, 2 * velocity / (seconds * seconds)};
 }
 
 ProfileSegment feed_landing(double begin, double length, double square) {
@@ -117,20 +117,21 @@ PathMotion ProfileSegment::at(double time) const {
         return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
     }
     if (phase == ProfileSegmentKind::ramp) {
-        const double speed = std::sqrt(velocity2), accel = 0.5 * velocity2_slope;
-        return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
-                speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
+        const double velocity = std::sqrt(velocity2), accel = 0.5 * velocity2_slope;
+        return {begin + time * (velocity + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
+                velocity + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
     }
     const double x = std::clamp(moved(*this, std::sqrt(velocity2), time), 0.0, length);
-    const double speed = std::sqrt(square_at(*this, x));
-    return {begin + x, speed, 0.5 * (velocity2_slope + velocity2_curvature * x), 0.5 * velocity2_curvature * speed};
+    const double velocity = std::sqrt(square_at(*this, x));
+    return {begin + x, velocity, 0.5 * (velocity2_slope + velocity2_curvature * x),
+            0.5 * velocity2_curvature * velocity};
 }
 
 PathMotion ProfileSegment::last() const {
     if (phase != ProfileSegmentKind::cell) return at(seconds);
-    const double speed = std::sqrt(square_at(*this, length));
-    return {begin + length, speed, 0.5 * (velocity2_slope + velocity2_curvature * length),
-            0.5 * velocity2_curvature * speed};
+    const double velocity = std::sqrt(square_at(*this, length));
+    return {begin + length, velocity, 0.5 * (velocity2_slope + velocity2_curvature * length),
+            0.5 * velocity2_curvature * velocity};
 }
 
 }  // namespace motionrack::control

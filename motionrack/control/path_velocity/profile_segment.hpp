@@ -16,7 +16,7 @@ namespace motionrack::control {
 /// The motion along the path at an instant.
 struct PathMotion {
     double u = 0;  ///< position on the path
-    double speed = 0;
+    double velocity = 0;
     double accel = 0;
     double jerk = 0;
 };
@@ -47,7 +47,7 @@ void settle(ProfileSegment& piece);
 /// Makes a cell with its exact duration.
 ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend);
 /// Makes a segment of constant jerk from a velocity and an acceleration. All may have any sign as long as u increases.
-ProfileSegment feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk);
+ProfileSegment feed_ramp(double begin, double length, double seconds, double velocity, double accel, double jerk);
 /// Make a segment from standstill at `begin` to velocity2 at the end, and the reverse.
 ProfileSegment feed_launch(double begin, double length, double square);
 ProfileSegment feed_landing(double begin, double length, double square);

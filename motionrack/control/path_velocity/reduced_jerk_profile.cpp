@@ -28,56 +28,56 @@ class End {
           max_accel_(limits.accel),
           first_(cube_root(6 * eased_way / eased_jerk)),
           accel_(eased_jerk * first_),
-          speed_(0.5 * accel_ * first_) {}
+          velocity_(0.5 * accel_ * first_) {}
 
     double eased_way() const { return way_; }
-    double speed() const { return speed_; }  ///< velocity at the end of the reduced-jerk part
+    double velocity() const { return velocity_; }  ///< velocity at the end of the reduced-jerk part
     double accel() const { return accel_; }
     bool is_possible() const { return accel_ <= max_accel_; }
     /// Returns the minimum peak velocity: the acceleration falls as soon as the reduced-jerk part ends.
-    double min_speed() const { return speed_ + 0.5 * accel_ * accel_ / jerk_; }
+    double min_velocity() const { return velocity_ + 0.5 * accel_ * accel_ / jerk_; }
 
-    Rise to(double speed) const {
+    Rise to(double velocity) const {
         Rise out;
-        const double square = jerk_ * (speed - speed_) + 0.5 * accel_ * accel_;
+        const double square = jerk_ * (velocity - velocity_) + 0.5 * accel_ * accel_;
         out.accel = std::max(accel_, std::min(max_accel_, std::sqrt(std::max(0.0, square))));
         out.steeper = (out.accel - accel_) / jerk_;
         out.flatter = out.accel / jerk_;
-        out.even_from = speed_ + 0.5 * (accel_ + out.accel) * out.steeper;
-        out.even_until = speed - 0.5 * out.accel * out.flatter;
+        out.even_from = velocity_ + 0.5 * (accel_ + out.accel) * out.steeper;
+        out.even_until = velocity - 0.5 * out.accel * out.flatter;
         out.even = std::max(0.0, (out.even_until - out.even_from) / out.accel);
-        out.steeper_way = out.steeper * (speed_ + out.steeper * (0.5 * accel_ + out.steeper * jerk_ / 6));
+        out.steeper_way = out.steeper * (velocity_ + out.steeper * (0.5 * accel_ + out.steeper * jerk_ / 6));
         out.even_way = 0.5 * out.even * (out.even_from + out.even_until);
-        out.flatter_way = out.flatter * (speed - out.flatter * out.accel / 6);
+        out.flatter_way = out.flatter * (velocity - out.flatter * out.accel / 6);
         return out;
     }
-    double way_to(double speed) const {
-        const Rise rise = to(speed);
+    double way_to(double velocity) const {
+        const Rise rise = to(velocity);
         return way_ + rise.steeper_way + rise.even_way + rise.flatter_way;
     }
 
   private:
-    double way_, jerk_, max_accel_, first_, accel_, speed_;
+    double way_, jerk_, max_accel_, first_, accel_, velocity_;
 };
 
 /// Finds the highest velocity for which the remaining length is not negative, by false position.
 std::optional<double> max_reachable_velocity(const End& begin, const End& end, double length, double most) {
-    const auto over = [&](double speed) { return begin.way_to(speed) + end.way_to(speed) - length; };
-    double low = std::max(begin.min_speed(), end.min_speed()), high = most;
+    const auto over = [&](double velocity) { return begin.way_to(velocity) + end.way_to(velocity) - length; };
+    double low = std::max(begin.min_velocity(), end.min_velocity()), high = most;
     if (!(low <= high)) return std::nullopt;
     double over_low = over(low), over_high = over(high);
     if (over_low > 0) return std::nullopt;
     if (over_high <= 0) return high;
     int side = 0;
     for (int step = 0; step < max_steps && high - low > settled_part_of_ease * high; ++step) {
-        const double speed = (low * over_high - high * over_low) / (over_high - over_low), here = over(speed);
-        if (!(speed > low && speed < high)) break;
+        const double velocity = (low * over_high - high * over_low) / (over_high - over_low), here = over(velocity);
+        if (!(velocity > low && velocity < high)) break;
         if (here <= 0) {
-            low = speed, over_low = here;
+            low = velocity, over_low = here;
             if (side < 0) over_high *= 0.5;
             side = -1;
         } else {
-            high = speed, over_high = here;
+            high = velocity, over_high = here;
             if (side > 0) over_low *= 0.5;
             side = 1;
         }
@@ -88,7 +88,7 @@ std::optional<double> max_reachable_velocity(const End& begin, const End& end, d
 /// Returns true if only the jerk at one or both ends differs.
 bool is_eased_line(std::span<const LimitInterval> intervals, const LimitInterval& full) {
     return std::all_of(intervals.begin(), intervals.end(), [&](const LimitInterval& interval) {
-        return interval.speed == full.speed && interval.accel == full.accel && interval.brake == full.accel &&
+        return interval.velocity == full.velocity && interval.accel == full.accel && interval.brake == full.accel &&
                interval.jerk <= full.jerk;
     });
 }
@@ -107,21 +107,21 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::v
     };
     const End begin = end_of(first > 0, 0), end = end_of(first + 1 < intervals.size(), intervals.size() - 1);
     if (!begin.is_possible() || !end.is_possible()) return false;
-    const std::optional<double> found = max_reachable_velocity(begin, end, length, full.speed);
+    const std::optional<double> found = max_reachable_velocity(begin, end, length, full.velocity);
     if (!found) return false;
     const double peak = *found, jerk = full.jerk;
     const Rise up = begin.to(peak), down = end.to(peak);
     double at = 0;
-    const auto add = [&](double way, double seconds, double speed, double accel, double change) {
+    const auto add = [&](double way, double seconds, double velocity, double accel, double change) {
         if (!(seconds > 0)) return;
-        out.push_back(feed_ramp(at, way, seconds, speed, accel, change));
+        out.push_back(feed_ramp(at, way, seconds, velocity, accel, change));
         at += way;
     };
     // Without reduced jerk the first phase is the launch.
     const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;
     at = eased_begin ? begin.eased_way() : up.steeper_way;
-    out.push_back(feed_launch(0, at, eased_begin ? begin.speed() * begin.speed() : up.even_from * up.even_from));
-    if (eased_begin) add(up.steeper_way, up.steeper, begin.speed(), begin.accel(), jerk);
+    out.push_back(feed_launch(0, at, eased_begin ? begin.velocity() * begin.velocity() : up.even_from * up.even_from));
+    if (eased_begin) add(up.steeper_way, up.steeper, begin.velocity(), begin.accel(), jerk);
     add(up.even_way, up.even, up.even_from, up.accel, 0);
     add(up.flatter_way, up.flatter, up.even_until, up.accel, -jerk);
     const double cruise = length - begin.way_to(peak) - end.way_to(peak);
@@ -130,8 +130,8 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::v
     add(down.even_way, down.even, down.even_until, -down.accel, 0);
     if (eased_end) add(down.steeper_way, down.steeper, down.even_from, -down.accel, jerk);
     const double landing = eased_end ? end.eased_way() : down.steeper_way,
-                 landing_speed = eased_end ? end.speed() : down.even_from;
-    out.push_back(feed_landing(length - landing, landing, landing_speed * landing_speed));
+                 landing_velocity = eased_end ? end.velocity() : down.even_from;
+    out.push_back(feed_landing(length - landing, landing, landing_velocity * landing_velocity));
     return true;
 }
 

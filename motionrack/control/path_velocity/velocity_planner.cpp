@@ -17,7 +17,7 @@ constexpr double min_square = 1e-6;
 
 bool all_alike(std::span<const LimitInterval> intervals) {
     return std::all_of(intervals.begin(), intervals.end(), [&](const LimitInterval& interval) {
-        return interval.speed == intervals[0].speed && interval.accel == intervals[0].accel &&
+        return interval.velocity == intervals[0].velocity && interval.accel == intervals[0].accel &&
                interval.brake == intervals[0].accel && interval.jerk == intervals[0].jerk;
     });
 }
@@ -95,8 +95,8 @@ void VelocityPlanner::solve_from_previous() {
         while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
         const ProfileSegment& piece = before_[k];
         if (known != k) {
-            begin = piece.at(0).speed;
-            end = piece.last().speed;
+            begin = piece.at(0).velocity;
+            end = piece.last().velocity;
             known = k;
         }
         const double part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);

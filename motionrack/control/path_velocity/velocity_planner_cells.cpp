@@ -25,7 +25,7 @@ constexpr double first_part = 0.1;
 constexpr double min_part = 1e-13;
 
 LimitInterval min_of(const LimitInterval& a, const LimitInterval& b) {
-    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk),
+    return {a.length, std::min(a.velocity, b.velocity), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk),
             std::min(a.brake, b.brake)};
 }
 
@@ -49,7 +49,7 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> inte
         if (within) {
             const LimitInterval all = min_of(least, interval);
             const double fits = launch_length(
-                all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
+                all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.velocity / all.jerk)));
             const bool alike = interval.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * interval.jerk;
             if (n > 0 && (fits <= before || !alike)) {
                 end.length = std::min(end.length, before);
@@ -62,7 +62,7 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> inte
         if (n > 0)
             end.length = std::min(
                 end.length,
-                std::max(before * max_launch, launch_length(least.jerk, std::sqrt(interval.speed / least.jerk))));
+                std::max(before * max_launch, launch_length(least.jerk, std::sqrt(interval.velocity / least.jerk))));
         before += interval.length;
         within = within && before < end.length;
     }
@@ -74,16 +74,16 @@ VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> inte
 double VelocityPlanner::target_cell_length(const LimitInterval& interval) const {
     const double seconds = std::clamp(std::max(interval.accel, interval.brake) / interval.jerk,
                                       min_cell_s * settings_.cell_seconds, settings_.cell_seconds);
-    return std::min(std::max(interval.speed * seconds, interval.length / max_cells_of_an_interval),
+    return std::min(std::max(interval.velocity * seconds, interval.length / max_cells_of_an_interval),
                     length_ / min_feed_cells);
 }
 
 /// Returns the first cell size of a continued motion. It is short, because the initial state is assumed for the whole
 /// cell, and at most as long as its velocity and acceleration last.
 double VelocityPlanner::first_size(double wanted) const {
-    const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.velocity2),
+    const double by_velocity = 2 * settings_.cell_seconds * std::sqrt(start_.velocity2),
                  slope = std::fabs(start_.velocity2_slope);
-    return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.velocity2 / slope : wanted});
+    return std::min({first_part * wanted, by_velocity, slope > 0 ? 0.25 * start_.velocity2 / slope : wanted});
 }
 
 /// Computes the largest cell sizes at the ends of the intervals: the target size there, growing with the distance from
@@ -95,9 +95,9 @@ void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> interval
     for (std::size_t k = 1; k < intervals.size(); ++k) {
         const LimitInterval least = min_of(intervals[k - 1], intervals[k]);
         // Between different velocities the jerk needs about this time to reach or leave the lower one.
-        const double unlike = 1 - least.speed / std::max(intervals[k - 1].speed, intervals[k].speed);
-        const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
-        const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
+        const double unlike = 1 - least.velocity / std::max(intervals[k - 1].velocity, intervals[k].velocity);
+        const double seconds = std::min(std::sqrt(least.velocity / least.jerk), settings_.cell_seconds);
+        const double ramp = unlike > 0 ? unlike_part * least.velocity * seconds / unlike : length_;
         sizes_[k] = std::min({target_cell_length(intervals[k - 1]), target_cell_length(intervals[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k)
@@ -133,7 +133,8 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> intervals) {
 void VelocityPlanner::add_cell(std::span<const LimitInterval> intervals, std::size_t at, double begin, double end) {
     LimitInterval least = intervals[at];
     for (; at + 1 < intervals.size() && ends_[at] < end; ++at) least = min_of(least, intervals[at + 1]);
-    cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
+    cells_.push_back(
+        {begin, end - begin, least.velocity * least.velocity, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
 }
 
 }  // namespace motionrack::control

@@ -12,7 +12,7 @@ namespace motionrack::control {
 ///
 ///   velocity v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
 void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
-    const SCurveProfile curve(length_, limits.speed, limits.accel, limits.jerk);
+    const SCurveProfile curve(length_, limits.velocity, limits.accel, limits.jerk);
     const auto ends = curve.phase_ends();
     const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
     const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
@@ -22,9 +22,9 @@ void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
     landing.phase = ProfileSegmentKind::landing;
     landing.begin = length_ - part;
     double begin = part;
-    const auto add = [&](double seconds, double length, double speed, double now, double more) {
+    const auto add = [&](double seconds, double length, double velocity, double now, double more) {
         if (!(seconds > 0)) return;
-        pieces_.push_back(feed_ramp(begin, length, seconds, speed, now, more));
+        pieces_.push_back(feed_ramp(begin, length, seconds, velocity, now, more));
         begin += length;
     };
     pieces_.push_back(launch);
@@ -38,10 +38,10 @@ void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
 
 /// Writes the profile from a motion in progress. Writes nothing if it is too fast, or would reverse behind its end.
 void VelocityPlanner::write_travel(const LimitInterval& limits) {
-    const double speed = std::sqrt(start_.velocity2), accel = 0.5 * start_.velocity2_slope;
-    if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
-    const KinematicState start{0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)};
-    const auto found = time_optimal_profile(start, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
+    const double velocity = std::sqrt(start_.velocity2), accel = 0.5 * start_.velocity2_slope;
+    if (velocity > limits.velocity * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
+    const KinematicState start{0, std::min(velocity, limits.velocity), std::clamp(accel, -limits.accel, limits.accel)};
+    const auto found = time_optimal_profile(start, {length_, 0, 0}, {limits.velocity, limits.accel, limits.jerk});
     if (!found) return;
     const auto phases = found->phases();
     double begin = 0;
@@ -50,17 +50,17 @@ void VelocityPlanner::write_travel(const LimitInterval& limits) {
         const ProfileSample at = phases[i].at(phases[i].end - seconds), then = phases[i].at(phases[i].end);
         const bool lands = i + 1 == phases.size();
         const double turn = !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // extremum of the velocity in the phase
-        const double within = turn > 0 && turn < seconds ? at.speed + 0.5 * at.accel * turn : at.speed;
-        if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 ||
-            std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||
+        const double within = turn > 0 && turn < seconds ? at.velocity + 0.5 * at.accel * turn : at.velocity;
+        if (std::min({at.velocity, within, lands ? at.velocity : then.velocity}) <= 0 ||
+            std::max({at.velocity, within, then.velocity}) > limits.velocity * (1 + rounding) ||
             std::fabs(at.accel) > limits.accel * (1 + rounding)) {
             pieces_.clear();
             return;
         }
-        const double on = seconds * (at.speed + seconds * (0.5 * at.accel + seconds * at.jerk * (1.0 / 6)));
-        const double length = lands ? at.speed * seconds / 3 : on;
-        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.speed * at.speed)
-                                : feed_ramp(begin, length, seconds, at.speed, at.accel, at.jerk));
+        const double on = seconds * (at.velocity + seconds * (0.5 * at.accel + seconds * at.jerk * (1.0 / 6)));
+        const double length = lands ? at.velocity * seconds / 3 : on;
+        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.velocity * at.velocity)
+                                : feed_ramp(begin, length, seconds, at.velocity, at.accel, at.jerk));
         begin += length;
     }
 }

@@ -173,7 +173,7 @@ std::vector<double> entries_by_full_passes(const MachineLimits& machine, const s
     const std::size_t count = moves.size();
     std::vector<double> most(count + 1, 0), reach(count, 0);
     Geometry last;
-    double last_speed = 0;
+    double last_velocity = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const Geometry path = geometry_of(moves[i].move, moves[i].start);
         if (path.shape != PathShape::nothing) {
@@ -181,10 +181,10 @@ std::vector<double> entries_by_full_passes(const MachineLimits& machine, const s
             reach[i] = 2 * along.accel * path.length;
             if (last.shape != PathShape::nothing) {
                 const Move& before = moves[i - 1].move;
-                most[i] = limits.max_junction_velocity2(last, last_speed, path, along.speed, before.path,
+                most[i] = limits.max_junction_velocity2(last, last_velocity, path, along.velocity, before.path,
                                                         before.tolerance_mm);
             }
-            last_speed = along.speed;
+            last_velocity = along.velocity;
         }
         last = path;
     }

@@ -177,7 +177,7 @@ TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
     // equally high and round: half of v^2 / r points to the axis; the distance along the arc is sqrt 1/2 of the path
     const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
     const AlongPathLimits along = PathLimits(limits).along(path, helix);
-    EXPECT_NEAR(along.speed, std::sqrt(0.8 * 600 * 0.1 / 0.5), 1e-9);
+    EXPECT_NEAR(along.velocity, std::sqrt(0.8 * 600 * 0.1 / 0.5), 1e-9);
     EXPECT_NEAR(along.accel, 0.4 * 600 / std::sqrt(0.5), 1e-9);
 }
 
@@ -287,7 +287,7 @@ class SpendsAll : public DriveConstraints {
     double constant_velocity_length(const Geometry& path) const override { return path.length; }
 };
 
-TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsASpeedAndATime) {
+TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsAVelocityAndATime) {
     const SpendsAll rule;
     LookAheadPlanner planner(path_machine(), Point{}, {16, &rule});
     ASSERT_TRUE(planner.push(path_line_to(0.0025, 0)));
@@ -305,7 +305,7 @@ class QuickerBehindTheCorner : public DriveConstraints {
     static constexpr double ratio = 1.5;
     double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }
     double constant_velocity_length(const Geometry&) const override { return 0; }
-    double speed_ratio(const Geometry& before, const Geometry& after) const override {
+    double velocity_ratio(const Geometry& before, const Geometry& after) const override {
         return before.tangent_out[2] == 0 && after.tangent_in[2] != 0 ? ratio : 1;
     }
 };

@@ -15,7 +15,7 @@ namespace {
 
 /// Limits over many decades, from a seed.
 struct Limits {
-    double distance, speed, accel, jerk, entry, exit;
+    double distance, velocity, accel, jerk, entry, exit;
 };
 
 Limits random_limits(std::uint64_t seed) {
@@ -25,11 +25,11 @@ Limits random_limits(std::uint64_t seed) {
     };
     Limits limits{};
     limits.distance = decades(-6, 5);
-    limits.speed = decades(-2, 4);
+    limits.velocity = decades(-2, 4);
     limits.accel = decades(-1, 5);
     limits.jerk = decades(0, 7);
-    limits.entry = limits.speed * std::uniform_real_distribution<double>(0, 1)(random);
-    limits.exit = limits.speed * std::uniform_real_distribution<double>(0, 1)(random);
+    limits.entry = limits.velocity * std::uniform_real_distribution<double>(0, 1)(random);
+    limits.exit = limits.velocity * std::uniform_real_distribution<double>(0, 1)(random);
     return limits;
 }
 
@@ -38,8 +38,8 @@ void near(double got, double expected, double scale) {
 }
 
 /// Compares velocities at instants whose resolution is limited by a double of `duration`.
-void near_speed(double got, double expected, double speed, double accel, double duration) {
-    near(got, expected, speed + 1e-4 * accel * duration);
+void near_velocity(double got, double expected, double velocity, double accel, double duration) {
+    near(got, expected, velocity + 1e-4 * accel * duration);
 }
 
 TEST(TrapezoidalProfile, ALongWayHasAllThreePhases) {
@@ -49,7 +49,7 @@ TEST(TrapezoidalProfile, ALongWayHasAllThreePhases) {
     EXPECT_DOUBLE_EQ(p.phase_ends()[0], 0.4);
     EXPECT_DOUBLE_EQ(p.phase_ends()[1], 5);
     EXPECT_DOUBLE_EQ(p.sample(0.2).position, 1);
-    EXPECT_DOUBLE_EQ(p.sample(0.2).speed, 10);
+    EXPECT_DOUBLE_EQ(p.sample(0.2).velocity, 10);
     EXPECT_DOUBLE_EQ(p.sample(0.2).accel, 50);
     EXPECT_DOUBLE_EQ(p.sample(2.7).position, 50);
     EXPECT_EQ(p.sample(2.7).accel, 0);
@@ -72,18 +72,18 @@ TEST(TrapezoidalProfile, NoWayTakesNoTime) {
     EXPECT_EQ(SCurveProfile(0, 1, 1, 1).sample(1).position, 0);
 }
 
-TEST(TrapezoidalProfile, BetweenSpeedsItJoinsThem) {
+TEST(TrapezoidalProfile, BetweenVelocitiesItJoinsThem) {
     const TrapezoidalProfile p(10, 5, 15, 20, 50);
     EXPECT_EQ(p.entry(), 5);
     EXPECT_EQ(p.exit(), 15);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
     EXPECT_DOUBLE_EQ(p.phase_ends()[0], 0.3);
     EXPECT_DOUBLE_EQ(p.duration() - p.phase_ends()[1], 0.1);
-    EXPECT_DOUBLE_EQ(p.sample(0).speed, 5);
-    EXPECT_DOUBLE_EQ(p.sample(p.duration()).speed, 15);
+    EXPECT_DOUBLE_EQ(p.sample(0).velocity, 5);
+    EXPECT_DOUBLE_EQ(p.sample(p.duration()).velocity, 15);
 }
 
-TEST(TrapezoidalProfile, ReachesTheNearestSpeedWhereTheWayIsTooShort) {
+TEST(TrapezoidalProfile, ReachesTheNearestVelocityWhereTheWayIsTooShort) {
     const TrapezoidalProfile up(1, 3, 100, 100, 8);
     EXPECT_DOUBLE_EQ(up.exit(), 5);
     EXPECT_DOUBLE_EQ(up.duration(), 0.25);
@@ -94,34 +94,34 @@ TEST(TrapezoidalProfile, ReachesTheNearestSpeedWhereTheWayIsTooShort) {
     EXPECT_DOUBLE_EQ(down.sample(0.125).position, 0.5625);
 }
 
-RC_GTEST_PROP(TrapezoidLaws, PhasesAddUpToTheDistanceAndTheExitSpeed, ()) {
+RC_GTEST_PROP(TrapezoidLaws, PhasesAddUpToTheDistanceAndTheExitVelocity, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.velocity, l.accel);
     double t = 0;
     double position = 0;
-    double speed = p.entry();
+    double velocity = p.entry();
     for (const double end : p.phase_ends()) {
         const double dt = end - t;
         const double accel = dt > 0 ? p.sample(t + 0.5 * dt).accel : 0;
-        near(p.sample(t).position, position, l.distance + l.speed * p.duration());
-        position += dt * (speed + 0.5 * accel * dt);
-        speed += accel * dt;
+        near(p.sample(t).position, position, l.distance + l.velocity * p.duration());
+        position += dt * (velocity + 0.5 * accel * dt);
+        velocity += accel * dt;
         t = end;
     }
-    near(position, l.distance, l.distance + l.speed * p.duration());
-    near_speed(speed, p.exit(), l.speed, l.accel, p.duration());
+    near(position, l.distance, l.distance + l.velocity * p.duration());
+    near_velocity(velocity, p.exit(), l.velocity, l.accel, p.duration());
     RC_ASSERT(p.sample(p.duration()).position == l.distance);
     RC_ASSERT(p.sample(p.duration() * 2).position == l.distance);
 }
 
 RC_GTEST_PROP(TrapezoidLaws, NeverPassesALimitNorGoesBack, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.velocity, l.accel);
     double last = 0;
     for (int k = 0; k <= 300; ++k) {
         const ProfileSample s = p.sample(p.duration() * k / 300);
-        RC_ASSERT(s.speed >= 0);
-        RC_ASSERT(s.speed <= l.speed * (1 + 1e-12));
+        RC_ASSERT(s.velocity >= 0);
+        RC_ASSERT(s.velocity <= l.velocity * (1 + 1e-12));
         RC_ASSERT(std::fabs(s.accel) <= l.accel);
         RC_ASSERT(s.position >= last - 1e-12 * l.distance);
         RC_ASSERT(s.position <= l.distance * (1 + 1e-12));
@@ -129,21 +129,21 @@ RC_GTEST_PROP(TrapezoidLaws, NeverPassesALimitNorGoesBack, ()) {
     }
 }
 
-RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakSpeedIsQuicker, ()) {
+RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakVelocityIsQuicker, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.speed, l.accel);
+    const TrapezoidalProfile p(l.distance, l.entry, l.exit, l.velocity, l.accel);
     const double v0 = p.entry();
     const double v1 = p.exit();
     const double low = std::max(v0, v1);
     double quickest = 1e300;
     for (int k = 0; k <= 4000; ++k) {
-        const double v = low + (l.speed - low) * k / 4000;
+        const double v = low + (l.velocity - low) * k / 4000;
         const double ramps = (2 * v * v - v0 * v0 - v1 * v1) / (2 * l.accel);
         if (v == 0 || ramps > l.distance * (1 + 1e-12)) continue;
         quickest = std::min(quickest, (2 * v - v0 - v1) / l.accel + (l.distance - ramps) / v);
     }
     // velocities have a resolution of 1e-16 of their value, which the reference converts to times
-    RC_ASSERT(p.duration() <= quickest * (1 + 1e-9) + 1e-15 * l.speed / l.accel);
+    RC_ASSERT(p.duration() <= quickest * (1 + 1e-9) + 1e-15 * l.velocity / l.accel);
 }
 
 TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
@@ -183,49 +183,49 @@ TEST(SCurveProfile, TheShortCasesAreThoseOfTheBooks) {
 
 RC_GTEST_PROP(SCurveLaws, PhasesAddUpToTheDistanceAtRest, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.velocity, l.accel, l.jerk);
     const auto ends = p.phase_ends();
     const double rise = ends[0];
     const double level = std::max(0.0, ends[2] - 2 * rise);
     const double lasts[7] = {rise, level, rise, ends[3] - ends[2], rise, level, rise};
     const double signs[7] = {1, 0, -1, 0, -1, 0, 1};
     double position = 0;
-    double speed = 0;
+    double velocity = 0;
     double accel = 0;
     for (int i = 0; i < 7; ++i) {
         const double begins = i == 0 ? 0 : ends[static_cast<std::size_t>(i - 1)];
         const double dt = lasts[i];
         near(p.sample(begins).position, position, l.distance);
-        near_speed(p.sample(begins).speed, speed, p.peak(), p.peak_accel(), p.duration());
+        near_velocity(p.sample(begins).velocity, velocity, p.peak(), p.peak_accel(), p.duration());
         if (dt > 1e-9 * p.duration()) RC_ASSERT(p.sample(begins + 0.5 * dt).jerk == signs[i] * l.jerk);
         const double jerk = signs[i] * l.jerk;
-        position += dt * (speed + dt * (0.5 * accel + dt * jerk / 6));
-        speed += dt * (accel + 0.5 * jerk * dt);
+        position += dt * (velocity + dt * (0.5 * accel + dt * jerk / 6));
+        velocity += dt * (accel + 0.5 * jerk * dt);
         accel += jerk * dt;
     }
     near(position, l.distance, l.distance);
-    near(speed, 0, p.peak());
+    near(velocity, 0, p.peak());
     near(accel, 0, p.peak_accel());
     RC_ASSERT(p.sample(p.duration()).position == l.distance);
-    RC_ASSERT(p.sample(p.duration()).speed == 0);
+    RC_ASSERT(p.sample(p.duration()).velocity == 0);
 }
 
 RC_GTEST_PROP(SCurveLaws, NeverPassesALimitNorGoesBackAndIsSymmetric, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.velocity, l.accel, l.jerk);
     double last = 0;
     for (int k = 0; k <= 300; ++k) {
         const double t = p.duration() * k / 300;
         const ProfileSample s = p.sample(t);
-        RC_ASSERT(s.speed >= -1e-13 * l.speed);
-        RC_ASSERT(s.speed <= l.speed * (1 + 1e-12));
+        RC_ASSERT(s.velocity >= -1e-13 * l.velocity);
+        RC_ASSERT(s.velocity <= l.velocity * (1 + 1e-12));
         RC_ASSERT(std::fabs(s.accel) <= l.accel * (1 + 1e-12));
         RC_ASSERT(std::fabs(s.jerk) <= l.jerk);
         RC_ASSERT(s.position >= last - 1e-12 * l.distance);
         last = s.position;
         const ProfileSample mirror = p.sample(p.duration() - t);
         near(mirror.position, l.distance - s.position, l.distance);
-        near_speed(mirror.speed, s.speed, p.peak(), p.peak_accel(), p.duration());
+        near_velocity(mirror.velocity, s.velocity, p.peak(), p.peak_accel(), p.duration());
         if (k > 0 && k < 300) near(mirror.accel, -s.accel, p.peak_accel() + 1e-4 * l.jerk * p.duration());
     }
 }
@@ -233,17 +233,17 @@ RC_GTEST_PROP(SCurveLaws, NeverPassesALimitNorGoesBackAndIsSymmetric, ()) {
 /// Returns the duration of the profile with these limits and peak velocity v, or a large number if the distance is too
 /// short.
 double seconds_with(double distance, double v, double accel, double jerk) {
-    const double speed_up = v * jerk >= accel * accel ? v / accel + accel / jerk : 2 * std::sqrt(v / jerk);
-    if (v * speed_up > distance * (1 + 1e-12)) return 1e300;
-    return speed_up + distance / v;
+    const double accel_duration = v * jerk >= accel * accel ? v / accel + accel / jerk : 2 * std::sqrt(v / jerk);
+    if (v * accel_duration > distance * (1 + 1e-12)) return 1e300;
+    return accel_duration + distance / v;
 }
 
 RC_GTEST_PROP(SCurveLaws, NoOtherPeaksAreQuicker, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
-    const SCurveProfile p(l.distance, l.speed, l.accel, l.jerk);
+    const SCurveProfile p(l.distance, l.velocity, l.accel, l.jerk);
     double quickest = 1e300;
     for (int k = 1; k <= 4000; ++k) {
-        quickest = std::min(quickest, seconds_with(l.distance, l.speed * k / 4000, l.accel, l.jerk));
+        quickest = std::min(quickest, seconds_with(l.distance, l.velocity * k / 4000, l.accel, l.jerk));
         quickest = std::min(quickest, seconds_with(l.distance, p.peak() * k / 4000, l.accel, l.jerk));
     }
     for (int k = 1; k <= 60; ++k) {

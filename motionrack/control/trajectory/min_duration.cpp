@@ -27,8 +27,8 @@ struct Cell {
 };
 
 double cap_of(const Point& tangent, const MachineLimits& limits, double feed) {
-    const double speed = std::min(feed, max_velocity_along(tangent, limits));
-    return speed < 1e100 ? speed * speed : no_cap;
+    const double velocity = std::min(feed, max_velocity_along(tangent, limits));
+    return velocity < 1e100 ? velocity * velocity : no_cap;
 }
 
 /// Cells, and the maximum of w at each of their ends.

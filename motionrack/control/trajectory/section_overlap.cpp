@@ -26,7 +26,7 @@ bool is_constant_jerk(const ProfileSegment& piece) {
     return piece.phase != ProfileSegmentKind::cell;
 }
 
-bool speeds_up(const ProfileSegment& piece) {
+bool accelerates(const ProfileSegment& piece) {
     const double begin = piece.at(0).accel, end = piece.last().accel;
     return begin >= 0 && end >= 0 && begin + end > 0;
 }
@@ -113,7 +113,8 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     if (in == 0 || out == 0) return true;
     const auto [in0, in1] = moment.in;
     const auto [out0, out1] = moment.out;
-    if (max_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_velocity * (1 + overlap_rounding))
+    if (max_sum(in, in0.velocity, in1.velocity, out, out0.velocity, out1.velocity) >
+        limits.max_velocity * (1 + overlap_rounding))
         return false;
     const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel),
                                                      std::fabs(in * in1.accel + out * out1.accel))
@@ -124,8 +125,8 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
 }
 
 bool keeps_feed(const Moment& moment, double feed, double cosine) {
-    const double in = moment.in[0].speed, out = moment.out[1].speed;
-    const double both = cosine > 0 ? in * out : moment.in[1].speed * moment.out[0].speed;
+    const double in = moment.in[0].velocity, out = moment.out[1].velocity;
+    const double both = cosine > 0 ? in * out : moment.in[1].velocity * moment.out[0].velocity;
     return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * overlap_rounding);
 }
 
@@ -133,15 +134,15 @@ bool keeps_feed(const Moment& moment, double feed, double cosine) {
 /// path acceleration. The corner reduces that sum only at the junctions.
 bool keeps_along(const PathMotion& in, const Point& a, const PathMotion& out, const Point& b,
                  const MachineLimits& limits) {
-    Point speed;
+    Point velocity;
     double square = 0, product = 0;
-    for (std::size_t i = 0; i < speed.size(); ++i) {
-        speed[i] = a[i] * in.speed + b[i] * out.speed;
-        square += speed[i] * speed[i];
-        product += speed[i] * (a[i] * in.accel + b[i] * out.accel);
+    for (std::size_t i = 0; i < velocity.size(); ++i) {
+        velocity[i] = a[i] * in.velocity + b[i] * out.velocity;
+        square += velocity[i] * velocity[i];
+        product += velocity[i] * (a[i] * in.accel + b[i] * out.accel);
     }
-    for (std::size_t i = 0; i < speed.size(); ++i)
-        if (std::fabs(product * speed[i]) > square * limits[i].max_accel * (1 + along_reserve)) return false;
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+        if (std::fabs(product * velocity[i]) > square * limits[i].max_accel * (1 + along_reserve)) return false;
     return true;
 }
 
@@ -198,7 +199,7 @@ SectionRamp initial_acceleration(std::span<const CubicSegment> curve, std::span<
     std::size_t piece = 0, past = 0;
     while (piece + 1 < curve.size() && are_one_line(curve[piece + 1], curve.front())) ++piece;
     const double end = curve[piece].begin + curve[piece].length;
-    while (past < feed.size() && feed[past].begin + feed[past].length <= end && speeds_up(feed[past])) ++past;
+    while (past < feed.size() && feed[past].begin + feed[past].length <= end && accelerates(feed[past])) ++past;
     return {curve.front(), feed.first(past)};
 }
 

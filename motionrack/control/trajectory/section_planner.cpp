@@ -67,7 +67,7 @@ void SectionPlanner::compute_reachable_velocities(const InitialPathState& start)
     squares_.assign(n + 1, 0);
     most_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-        most_[i] = std::min(use_[i].speed, pieces_[i].max_velocity_for(use_[i].jerk_share));
+        most_[i] = std::min(use_[i].velocity, pieces_[i].max_velocity_for(use_[i].jerk_share));
     for (std::size_t i = n; i-- > 0;) {
         const double most = std::min(most_[i], most_[i == 0 ? 0 : i - 1]);
         squares_[i] = std::min(most * most, pieces_[i].velocity2_before(squares_[i + 1], spans_[i].length));
@@ -93,7 +93,7 @@ PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
     PathMotion most;
     for (;; ++k) {
         for (const PathMotion& state : {feed_[k].at(0), feed_[k].last()})
-            most = PathMotion{0, std::max(most.speed, state.speed), std::max(most.accel, std::fabs(state.accel)),
+            most = PathMotion{0, std::max(most.velocity, state.velocity), std::max(most.accel, std::fabs(state.accel)),
                               std::max(most.jerk, std::fabs(state.jerk))};
         if (k + 1 == feed_.size() || feed_[k].begin + feed_[k].length >= end) return most;
     }
@@ -109,11 +109,11 @@ bool SectionPlanner::tighten_limits(double slack) {
         end += spans_[i].length;
         const PathMotion most = max_found(end, k);
         if (pieces_[i].straight) continue;
-        if (most.speed * slack < spans_[i].speed) {
-            use_[i].speed = most.speed * slack;
+        if (most.velocity * slack < spans_[i].velocity) {
+            use_[i].velocity = most.velocity * slack;
             news = true;
-        } else if (most.speed * nearly > most_[i]) {
-            const double share = pieces_[i].jerk_share_beside(most.speed, reserve * most.accel, reserve * most.jerk);
+        } else if (most.velocity * nearly > most_[i]) {
+            const double share = pieces_[i].jerk_share_beside(most.velocity, reserve * most.accel, reserve * most.jerk);
             if (pieces_[i].max_velocity_for(share) < nearly * most_[i]) continue;
             use_[i].jerk_share = share;
             news = true;

@@ -20,12 +20,12 @@
 
 namespace motionrack::control {
 
-inline constexpr double no_speed_limit = 1e300;
+inline constexpr double no_velocity_limit = 1e300;
 
 /// Findings of previous plans about a segment.
 struct SegmentTuning {
-    double speed =
-        no_speed_limit;  ///< velocity limit; a higher one would leave too little acceleration for changing it
+    double velocity =
+        no_velocity_limit;  ///< velocity limit; a higher one would leave too little acceleration for changing it
     double jerk_share = max_curvature_share;  ///< share of the axes' jerk for the curvature
 };
 

@@ -52,26 +52,26 @@ AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, s
 
 }  // namespace
 
-SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& limits) : speed(piece.feed) {
+SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& limits) : velocity(piece.feed) {
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const Range tangents = tangents_of(piece.tangent[i], piece.curvature[i], piece.curvature_rate[i], piece.length);
         if (tangents.max() == 0) continue;
         const AxisSegmentLimits axis = axes[count++] = axis_on(piece, limits[i], i, tangents);
-        speed = std::min(speed, limits[i].max_velocity / tangents.max());
-        if (axis.curvature > 0) speed = std::min(speed, std::sqrt(accel_of_bend / axis.curvature));
+        velocity = std::min(velocity, limits[i].max_velocity / tangents.max());
+        if (axis.curvature > 0) velocity = std::min(velocity, std::sqrt(accel_of_bend / axis.curvature));
         curvature_rate = std::max(curvature_rate, axis.jerk_twist);
         straight = straight && axis.curvature == 0 && axis.jerk_twist == 0;
     }
 }
 
 double SegmentLimits::max_velocity_for(double jerk_share) const {
-    return curvature_rate > 0 ? std::min(speed, cube_root(jerk_share / curvature_rate)) : speed;
+    return curvature_rate > 0 ? std::min(velocity, cube_root(jerk_share / curvature_rate)) : velocity;
 }
 
-double SegmentLimits::jerk_share_beside(double at_speed, double accel, double jerk) const {
+double SegmentLimits::jerk_share_beside(double at_velocity, double accel, double jerk) const {
     double share = max_jerk_of_bend;
     for (std::size_t i = 0; i < count; ++i) {
-        const double bent = 3 * axes[i].jerk_bend * at_speed * accel;
+        const double bent = 3 * axes[i].jerk_bend * at_velocity * accel;
         share = std::min(share, 1 - std::max(axes[i].jerk_tangent * jerk + bent, bent / share_of_bend));
     }
     return std::max(share, max_curvature_share);
@@ -79,11 +79,11 @@ double SegmentLimits::jerk_share_beside(double at_speed, double accel, double je
 
 LimitInterval SegmentLimits::up_to(double top, double length) const {
     LimitInterval out{length, top, no_limit, no_limit, no_limit};
-    const double square = out.speed * out.speed;
+    const double square = out.velocity * out.velocity;
     for (std::size_t i = 0; i < count; ++i) {
         const AxisSegmentLimits& axis = axes[i];
-        const double bent = axis.curvature > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.speed) /
-                                                     (3 * axis.jerk_bend * out.speed)
+        const double bent = axis.curvature > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.velocity) /
+                                                     (3 * axis.jerk_bend * out.velocity)
                                                : no_limit;
         out.accel = std::min({out.accel, bent, (1 - axis.bend_up * square) / axis.tangent});
         out.brake = std::min({out.brake, bent, (1 - axis.bend_down * square) / axis.tangent});
@@ -91,9 +91,9 @@ LimitInterval SegmentLimits::up_to(double top, double length) const {
     const double accel = std::max(out.accel, out.brake);
     for (std::size_t i = 0; i < count; ++i) {
         const AxisSegmentLimits& axis = axes[i];
-        out.jerk =
-            std::min(out.jerk, (1 - axis.jerk_twist * square * out.speed - 3 * axis.jerk_bend * out.speed * accel) /
-                                   axis.jerk_tangent);
+        out.jerk = std::min(out.jerk,
+                            (1 - axis.jerk_twist * square * out.velocity - 3 * axis.jerk_bend * out.velocity * accel) /
+                                axis.jerk_tangent);
     }
     return out;
 }

@@ -24,7 +24,7 @@ struct SegmentLimits {
 
     std::array<AxisSegmentLimits, axis_count> axes;
     std::size_t count = 0;  ///< number of moving axes
-    double speed =
+    double velocity =
         0;  ///< within the feed rate and the axes' velocities; leaves some of their acceleration beside the curvature
     double curvature_rate = 0;  ///< largest jerk_twist
     bool straight = true;       ///< nothing depends on the velocity
@@ -32,7 +32,7 @@ struct SegmentLimits {
     /// Returns the velocity at which, in addition, the curvature takes at most this share of the axes' jerk.
     double max_velocity_for(double jerk_share) const;
     /// Returns the share that leaves enough for this motion, at least max_curvature_share.
-    double jerk_share_beside(double at_speed, double accel, double jerk) const;
+    double jerk_share_beside(double at_velocity, double accel, double jerk) const;
     /// Returns the acceleration and jerk along the segment that keep every axis within its limits at any velocity up to
     /// `top` (at most max_velocity_for()).
     LimitInterval up_to(double top, double length) const;

@@ -38,10 +38,10 @@ int subdivision_count(const CubicSegment& piece, const MachineLimits& limits) {
             change = std::max(change, axis.jerk_twist * axis.curvature / axis.jerk_bend * piece.length);
         rise = std::min(rise, axis.jerk_tangent / axis.tangent);
     }
-    const double speed = on.max_velocity_for(max_curvature_share), square = speed * speed;
+    const double velocity = on.max_velocity_for(max_curvature_share), square = velocity * velocity;
     if (curvature * square <= much_of_a_part) return 1;
     const double wanted = std::max(2 * curvature * piece.length / tangent, change * square) / much_of_a_part;
-    const double most = piece.length / (speed * std::max(min_seconds, part_of_rise * rise));
+    const double most = piece.length / (velocity * std::max(min_seconds, part_of_rise * rise));
     return static_cast<int>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, max_parts));
 }
 

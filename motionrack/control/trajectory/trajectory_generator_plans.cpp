@@ -12,7 +12,7 @@ namespace {
 /// Number of bisections, and of steps outwards, in the search for a stop.
 constexpr int halvings = 5, steps_out = 40;
 /// Share of the velocity at which the first try evaluates the deceleration limit.
-constexpr double part_of_speed = 0.7;
+constexpr double part_of_velocity = 0.7;
 /// Velocity limit on curves during a stop, relative to the current plan: acceleration that a higher velocity does not
 /// need remains for deceleration.
 constexpr double above_plan = 1.003;
@@ -23,17 +23,17 @@ constexpr double faster = 1.01, max_ease = 16, ease_grows = 1.3;
 constexpr double clearly_slower = 0.99;
 
 InitialPathState start_of(const PathMotion& along) {
-    return {along.speed * along.speed, 2 * along.accel};
+    return {along.velocity * along.velocity, 2 * along.accel};
 }
 
 /// Returns true if it accelerates after it has decelerated.
-bool speeds_up_again(std::span<const ProfileSegment> feed) {
+bool accelerates_again(std::span<const ProfileSegment> feed) {
     double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since deceleration began
     for (const ProfileSegment& piece : feed) {
-        const double speed = piece.last().speed;
-        greatest = std::max({greatest, piece.at(0).speed, speed});
-        if (speed < clearly_slower * greatest) lowest = std::min(lowest, speed);
-        if (clearly_slower * speed > lowest) return true;
+        const double velocity = piece.last().velocity;
+        greatest = std::max({greatest, piece.at(0).velocity, velocity});
+        if (velocity < clearly_slower * greatest) lowest = std::min(lowest, velocity);
+        if (clearly_slower * velocity > lowest) return true;
     }
     return false;
 }
@@ -107,8 +107,8 @@ SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& 
     if (is_straight(on)) return use;
     while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
     for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
-        planned = std::max({planned, now_.feed[i].at(0).speed, now_.feed[i].last().speed});
-    use.speed = std::min(use.speed, above_plan * planned);
+        planned = std::max({planned, now_.feed[i].at(0).velocity, now_.feed[i].last().velocity});
+    use.velocity = std::min(use.velocity, above_plan * planned);
     return use;
 }
 
@@ -125,7 +125,7 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     const auto add_piece = [&](std::size_t i) {
         stop_curve_.push_back(now_.curve[i]);
         stop_curve_.back().feed = std::max(now_.curve[i].feed, std::min(eases_from, now_.programmed[i]));
-        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.speed : 0));
+        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.velocity : 0));
     };
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
@@ -138,8 +138,9 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
         return found;
     };
     const LimitInterval interval =
-        SegmentLimits(now_.curve[from.piece], limits_).up_to(part_of_speed * from.along.speed, 0);
-    double distance = 0.25 * from.along.speed * (from.along.speed / interval.brake + interval.brake / interval.jerk),
+        SegmentLimits(now_.curve[from.piece], limits_).up_to(part_of_velocity * from.along.velocity, 0);
+    double distance =
+               0.25 * from.along.velocity * (from.along.velocity / interval.brake + interval.brake / interval.jerk),
            too_near = 0;
     for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
         too_near = distance;
@@ -152,7 +153,7 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     }
     if (planned != distance && !plan_to(distance)) return std::nullopt;
     // Behind a slow passage a stop is found when the motion is nearer to it.
-    if (speeds_up_again(planner_.feed())) return std::nullopt;
+    if (accelerates_again(planner_.feed())) return std::nullopt;
     return begin + distance;
 }
 
@@ -194,22 +195,24 @@ TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCurs
     double at = from.along.u;
     std::size_t i = from.piece;
     const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
-    const auto add = [&](double to, double speed) {
+    const auto add = [&](double to, double velocity) {
         out.curve.push_back(sub_move(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin));
         out.programmed.push_back(now_.programmed[i]);
         out.use.emplace_back();
-        set_feed(out, out.curve.size() - 1, speed);
-        if (speed > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
+        set_feed(out, out.curve.size() - 1, velocity);
+        if (velocity > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
         at = to;
     };
-    const auto slower = [](const ProfileSegment& a, const ProfileSegment& b) { return a.at(0).speed < b.at(0).speed; };
+    const auto slower = [](const ProfileSegment& a, const ProfileSegment& b) {
+        return a.at(0).velocity < b.at(0).velocity;
+    };
     const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
-        const double speed = faster * stop[std::max(k, fastest)].at(0).speed,
+        const double velocity = faster * stop[std::max(k, fastest)].at(0).velocity,
                      to = from.along.u + ease_ * (stop[k].begin + stop[k].length - from.along.u);
         for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
-            if (end_of() > at) add(end_of(), speed);
-        if (to > at && to < end_of()) add(to, speed);
+            if (end_of() > at) add(end_of(), velocity);
+        if (to > at && to < end_of()) add(to, velocity);
     }
     for (; i < now_.curve.size(); ++i)
         if (end_of() > at) add(end_of(), 0);

@@ -40,8 +40,8 @@ Point between(const Point& from, const Point& to) {
 
 /// Returns the difference between the velocity of an axis and its velocity on the chord.
 double turn_of(const TrajectoryPoint& state, const Point& way, double length, std::size_t axis) {
-    const double along = length > 0 ? size_of(state.speed) / length * way[axis] : 0;
-    return std::fabs(state.speed[axis] - along);
+    const double along = length > 0 ? size_of(state.velocity) / length * way[axis] : 0;
+    return std::fabs(state.velocity[axis] - along);
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     const double seconds = last_seconds_ = seconds_of_next();
     const TrajectoryPoint end = generator_.at(seconds);
     const double length = size_of(between(place_, end.place));
-    if (length < min_move_length && size_of(end.speed) > 0) {  // at a reversal
+    if (length < min_move_length && size_of(end.velocity) > 0) {  // at a reversal
         generator_.advance(seconds);
         return pull(planned, early);
     }
@@ -121,13 +121,14 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
     if (planned.move.kind != MoveKind::rapid) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
-    const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
+    const double velocity_in = size_of(begin.velocity), velocity_out = size_of(end.velocity);
     planned.length = length;
-    planned.entry_velocity = speed_in;
-    planned.cruise_velocity = std::max(speed_in, speed_out);
-    planned.exit_velocity = speed_out;
+    planned.entry_velocity = velocity_in;
+    planned.cruise_velocity = std::max(velocity_in, velocity_out);
+    planned.exit_velocity = velocity_out;
     planned.accel = std::max(
-        std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, min_length_mm)), min_accel);
+        std::fabs(velocity_out * velocity_out - velocity_in * velocity_in) / (2 * std::max(length, min_length_mm)),
+        min_accel);
     planned.constant_accel = true;
     planned.move.feed = planned.cruise_velocity;
     place_ = end.place;
@@ -192,7 +193,7 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     for (std::size_t i = 0; i < way.size(); ++i) {
         square += way[i] * way[i];
         along += way[i] * gone[i];
-        even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with constant acceleration
+        even += way[i] * seconds * (0.375 * begin.velocity[i] + 0.125 * end.velocity[i]);  // with constant acceleration
     }
     ApproximationError out;
     const double length = size_of(way);

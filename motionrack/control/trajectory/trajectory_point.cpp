@@ -10,9 +10,9 @@ TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& al
     out.line = piece.line;
     out.place = position_on(piece, x);
     const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
-    const double v = along.speed, a = along.accel, j = along.jerk;
+    const double v = along.velocity, a = along.accel, j = along.jerk;
     for (std::size_t i = 0; i < out.place.size(); ++i) {
-        out.speed[i] = tangent[i] * v;
+        out.velocity[i] = tangent[i] * v;
         out.accel[i] = tangent[i] * a + curvature[i] * v * v;
         out.jerk[i] = tangent[i] * j + 3 * curvature[i] * v * a + piece.curvature_rate[i] * v * v * v;
     }
@@ -28,7 +28,7 @@ void add_overlap(TrajectoryPoint& state, const SectionRamp& end, double seconds)
     for (std::size_t k = 0; k < state.place.size(); ++k) {
         const double tangent = end.curve.tangent[k];
         state.place[k] -= tangent * left;
-        state.speed[k] += tangent * along.speed;
+        state.velocity[k] += tangent * along.velocity;
         state.accel[k] += tangent * along.accel;
         state.jerk[k] += tangent * along.jerk;
     }

@@ -11,7 +11,7 @@ namespace motionrack::control {
 /// Position and its derivatives per s, s^2, s^3.
 struct TrajectoryPoint {
     double u = 0;
-    Point place = {}, speed = {}, accel = {}, jerk = {};
+    Point place = {}, velocity = {}, accel = {}, jerk = {};
     std::int32_t line = 0;
 };
 

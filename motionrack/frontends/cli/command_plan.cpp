@@ -80,7 +80,7 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
                 view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
             for (std::size_t k = 0; k < out.axes.size(); ++k) {
                 AxisPeaks& axis = out.axes[k];
-                axis = {std::max(axis.speed, std::fabs(state.speed[k])),
+                axis = {std::max(axis.speed, std::fabs(state.velocity[k])),
                         std::max(axis.accel, std::fabs(state.accel[k])), std::max(axis.jerk, std::fabs(state.jerk[k]))};
             }
         }

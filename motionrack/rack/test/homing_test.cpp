@@ -71,8 +71,8 @@ TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_NEAR(out.axes[1].counter_position, -3.5, 0.5 / 640);
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
-    EXPECT_DOUBLE_EQ(out.axes[1].order.speed, 10);
-    for (const control::HomingEdge& edge : out.axes[1].outcome.edges) EXPECT_LE(edge.speed, 10.01);
+    EXPECT_DOUBLE_EQ(out.axes[1].order.search_velocity, 10);
+    for (const control::HomingEdge& edge : out.axes[1].outcome.edges) EXPECT_LE(edge.velocity, 10.01);
 }
 
 TEST(RackHomes, UpwardsItFindsWhereTheSwitchIsReleased) {

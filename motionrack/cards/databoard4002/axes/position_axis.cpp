@@ -286,8 +286,8 @@ Result<void> PositionAxis::set_position(double position) {
 }
 
 Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now) {
-    MOTIONRACK_TRY(const int rate, rate_of("Homing", order.speed));
-    MOTIONRACK_TRY(const int slow, rate_of("Homing", order.slow_speed));
+    MOTIONRACK_TRY(const int rate, rate_of("Homing", order.search_velocity));
+    MOTIONRACK_TRY(const int slow, rate_of("Homing", order.latch_velocity));
     if (busy()) return refuse("Homing", "it moves; stop it and wait for standstill");
     if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) &&
           order.travel >= 0 && std::isfinite(order.travel)))

@@ -32,7 +32,7 @@ double PathRule::max_junction_velocity(const control::Geometry& before, const co
     return speed;
 }
 
-double PathRule::speed_ratio(const control::Geometry& before, const control::Geometry& after) const {
+double PathRule::velocity_ratio(const control::Geometry& before, const control::Geometry& after) const {
     return basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out) /
            basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
 }

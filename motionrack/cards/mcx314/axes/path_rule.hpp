@@ -14,7 +14,7 @@ class PathRule final : public control::DriveConstraints {
     double constant_velocity_length(const control::Geometry& path) const override;
     int max_interpolated_axes() const override { return 3; }
     double min_velocity_update_s() const override { return 0.008; }
-    double speed_ratio(const control::Geometry& before, const control::Geometry& after) const override;
+    double velocity_ratio(const control::Geometry& before, const control::Geometry& after) const override;
     double min_seconds() const override;
     double late_seconds() const override { return to_seconds(host_.latency); }
 

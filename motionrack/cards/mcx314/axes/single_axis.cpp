@@ -159,7 +159,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
 
 Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& order) const {
     const control::AxisLimits& limits = settings_.limits;
-    MOTIONRACK_CHECK(check_speed("Homing", order.speed));
+    MOTIONRACK_CHECK(check_speed("Homing", order.search_velocity));
     const auto outside = [&](const char* what, double value, double least, double greatest) -> Result<void> {
         if (value >= least && value <= greatest) return {};
         return refuse("Homing", fmt::format("{} is {}; it must be {} to {}", what, value, least, greatest));
@@ -169,13 +169,14 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
     MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, max_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, max_way));
-    MOTIONRACK_CHECK(
-        outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.max_velocity_step)));
+    MOTIONRACK_CHECK(outside("the slow speed", order.latch_velocity, 1e-9,
+                             std::min(order.search_velocity, limits.max_velocity_step)));
     const bool index =
         order.type == control::HomingMethod::index_after_switch || order.type == control::HomingMethod::twice_and_index;
     if (index && !(settings_.counts_per_unit > 0))
         return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
-    MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
+    MOTIONRACK_TRY(const RealSetting setting,
+                   real_setting({limits.pulses_per_unit}, drive_at(order.search_velocity, false)));
     const auto pulses = [&](double way) {
         return static_cast<std::int64_t>(std::min(max_pulses, std::floor(way * limits.pulses_per_unit + 0.5)));
     };
@@ -191,7 +192,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
     out.sv = setting.start_speed.value;
     out.v = setting.speed.value;
     out.a = setting.acceleration.value;
-    out.slow_v = std::clamp<std::int64_t>(static_cast<std::int64_t>(order.slow_speed / unit), 1, out.sv);
+    out.slow_v = std::clamp<std::int64_t>(static_cast<std::int64_t>(order.latch_velocity / unit), 1, out.sv);
     out.travel = std::max<std::int64_t>(
         1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
     out.turn = settings_.pulses_per_turn;

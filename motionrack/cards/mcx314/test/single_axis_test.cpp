@@ -24,8 +24,8 @@ SingleAxisSettings settings() {
 control::HomingRequest order(int type = 2) {
     control::HomingRequest o;
     o.type = static_cast<control::HomingMethod>(type);
-    o.speed = 15;
-    o.slow_speed = 0.5;
+    o.search_velocity = 15;
+    o.latch_velocity = 0.5;
     o.position = 1;
     return o;
 }
@@ -112,10 +112,10 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
     for (const double bad : {nan, inf, -inf, 0.0, -1.0}) {
         EXPECT_FALSE(rig.x.move_to(10, bad));
         control::HomingRequest o = order();
-        o.speed = bad;
+        o.search_velocity = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
         o = order();
-        o.slow_speed = bad;
+        o.latch_velocity = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
     }
     for (const double bad : {nan, inf, -inf}) {
@@ -221,8 +221,8 @@ TEST(SingleAxis, WaitGivesUpAfterItsTimeAndSaysWhereItIs) {
 RC_GTEST_PROP(SingleAxisProperty, AfterHomingTheCounterIsTheMachine, ()) {
     AxisRig rig({.start_mm = *rc::gen::inRange(0, 200) / 10.0, .bounce = milliseconds(1)});
     control::HomingRequest o = order();
-    o.speed = *rc::gen::inRange(1, 51);
-    o.slow_speed = *rc::gen::inRange(1, 11) / 10.0;
+    o.search_velocity = *rc::gen::inRange(1, 51);
+    o.latch_velocity = *rc::gen::inRange(1, 11) / 10.0;
     RC_ASSERT(bool(rig.x.home(o, rig.port.now())));
     RC_ASSERT(bool(rig.x.wait(whole_seconds(100))));
     for (int i = 0; i < 3; ++i) {

@@ -33,7 +33,8 @@ struct State {
 
 class Search {
   public:
-    explicit Search(const Task& task) : t_(task), j_(task.limits.jerk), a_(task.limits.accel), v_(task.limits.speed) {}
+    explicit Search(const Task& task)
+        : t_(task), j_(task.limits.jerk), a_(task.limits.accel), v_(task.limits.velocity) {}
 
     double least(int steps) {
         double best = no_time;
@@ -54,7 +55,7 @@ class Search {
 
   private:
     State up_to(double peak) const {
-        State s = {t_.from.position, t_.from.speed, t_.from.accel, 0};
+        State s = {t_.from.position, t_.from.velocity, t_.from.accel, 0};
         s.go(j_, (std::min(peak, a_) - s.a) / j_);
         if (peak > a_) {
             s.a = a_;
@@ -66,7 +67,7 @@ class Search {
     /// Returns the motion from a state to the end through a valley on the low or on the high branch.
     Outcome down(State s, bool low) const {
         // velocity gained by falling to q and rising to the final acceleration: (a^2 + end^2)/2 - q^2, over jerk
-        const double square = 0.5 * (s.a * s.a + t_.to.accel * t_.to.accel) - j_ * (t_.to.speed - s.v);
+        const double square = 0.5 * (s.a * s.a + t_.to.accel * t_.to.accel) - j_ * (t_.to.velocity - s.v);
         if (!(square >= 0)) return {};
         double q = low ? -std::sqrt(square) : std::sqrt(square);
         double hold = 0;
@@ -151,7 +152,7 @@ class Search {
 };
 
 Task mirrored(Task t) {
-    for (KinematicState* s : {&t.from, &t.to}) *s = {-s->position, -s->speed, -s->accel};
+    for (KinematicState* s : {&t.from, &t.to}) *s = {-s->position, -s->velocity, -s->accel};
     return t;
 }
 
@@ -180,8 +181,8 @@ double braked(State s, double depth, double top, const KinematicLimits& limits) 
 }  // namespace
 
 double slowly_found_entry(const KinematicState& from, const KinematicLimits& limits) {
-    const double j = limits.jerk, top = limits.speed;
-    State s = {0, from.speed, from.accel, 0};
+    const double j = limits.jerk, top = limits.velocity;
+    State s = {0, from.velocity, from.accel, 0};
     if (std::fabs(s.a) > limits.accel) s.go(s.a > 0 ? -j : j, (std::fabs(s.a) - limits.accel) / j);
     const double last = s.v + s.a * std::fabs(s.a) / (2 * j);
     if (std::fabs(last) <= top && std::fabs(s.v) <= top) return s.t;

@@ -10,8 +10,8 @@ namespace motionrack::control::travel_test {
 std::string text_of(const Task& t) {
     char text[400];
     std::snprintf(text, sizeof text, "{{%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}}",
-                  t.from.position, t.from.speed, t.from.accel, t.to.position, t.to.speed, t.to.accel, t.limits.speed,
-                  t.limits.accel, t.limits.jerk);
+                  t.from.position, t.from.velocity, t.from.accel, t.to.position, t.to.velocity, t.to.accel,
+                  t.limits.velocity, t.limits.accel, t.limits.jerk);
     return text;
 }
 
@@ -25,11 +25,11 @@ double Tasks::of_magnitude(double least, double most) {
 
 void Tasks::allow(Task& task) {
     const double a = task.to.accel;
-    const double room = task.limits.speed - 0.5 * a * a / task.limits.jerk;
+    const double room = task.limits.velocity - 0.5 * a * a / task.limits.jerk;
     if (!(room >= 0)) {
         task.to.accel = 0;
     } else {
-        task.to.speed = std::clamp(task.to.speed, -room, room);
+        task.to.velocity = std::clamp(task.to.velocity, -room, room);
     }
 }
 
@@ -39,11 +39,11 @@ Task Tasks::usual() {
     const auto some = [&](double most) {
         return one_in(8) ? 0 : one_in(12) ? (one_in(2) ? most : -most) : between(-most, most);
     };
-    const double quick = t.limits.speed, a_start = std::min(t.limits.accel, std::sqrt(2 * quick * t.limits.jerk));
+    const double quick = t.limits.velocity, a_start = std::min(t.limits.accel, std::sqrt(2 * quick * t.limits.jerk));
     t.from = {0, some(quick), some(a_start)};
     // a start that can stay within the limits
     const double room = quick - 0.5 * t.from.accel * t.from.accel / t.limits.jerk;
-    if (t.from.speed * t.from.accel > 0 && room >= 0) t.from.speed = std::clamp(t.from.speed, -room, room);
+    if (t.from.velocity * t.from.accel > 0 && room >= 0) t.from.velocity = std::clamp(t.from.velocity, -room, room);
     if (room < 0) t.from.accel = 0;
     t.to = {one_in(3) ? between(-1, 1) * 0.3 : of_magnitude(1e-3, 32), some(quick), some(t.limits.accel)};
     if (one_in(30)) t.to = t.from;
@@ -58,14 +58,14 @@ Task Tasks::any() {
                 std::fabs(of_magnitude(1e-3, 1e3))};
     const auto within = [&](KinematicState& s) {
         const double part_of_accel = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
-        const double part_of_speed = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
+        const double part_of_velocity = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
         s.accel = one_in(4) ? 0 : t.limits.accel * part_of_accel;
-        s.speed = one_in(4) ? 0 : t.limits.speed * part_of_speed;
-        const double room = t.limits.speed - 0.5 * s.accel * s.accel / t.limits.jerk;
+        s.velocity = one_in(4) ? 0 : t.limits.velocity * part_of_velocity;
+        const double room = t.limits.velocity - 0.5 * s.accel * s.accel / t.limits.jerk;
         if (room < 0)
             s.accel = 0;
         else
-            s.speed = std::clamp(s.speed, -room, room);
+            s.velocity = std::clamp(s.velocity, -room, room);
     };
     within(t.from);
     within(t.to);
@@ -76,7 +76,7 @@ Task Tasks::any() {
 
 Task Tasks::outside() {
     Task t = one_in(3) ? any() : usual();
-    if (one_in(2)) t.from.speed = t.limits.speed * between(-4, 4);
+    if (one_in(2)) t.from.velocity = t.limits.velocity * between(-4, 4);
     if (!one_in(3)) t.from.accel = t.limits.accel * between(-3, 3);
     return t;
 }
@@ -85,15 +85,15 @@ std::optional<double> Tasks::motion(Task& t) {
     t = usual();
     // slightly within the limits: a state that uses all of them may be reachable only to the bit
     t.from.accel *= 0.999;
-    t.from.speed *= 0.999;
-    const KinematicLimits m = {0.999 * t.limits.speed, 0.999 * t.limits.accel, t.limits.jerk};
+    t.from.velocity *= 0.999;
+    const KinematicLimits m = {0.999 * t.limits.velocity, 0.999 * t.limits.accel, t.limits.jerk};
     KinematicState s = t.from;
     double seconds = 0;
     const int phases = 1 + static_cast<int>(random_() % 5);
     double side = one_in(2) ? 1 : -1;
     for (int k = 0; k < phases; ++k, side = -side) {
         double jerk = side * m.jerk * (one_in(4) ? part() : 0.999);
-        double dt = between(0, 2) * std::min(m.accel / m.jerk, std::sqrt(m.speed / m.jerk));
+        double dt = between(0, 2) * std::min(m.accel / m.jerk, std::sqrt(m.velocity / m.jerk));
         // to the acceleration limit, and along it for a while
         const double until = (side * m.accel - s.accel) / jerk;
         if (dt > until) dt = until;
@@ -101,14 +101,14 @@ std::optional<double> Tasks::motion(Task& t) {
             if (part_of == 1) {
                 if (!one_in(3)) break;
                 jerk = 0;
-                dt = between(0, 1) * m.speed / m.accel;
+                dt = between(0, 1) * m.velocity / m.accel;
             }
             for (int i = 1; i <= 8; ++i) {
-                const double u = dt * i / 8, v = s.speed + u * (s.accel + 0.5 * u * jerk), a = s.accel + u * jerk;
-                if (std::fabs(v) + 0.5 * a * a / m.jerk > m.speed) return std::nullopt;
+                const double u = dt * i / 8, v = s.velocity + u * (s.accel + 0.5 * u * jerk), a = s.accel + u * jerk;
+                if (std::fabs(v) + 0.5 * a * a / m.jerk > m.velocity) return std::nullopt;
             }
-            s = {s.position + dt * (s.speed + dt * (0.5 * s.accel + dt * jerk / 6)),
-                 s.speed + dt * (s.accel + 0.5 * dt * jerk), s.accel + dt * jerk};
+            s = {s.position + dt * (s.velocity + dt * (0.5 * s.accel + dt * jerk / 6)),
+                 s.velocity + dt * (s.accel + 0.5 * dt * jerk), s.accel + dt * jerk};
             seconds += dt;
         }
     }
@@ -121,24 +121,25 @@ std::string fault_of(const AxisProfile& travel, const Task& task, double within)
     const double T = travel.duration();
     if (!(T >= 0 && std::isfinite(T))) return "duration";
     const ProfileSample first = travel.sample(0), last = travel.sample(T);
-    if (first.position != task.from.position || first.speed != task.from.speed || first.accel != task.from.accel)
+    if (first.position != task.from.position || first.velocity != task.from.velocity || first.accel != task.from.accel)
         return "start";
-    if (last.position != task.to.position || last.speed != task.to.speed || last.accel != task.to.accel) return "end";
+    if (last.position != task.to.position || last.velocity != task.to.velocity || last.accel != task.to.accel)
+        return "end";
     double begin = 0;
     KinematicState at = task.from;
     const double a_size = std::max({m.accel, std::fabs(task.from.accel)});
     const double v_size =
-        std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
+        std::max({m.velocity, std::fabs(task.from.velocity), a_size * a_size / m.jerk * (a_size > m.accel)});
     // the distance due to the accelerations at both ends has rounding errors, even in a short profile
     const double a_ends = std::fabs(task.from.accel) + std::fabs(task.to.accel);
     const double ends =
-        (std::fabs(task.from.speed) + std::fabs(task.to.speed) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
+        (std::fabs(task.from.velocity) + std::fabs(task.to.velocity) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
     const double p_size =
         std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T, 0.01 * ends});
-    const auto jump = [&](double position, double speed, double accel) {
+    const auto jump = [&](double position, double velocity, double accel) {
         const double instant = 1e-15 * T;  // resolution of times
         if (!(std::fabs(position - at.position) <= 1e-12 * p_size + instant * v_size)) return "jump of the position";
-        if (!(std::fabs(speed - at.speed) <= 1e-12 * v_size + instant * a_size)) return "jump of the speed";
+        if (!(std::fabs(velocity - at.velocity) <= 1e-12 * v_size + instant * a_size)) return "jump of the velocity";
         if (!(std::fabs(accel - at.accel) <= 1e-12 * a_size + instant * m.jerk)) return "jump of the acceleration";
         return "";
     };
@@ -147,31 +148,31 @@ std::string fault_of(const AxisProfile& travel, const Task& task, double within)
         if (p.jerk != 0 && std::fabs(p.jerk) != m.jerk) return "jerk";
         for (int i = 0; i <= 8; ++i) {
             const double t = begin + (p.end - begin) * i / 8;
-            const auto [position, speed, accel, jerk] = p.at(t);
+            const auto [position, velocity, accel, jerk] = p.at(t);
             if (i == 0)
-                if (const std::string fault = jump(position, speed, accel); !fault.empty()) return fault;
+                if (const std::string fault = jump(position, velocity, accel); !fault.empty()) return fault;
             if (t >= within) {
                 if (!(std::fabs(accel) <= m.accel * (1 + 1e-9))) return "acceleration";
-                if (!(std::fabs(speed) <= m.speed * (1 + 1e-9))) return "speed";
+                if (!(std::fabs(velocity) <= m.velocity * (1 + 1e-9))) return "velocity";
                 // the velocity has its peak where the acceleration passes through 0
                 if (i > 0 && p.jerk != 0) {
                     const double zero = -p.accel / p.jerk + p.zero;
-                    const double peak = p.speed - 0.5 * p.accel * p.accel / p.jerk;
-                    if (zero > begin && zero < p.end && zero > within && !(std::fabs(peak) <= m.speed * (1 + 1e-9)))
-                        return "peak speed";
+                    const double peak = p.velocity - 0.5 * p.accel * p.accel / p.jerk;
+                    if (zero > begin && zero < p.end && zero > within && !(std::fabs(peak) <= m.velocity * (1 + 1e-9)))
+                        return "peak velocity";
                 }
             }
-            at = {position, speed, accel};
+            at = {position, velocity, accel};
         }
         begin = p.end;
     }
     if (begin != T) return "duration is not the last end";
-    return jump(task.to.position, task.to.speed, task.to.accel);
+    return jump(task.to.position, task.to.velocity, task.to.accel);
 }
 
 double entry_of(const AxisProfile& travel, const KinematicLimits& limits) {
     const auto outside = [&](const ProfileSample& s) {
-        return std::fabs(s.accel) > limits.accel * (1 + 1e-9) || std::fabs(s.speed) > limits.speed * (1 + 1e-9);
+        return std::fabs(s.accel) > limits.accel * (1 + 1e-9) || std::fabs(s.velocity) > limits.velocity * (1 + 1e-9);
     };
     double entry = 0, begin = 0;
     for (const AxisProfile::CubicPhase& p : travel.phases()) {
@@ -207,11 +208,11 @@ std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
     for (int i = 0; i < count; ++i) {
         const Task t = i % 3 == 0 ? tasks.outside() : i % 3 == 1 ? tasks.any() : tasks.usual();
         const auto one = time_optimal_profile(t.from, t.to, t.limits);
-        const auto two = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto two = velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits);
         for (const auto* out : {&one, &two}) {
             if (!*out) continue;
             for (const AxisProfile::CubicPhase& p : (*out)->phases())
-                for (const double x : {p.end, p.zero, p.seconds, p.position, p.speed, p.accel, p.jerk}) fold(x);
+                for (const double x : {p.end, p.zero, p.seconds, p.position, p.velocity, p.accel, p.jerk}) fold(x);
             fold((*out)->sample(0.3 * (*out)->duration()).position);
         }
     }

@@ -23,17 +23,18 @@ double exactness(double seconds) {
 
 KinematicState state_at(const AxisProfile& travel, double t) {
     const ProfileSample s = travel.sample(t);
-    return {s.position, s.speed, s.accel};
+    return {s.position, s.velocity, s.accel};
 }
 
 TEST(AxisProfile, FromRestToRestIsTheSCurve) {
     Tasks tasks(1);
     for (int i = 0; i < 3000; ++i) {
-        const double speed = std::fabs(tasks.of_magnitude(1e-2, 1e3)), accel = std::fabs(tasks.of_magnitude(1e-2, 1e3));
+        const double velocity = std::fabs(tasks.of_magnitude(1e-2, 1e3)),
+                     accel = std::fabs(tasks.of_magnitude(1e-2, 1e3));
         const double jerk = std::fabs(tasks.of_magnitude(1e-2, 1e3)), distance = tasks.of_magnitude(1e-6, 1e4);
-        const auto out = time_optimal_profile({}, {distance}, {speed, accel, jerk});
+        const auto out = time_optimal_profile({}, {distance}, {velocity, accel, jerk});
         ASSERT_TRUE(out);
-        const SCurveProfile curve(std::fabs(distance), speed, accel, jerk);
+        const SCurveProfile curve(std::fabs(distance), velocity, accel, jerk);
         ASSERT_NEAR(out->duration(), curve.duration(), 1e-13 * curve.duration()) << i;
         const double t = tasks.part() * curve.duration();
         ASSERT_NEAR(std::fabs(out->sample(t).position), curve.sample(t).position, 1e-12 * std::fabs(distance)) << i;
@@ -78,7 +79,7 @@ TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
     Tasks tasks(5);
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
-        t.to.speed = t.to.accel = 0;
+        t.to.velocity = t.to.accel = 0;
         const auto out = time_optimal_profile(t.from, t.to, t.limits);
         ASSERT_TRUE(out);
         const double at = tasks.part() * out->duration();
@@ -108,7 +109,7 @@ TEST(AxisProfile, UpsideDownTakesAsLong) {
     Tasks tasks(6);
     for (int i = 0; i < 5000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto turned = [](const KinematicState& s) { return KinematicState{-s.position, -s.speed, -s.accel}; };
+        const auto turned = [](const KinematicState& s) { return KinematicState{-s.position, -s.velocity, -s.accel}; };
         ASSERT_EQ(time_optimal_profile(turned(t.from), turned(t.to), t.limits)->duration(), seconds_of(t))
             << text_of(t);
     }
@@ -136,8 +137,8 @@ TEST(AxisProfile, StartsAndEndsAtItsLimits) {
                 for (const double b : signs)
                     for (const double distance : {-40.0, -3.0, -1e-9, 0.0, 1e-9, 0.5, 25.0}) {
                         // a velocity that is just feasible with its acceleration
-                        const auto kept = [&](double speed, double accel) {
-                            return 2 * speed - speed * accel * accel * 0.125;
+                        const auto kept = [&](double velocity, double accel) {
+                            return 2 * velocity - velocity * accel * accel * 0.125;
                         };
                         const Task t = {{0, kept(v, a), a}, {distance, kept(w, b), b}, limits};
                         const auto out = time_optimal_profile(t.from, t.to, t.limits);
@@ -149,15 +150,15 @@ TEST(AxisProfile, StartsAndEndsAtItsLimits) {
 
 TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
     Tasks tasks(8);
-    for (const double speed : {1e-6, 1.0, 1e6})
+    for (const double velocity : {1e-6, 1.0, 1e6})
         for (const double accel : {1e-6, 1.0, 1e6})
             for (const double jerk : {1e-6, 1.0, 1e6})
                 for (const double distance : {1e-9, 1e-3, 1.0, 1e3, 1e9})
                     for (int i = 0; i < 20; ++i) {
                         Task t = tasks.usual();
-                        t.limits = {speed, accel, jerk};
-                        t.from = {0, speed * tasks.between(-0.5, 0.5), 0};
-                        t.to = {tasks.one_in(2) ? distance : -distance, speed * tasks.between(-0.5, 0.5), 0};
+                        t.limits = {velocity, accel, jerk};
+                        t.from = {0, velocity * tasks.between(-0.5, 0.5), 0};
+                        t.to = {tasks.one_in(2) ? distance : -distance, velocity * tasks.between(-0.5, 0.5), 0};
                         const auto out = time_optimal_profile(t.from, t.to, t.limits);
                         ASSERT_TRUE(out) << text_of(t);
                         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
@@ -191,9 +192,9 @@ TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
         }
         Task rest = t;
         rest.from = state_at(*out, entry);
-        rest.from.speed = std::clamp(rest.from.speed, -t.limits.speed, t.limits.speed);
+        rest.from.velocity = std::clamp(rest.from.velocity, -t.limits.velocity, t.limits.velocity);
         rest.from.accel = std::clamp(rest.from.accel, -t.limits.accel, t.limits.accel);
-        rest.limits.speed *= 1 + 1e-10;
+        rest.limits.velocity *= 1 + 1e-10;
         ASSERT_LE(out->duration(), entry + slowly_found_duration(rest) + 1e-6 * std::max(1.0, out->duration()))
             << text_of(t);
     }
@@ -234,24 +235,24 @@ TEST(AxisProfile, IsRefusedForWhatIsNoNumber) {
             EXPECT_FALSE(time_optimal_profile({}, {1}, of_none));
 }
 
-TEST(AChangeOfSpeed, HoldsItsLimitsAndEndsExactly) {
+TEST(AChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
     Tasks tasks(10);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto out = velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits);
         ASSERT_TRUE(out) << text_of(t);
         t.to.position = out->target().position;
         ASSERT_EQ(fault_of(*out, t), "") << text_of(t);
     }
 }
 
-TEST(AChangeOfSpeed, IsTheQuickestOfAllTravelsToItsSpeed) {
+TEST(AChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
     Tasks tasks(11);
     for (int i = 0; i < 40'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
         std::optional<double> seconds;
         if (i % 4 == 3) seconds = tasks.motion(t);
-        const double quickest = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits).value().duration();
+        const double quickest = velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits).value().duration();
         if (i % 4 != 3) seconds = seconds_of(t);
         if (seconds) {
             ASSERT_LE(quickest, *seconds + 1e-7 * std::max(1.0, *seconds)) << text_of(t);
@@ -260,30 +261,30 @@ TEST(AChangeOfSpeed, IsTheQuickestOfAllTravelsToItsSpeed) {
 }
 
 /// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
-TEST(AChangeOfSpeed, IsTheTravelToWhereItEnds) {
+TEST(AChangeOfVelocity, IsTheTravelToWhereItEnds) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
-        const auto out = velocity_change_profile(t.from, t.to.speed, t.to.accel, t.limits);
+        const auto out = velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits);
         t.to = out.value().target();
         ASSERT_NEAR(seconds_of(t), out->duration(), exactness(out->duration())) << text_of(t);
     }
 }
 
-TEST(AStop, EndsAtRestAndIsTheChangeOfSpeedToIt) {
+TEST(AStop, EndsAtRestAndIsTheChangeOfVelocityToIt) {
     Tasks tasks(13);
     for (int i = 0; i < 5000; ++i) {
         const Task t = tasks.outside();
         const auto out = stop_profile(t.from, t.limits);
         ASSERT_TRUE(out);
-        EXPECT_EQ(out->target().speed, 0);
+        EXPECT_EQ(out->target().velocity, 0);
         EXPECT_EQ(out->target().accel, 0);
         EXPECT_EQ(out->duration(), velocity_change_profile(t.from, 0, 0, t.limits)->duration());
         const ProfileSample before = out->sample(out->duration() * (1 - 1e-12));
         EXPECT_NEAR(before.position, out->target().position, 1e-9 * (1 + std::fabs(before.position))) << text_of(t);
-        EXPECT_NEAR(
-            before.speed, 0,
-            1e-9 * std::max({t.limits.speed, std::fabs(t.from.speed), t.from.accel * t.from.accel / t.limits.jerk}))
+        EXPECT_NEAR(before.velocity, 0,
+                    1e-9 * std::max({t.limits.velocity, std::fabs(t.from.velocity),
+                                     t.from.accel * t.from.accel / t.limits.jerk}))
             << text_of(t);
     }
 }

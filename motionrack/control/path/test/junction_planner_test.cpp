@@ -25,7 +25,7 @@ ChoiceRow random_row(unsigned seed, std::size_t legs) {
         Junction joint;
         joint.can_pass = i + 1 < legs;
         joint.can_stop = !joint.can_pass || random() % 4 > 0;
-        joint.speed = between(0.1, 30);
+        joint.velocity = between(0.1, 30);
         joint.half_blend_length = between(0, 0.3);
         joint.gain = between(0, 0.01);
         out.joints.push_back(joint);
@@ -75,7 +75,7 @@ TEST(JunctionPlanner, DecidesALongSequenceWithoutItsEnd) {
 TEST(ALeg, WithoutRoomForItsTurnsIsNoWay) {
     const LegLimits leg{0.1, 100, 1000, 20'000};
     Junction turn;
-    turn.speed = 10;
+    turn.velocity = 10;
     turn.half_blend_length = 0.1;
     EXPECT_GT(leg_duration_s(leg, turn, false, Junction{}, true), 1e9);
     EXPECT_LT(leg_duration_s(leg, Junction{}, true, Junction{}, true), 0.1);

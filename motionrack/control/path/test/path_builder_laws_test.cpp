@@ -167,8 +167,8 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
             const bool rotary = paths[i].shape == PathShape::rotary;
             for (int k = 0; k <= 8; ++k) {
                 const Point tangent = tangent_on(piece, piece.length * k / 8);
-                const double speed = rotary ? greatest(tangent) : xyz_size(tangent);
-                ASSERT_LE(piece.feed * speed, feed * (1 + 1e-8 + spiral))
+                const double velocity = rotary ? greatest(tangent) : xyz_size(tangent);
+                ASSERT_LE(piece.feed * velocity, feed * (1 + 1e-8 + spiral))
                     << "line " << piece.line << " u " << piece.begin << " + " << piece.length;
                 ASSERT_GT(piece.feed, 0);
             }

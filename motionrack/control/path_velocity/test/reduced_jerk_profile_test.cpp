@@ -24,9 +24,9 @@ class ALineWithEasedEnds : public testing::Test {
 
     /// Reduces the jerk at one or both ends.
     std::vector<LimitInterval> intervals() {
-        const double length = between(0.05, 100), speed = between(5, 200), accel = between(200, 5000),
+        const double length = between(0.05, 100), velocity = between(5, 200), accel = between(200, 5000),
                      jerk = between(5e3, 1e6);
-        std::vector<LimitInterval> out(3, {0, speed, accel, jerk});
+        std::vector<LimitInterval> out(3, {0, velocity, accel, jerk});
         for (const std::size_t end : {0u, 2u})
             out[end].length = length * between(1e-4, 0.3), out[end].jerk = jerk * between(0.1, 0.8);
         out[1].length = length - out[0].length - out[2].length;
@@ -57,15 +57,15 @@ TEST_F(ALineWithEasedEnds, KeepsAllLimitsWithoutStepsAndIsNoSlowerThanByCells) {
             const LimitInterval& limits = line[at];
             const PathMotion first = piece.at(0), last = piece.last();
             ASSERT_NEAR(first.u, before.u, 1e-9 * length);
-            ASSERT_NEAR(first.speed, before.speed, 1e-7 * limits.speed);
+            ASSERT_NEAR(first.velocity, before.velocity, 1e-7 * limits.velocity);
             ASSERT_NEAR(first.accel, before.accel, 1e-7 * limits.accel);
             ASSERT_LE(std::fabs(first.jerk), limits.jerk * (1 + 1e-9));
             ASSERT_LE(std::max(std::fabs(first.accel), std::fabs(last.accel)), limits.accel * (1 + 1e-9));
-            ASSERT_LE(std::max(first.speed, last.speed), limits.speed * (1 + 1e-9));
+            ASSERT_LE(std::max(first.velocity, last.velocity), limits.velocity * (1 + 1e-9));
             before = last;
         }
         ASSERT_NEAR(before.u, length, 1e-9 * length);
-        ASSERT_NEAR(before.speed, 0, 1e-7);
+        ASSERT_NEAR(before.velocity, 0, 1e-7);
         std::vector<LimitInterval> cut = line;  // an interval with other limits disables the special case
         cut.push_back(cut.back());
         cut.back().length = cut[cut.size() - 2].length *= 0.5;

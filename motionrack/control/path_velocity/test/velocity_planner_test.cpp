@@ -49,7 +49,7 @@ double seconds_of_feed(std::span<const ProfileSegment> pieces) {
 
 /// Maximum use of the limits, and of any step between segments, over a whole profile.
 struct FeedPeaks {
-    double speed = 0, accel = 0, jerk = 0, jump = 0;
+    double velocity = 0, accel = 0, jerk = 0, jump = 0;
 };
 FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<LimitInterval>& intervals) {
     FeedPeaks out;
@@ -57,7 +57,7 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
     PathMotion last;
     const auto jump = [&](const PathMotion& state) {
         out.jump = std::max({out.jump, std::fabs(state.u - last.u) / length,
-                             std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
+                             std::fabs(state.velocity - last.velocity) / (state.velocity + last.velocity + 1e-6),
                              std::fabs(state.accel - last.accel) / intervals.front().accel});
     };
     std::size_t k = 0;
@@ -70,11 +70,11 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
             // Where two intervals meet, the limits of either one apply.
             LimitInterval interval = intervals[k];
             if (k + 1 < intervals.size() && state.u > end - 1e-10 * length)
-                interval = {0, std::max(interval.speed, intervals[k + 1].speed),
+                interval = {0, std::max(interval.velocity, intervals[k + 1].velocity),
                             std::max(interval.accel, intervals[k + 1].accel),
                             std::max(interval.jerk, intervals[k + 1].jerk),
                             std::max(interval.brake, intervals[k + 1].brake)};
-            out.speed = std::max(out.speed, state.speed / interval.speed);
+            out.velocity = std::max(out.velocity, state.velocity / interval.velocity);
             out.accel = std::max({out.accel, state.accel / interval.accel, -state.accel / interval.brake});
             out.jerk = std::max(out.jerk, std::fabs(state.jerk) / interval.jerk);
             last = state;
@@ -87,14 +87,14 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
 TEST(VelocityPlanner, PlansTheQuickestSCurveForIntervalsThatAreAlike) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
-        for (const double speed : {100.0, 5.0}) {
-            const std::vector<LimitInterval> intervals = {{0.3 * length, speed, 1000, 20'000},
-                                                          {0.7 * length, speed, 1000, 20'000}};
+        for (const double velocity : {100.0, 5.0}) {
+            const std::vector<LimitInterval> intervals = {{0.3 * length, velocity, 1000, 20'000},
+                                                          {0.7 * length, velocity, 1000, 20'000}};
             const auto pieces = planner.plan(intervals);
-            EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(length, speed, 1000, 20'000).duration(), 1, 1e-12)
+            EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(length, velocity, 1000, 20'000).duration(), 1, 1e-12)
                 << length;
             const FeedPeaks peaks = peaks_of(pieces, intervals);
-            EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
+            EXPECT_LE(std::max({peaks.velocity, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
             EXPECT_LE(peaks.jump, 1e-9) << length;
         }
 }
@@ -107,7 +107,7 @@ TEST(VelocityPlanner, KeepsTheJerkOfOneIntervalHoweverShortItLasts) {
         const auto pieces = planner.plan(intervals);
         EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
         const FeedPeaks peaks = peaks_of(pieces, intervals);
-        EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
+        EXPECT_LE(std::max({peaks.velocity, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
         EXPECT_LE(peaks.jump, 1e-8) << jerk;  // rounding errors of 50 beside velocities of 1e-12
         for (const ProfileSegment& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
     }
@@ -131,7 +131,7 @@ TEST(VelocityPlanner, KeepsEveryLimitAtEveryInstant) {
     for (int run = 0; run < 3000; ++run) {
         const std::vector<LimitInterval> intervals = random.next(12, run % 2 == 0);
         const FeedPeaks peaks = peaks_of(planner.plan(intervals), intervals);
-        ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.velocity, 1 + 1e-6) << run;
         ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jump, 1e-6) << run;
@@ -162,7 +162,7 @@ TEST(VelocityPlanner, IsQuickerThanStoppingBetweenIntervals) {
         const std::vector<LimitInterval> intervals = random.next(6);
         double stopping = 0;
         for (const LimitInterval& interval : intervals)
-            stopping += SCurveProfile(interval.length, interval.speed, interval.accel, interval.jerk).duration();
+            stopping += SCurveProfile(interval.length, interval.velocity, interval.accel, interval.jerk).duration();
         const double seconds = seconds_of_feed(planner.plan(intervals));
         ASSERT_LE(seconds, 1.5 * stopping) << run;
         slower += seconds > 1.01 * stopping;
@@ -177,8 +177,8 @@ TEST(VelocityPlanner, PassesASlowIntervalAtItsVelocity) {
     double slowest = 100, fastest = 0;
     for (const ProfileSegment& piece : planner.plan(intervals)) {
         const PathMotion state = piece.at(0);
-        if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.speed);
-        fastest = std::max(fastest, state.speed);
+        if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.velocity);
+        fastest = std::max(fastest, state.velocity);
     }
     EXPECT_NEAR(slowest, 20, 1e-6);
     EXPECT_NEAR(fastest, 100, 1e-6);
@@ -190,9 +190,9 @@ TEST(VelocityPlanner, FollowsLimitsThatChangeSlowly) {
     std::vector<LimitInterval> intervals;
     double quickest = 0;
     for (int i = 0; i < 20'000; ++i) {
-        const double speed = 100 + 50 * std::sin(i * 0.002);
-        intervals.push_back({0.1, speed, 2000, 100'000});
-        quickest += 0.1 / speed;
+        const double velocity = 100 + 50 * std::sin(i * 0.002);
+        intervals.push_back({0.1, velocity, 2000, 100'000});
+        quickest += 0.1 / velocity;
     }
     const double ends = 2 * (SCurveProfile(1000, 100, 2000, 100'000).duration() - 10);
     EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * quickest + ends);
@@ -252,13 +252,13 @@ TEST(VelocityPlanner, MakesNoSegmentsOfNothing) {
 
 TEST(ProfileSegment, IsAsLongAsItSaysAndMovesAsItsVelocity2Says) {
     const ProfileSegment cell = feed_cell(5, 2, 100, 30, 8);
-    EXPECT_NEAR(cell.at(0).speed, 10, 1e-12);
+    EXPECT_NEAR(cell.at(0).velocity, 10, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);
-    EXPECT_NEAR(cell.at(cell.seconds).speed, std::sqrt(100 + 60 + 16), 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).velocity, std::sqrt(100 + 60 + 16), 1e-12);
     const double time = 0.3 * cell.seconds, step = 1e-5;
     const auto before = cell.at(time - step), here = cell.at(time), after = cell.at(time + step);
-    EXPECT_NEAR((after.u - before.u) / (2 * step), here.speed, 1e-6);
-    EXPECT_NEAR((after.speed - before.speed) / (2 * step), here.accel, 1e-6);
+    EXPECT_NEAR((after.u - before.u) / (2 * step), here.velocity, 1e-6);
+    EXPECT_NEAR((after.velocity - before.velocity) / (2 * step), here.accel, 1e-6);
     EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
 }
 
@@ -291,7 +291,7 @@ TEST(VelocityPlannerReplan, BeginsAsItWasAndKeepsTheLimits) {
         const PathMotion state = plan[k].at(time);
         const std::vector<LimitInterval> rest = intervals_from(intervals, state.u);
         const std::span<const ProfileSegment> next =
-            on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
+            on_the_way.plan_from({state.velocity * state.velocity, 2 * state.accel}, rest);
         const bool is_steady = state.accel > -1 && state.jerk > -1;
         ++all;
         steady += is_steady;
@@ -299,10 +299,10 @@ TEST(VelocityPlannerReplan, BeginsAsItWasAndKeepsTheLimits) {
         ++found;
         steady_found += is_steady;
         const PathMotion first = next[0].at(0);
-        EXPECT_NEAR(first.speed, state.speed, 1e-9 * state.speed);
+        EXPECT_NEAR(first.velocity, state.velocity, 1e-9 * state.velocity);
         EXPECT_NEAR(first.accel, state.accel, 1e-6 * rest[0].accel);
         const FeedPeaks peaks = peaks_of(next, rest);
-        EXPECT_LE(peaks.speed, 1 + 1e-6);
+        EXPECT_LE(peaks.velocity, 1 + 1e-6);
         EXPECT_LE(peaks.accel, 1 + 1e-6);
         EXPECT_LE(peaks.jerk, 1 + 1e-6);
         EXPECT_LE(seconds_of_feed(next), 1.1 * left);
@@ -320,10 +320,10 @@ TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
                     .empty());  // above the limit at the start
 }
 
-TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {
+TEST(ACell, ThatDeceleratesAndAcceleratesAgainTakesItsTime) {
     const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
-    EXPECT_NEAR(cell.at(cell.seconds).speed, 2, 1e-9);
+    EXPECT_NEAR(cell.at(cell.seconds).velocity, 2, 1e-9);
     EXPECT_GT(cell.seconds, 0.5);
 }
 

@@ -84,7 +84,7 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
 
 /// No axis can pass the circle faster than sqrt(2 acceleration radius); at sqrt(acceleration radius) both can hold the
 /// velocity.
-TEST(AnAccelBound, OfACircleIsNearTheSpeedOfItsBend) {
+TEST(AnAccelBound, OfACircleIsNearTheVelocityOfItsBend) {
     const MachineLimits limits = with_jerk(1e6);
     const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
     EXPECT_LT(seconds, 1.02 * (2 * pi * 20 / std::sqrt(2000.0 * 20) + 200.0 / 2000));

@@ -82,7 +82,7 @@ class Driven {
     void pass_time(double seconds) { now += seconds; }
 
     std::size_t come = static_cast<std::size_t>(-1);  ///< maximum number of available moves
-    double now = 0, speed = 0, accel = 0, jerk = 0,
+    double now = 0, velocity = 0, accel = 0, jerk = 0,
            jump = 0;  ///< maximum use of the limits; of the change that the limits allow
     TrajectoryPoint last;
 
@@ -93,11 +93,11 @@ class Driven {
         const double gap = now + seconds - at_;
         for (std::size_t i = 0; i < limits.size(); ++i) {
             const AxisLimits& most = limits[i];
-            speed = std::max(speed, std::fabs(state.speed[i]) / most.max_velocity);
+            velocity = std::max(velocity, std::fabs(state.velocity[i]) / most.max_velocity);
             accel = std::max(accel, std::fabs(state.accel[i]) / most.max_accel);
             jerk = std::max(jerk, std::fabs(state.jerk[i]) / most.max_jerk);
             jump = std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * most.max_velocity * gap + 1e-5),
-                             std::fabs(state.speed[i] - last.speed[i]) / (slack * most.max_accel * gap + 1e-4),
+                             std::fabs(state.velocity[i] - last.velocity[i]) / (slack * most.max_accel * gap + 1e-4),
                              std::fabs(state.accel[i] - last.accel[i]) / (slack * most.max_jerk * gap + 1e-2)});
         }
         last = state;
@@ -114,7 +114,7 @@ class Driven {
 };
 
 inline void expect_limits(const Driven& driven) {
-    EXPECT_LE(driven.speed, slack);
+    EXPECT_LE(driven.velocity, slack);
     EXPECT_LE(driven.accel, slack);
     EXPECT_LE(driven.jerk, slack);
     EXPECT_LE(driven.jump, 1);

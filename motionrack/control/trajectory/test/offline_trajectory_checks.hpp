@@ -112,12 +112,12 @@ class RideChecks {
         const double step = (time - last_time_) * slack + hair;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
-            hold("speed", std::fabs(state.speed[i]), axis.max_velocity * slack, kept, time, state);
+            hold("velocity", std::fabs(state.velocity[i]), axis.max_velocity * slack, kept, time, state);
             hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
             if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
             hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_velocity * step + 3e-9, kept,
                  time, state);
-            hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]),
+            hold("jump of velocity", std::fabs(state.velocity[i] - last_.velocity[i]),
                  axis.max_accel * step + 1e-6 * axis.max_velocity, kept, time, state);
             if (axis.max_jerk > 0)
                 hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]),
@@ -144,7 +144,7 @@ class RideChecks {
         double most = programmed(i);
         if (time < kept.section.overlap)
             most = std::max(most, programmed(static_cast<std::size_t>(kept.section.before.curve.line - 1)));
-        const Point& v = state.speed;
+        const Point& v = state.velocity;
         const double xyz = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         if (paths_[i].shape == PathShape::nothing) return;
         hold("feed",
@@ -178,12 +178,12 @@ class RideChecks {
     void check_rest(const KeptStretch& kept) {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double jerk = effective_jerk(limits_[i]);
-            hold("rest: speed", std::fabs(last_.speed[i]),
+            hold("rest: velocity", std::fabs(last_.velocity[i]),
                  1e-7 * limits_[i].max_velocity + limits_[i].max_accel * hair_, kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
                  kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.section.end[i]), 3e-9, kept, last_time_, last_);
-            last_.speed[i] = last_.accel[i] = 0;
+            last_.velocity[i] = last_.accel[i] = 0;
             last_.place[i] = kept.section.end[i];
         }
     }
@@ -234,7 +234,7 @@ inline std::string text_of(const WildProgram& program) {
     std::string out = fmt::format("start {:.17g}\n", fmt::join(program.start, " "));
     for (std::size_t i = 0; i < program.limits.size(); ++i) {
         const AxisLimits& axis = program.limits[i];
-        out += fmt::format("{}: speed {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i],
+        out += fmt::format("{}: velocity {:.9g} accel {:.9g} jerk {:.9g} pulses {:.9g}\n", axis_letters[i],
                            axis.max_velocity, axis.max_accel, axis.max_jerk, axis.pulses_per_unit);
     }
     for (const Move& move : program.moves) {

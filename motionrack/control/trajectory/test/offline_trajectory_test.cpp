@@ -19,7 +19,7 @@ using curve_test::machine;
 
 /// Maximum use of the limits and of the programmed feed rate over all axes and instants.
 struct Ridden {
-    double seconds = 0, speed = 0, accel = 0, jerk = 0;
+    double seconds = 0, velocity = 0, accel = 0, jerk = 0;
     int rests = 0;
     Point end = {};
     std::vector<TrajectoryPoint> states;
@@ -38,7 +38,7 @@ Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
         for (int i = 0; i <= steps; ++i) {
             const TrajectoryPoint state = view.at(section.seconds * i / steps);
             for (std::size_t axis = 0; axis < limits.size(); ++axis) {
-                out.speed = std::max(out.speed, std::fabs(state.speed[axis]) / limits[axis].max_velocity);
+                out.velocity = std::max(out.velocity, std::fabs(state.velocity[axis]) / limits[axis].max_velocity);
                 out.accel = std::max(out.accel, std::fabs(state.accel[axis]) / limits[axis].max_accel);
                 out.jerk = std::max(out.jerk, std::fabs(state.jerk[axis]) / limits[axis].max_jerk);
             }
@@ -59,7 +59,7 @@ std::vector<Move> square_wave(int legs, double length, double tolerance_mm) {
 TEST(OfflineTrajectory, KeepsEveryAxisWithinItsLimitsAtEveryInstant) {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         const Ridden ridden = ride(curve_test::ProgramMaker(seed).program(4));
-        ASSERT_LE(ridden.speed, 1 + 1e-6) << seed;
+        ASSERT_LE(ridden.velocity, 1 + 1e-6) << seed;
         ASSERT_LE(ridden.accel, 1 + 1e-6) << seed;
         ASSERT_LE(ridden.jerk, 1 + 1e-6) << seed;
     }
@@ -75,7 +75,7 @@ TEST(OfflineTrajectory, HasNoStepsInPositionOrVelocity) {
         if (b.u < a.u) continue;  // the next section, which starts before this one ends
         for (std::size_t axis = 0; axis < 2; ++axis) {
             ASSERT_NEAR(a.place[axis], b.place[axis], 0.05);
-            ASSERT_NEAR(a.speed[axis], b.speed[axis], 1.0);
+            ASSERT_NEAR(a.velocity[axis], b.velocity[axis], 1.0);
         }
     }
 }
@@ -128,7 +128,8 @@ TEST(OfflineTrajectory, TakesACircleAtTheVelocityOfItsCurvature) {
     const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
     double fastest = 0;
     for (const TrajectoryPoint& state : ridden.states)
-        fastest = std::max(fastest, std::sqrt(state.speed[0] * state.speed[0] + state.speed[1] * state.speed[1]));
+        fastest =
+            std::max(fastest, std::sqrt(state.velocity[0] * state.velocity[0] + state.velocity[1] * state.velocity[1]));
     EXPECT_GT(fastest, 0.97 * std::sqrt(0.8 * 2000 * 5));
     EXPECT_EQ(ridden.rests, 1);
 }

@@ -65,10 +65,10 @@ class Oracle {
     };
 
     double cap(const Point& tangent, double feed) const {
-        double speed = std::min(feed, 1e100);
+        double velocity = std::min(feed, 1e100);
         for (std::size_t i = 0; i < tangent.size(); ++i)
-            if (tangent[i] != 0) speed = std::min(speed, limits_[i].max_velocity / std::fabs(tangent[i]));
-        return speed * speed;
+            if (tangent[i] != 0) velocity = std::min(velocity, limits_[i].max_velocity / std::fabs(tangent[i]));
+        return velocity * velocity;
     }
 
     /// Returns the squares at the end of a step that are reachable from one at its start.

@@ -50,7 +50,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
         const SegmentLimits limits(piece, machine);
         const double top = random.between(0.05, 1) * limits.max_velocity_for(0.97);
         const LimitInterval span = limits.up_to(top, piece.length);
-        ASSERT_GT(std::min({span.speed, span.accel, span.brake, span.jerk}), 0) << run;
+        ASSERT_GT(std::min({span.velocity, span.accel, span.brake, span.jerk}), 0) << run;
         for (int k = 0; k < 40; ++k) {
             const double x = piece.length * random.between(0, 1), v = top * random.between(0, 1),
                          j = random.between(-span.jerk, span.jerk);
@@ -68,7 +68,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
 }
 
 /// Accelerates all the way to it, and decelerates all the way from it.
-TEST(SegmentLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
+TEST(SegmentLimits, SayHowFarTheVelocityComesWithTheAccelerationTheyLeave) {
     RandomPieces random;
     int looked = 0;
     for (int run = 0; run < 1000; ++run) {
@@ -76,9 +76,9 @@ TEST(SegmentLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
         MachineLimits machine = random.machine();
         for (AxisLimits& axis : machine) axis.max_jerk = 1e12;
         const SegmentLimits limits(piece, machine);
-        const double from = random.between(0, 0.9) * limits.speed * limits.speed, length = 1e-3 * piece.length;
+        const double from = random.between(0, 0.9) * limits.velocity * limits.velocity, length = 1e-3 * piece.length;
         const double after = limits.velocity2_after(from, length), before = limits.velocity2_before(from, length);
-        if (std::max(after, before) > limits.speed * limits.speed) continue;
+        if (std::max(after, before) > limits.velocity * limits.velocity) continue;
         EXPECT_NEAR(after, from + 2 * length * limits.up_to(std::sqrt(after), length).accel, 1e-9 * after) << run;
         EXPECT_NEAR(before, from + 2 * length * limits.up_to(std::sqrt(before), length).brake, 1e-9 * before) << run;
         ++looked;

@@ -45,10 +45,10 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDecelerate
                     greatest = 0, lowest = 1e9;
                     continue;
                 }
-                const double speed = way / (driven.now - at);
-                greatest = std::max(greatest, speed);
-                if (speed < 0.98 * greatest) lowest = std::min(lowest, speed);
-                rise = std::max(rise, speed - 1.05 * lowest);
+                const double velocity = way / (driven.now - at);
+                greatest = std::max(greatest, velocity);
+                if (velocity < 0.98 * greatest) lowest = std::min(lowest, velocity);
+                rise = std::max(rise, velocity - 1.05 * lowest);
             }
             EXPECT_LT(rise, 0.1);
             EXPECT_LT(driven.now - when, 1);
@@ -114,12 +114,12 @@ TEST(TrajectoryGenerator, StopsSoonOnACircleAtItsMaxVelocity) {
     for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
         Driven driven({circle}, {});
         while (driven.now < when) driven.step(0.001, true);
-        const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]),
+        const double velocity = std::hypot(driven.last.velocity[0], driven.last.velocity[1]),
                      all = std::sqrt(machine()[0].max_accel * 10);
-        EXPECT_GT(speed, 0.9 * all);
+        EXPECT_GT(velocity, 0.9 * all);
         driven.generator.hold();
         const double asked = driven.now,
-                     alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
+                     alone = velocity / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
         while (driven.generator.next(true) == NextMotion::motion) driven.step(0.001, true);
         EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
@@ -128,7 +128,9 @@ TEST(TrajectoryGenerator, StopsSoonOnACircleAtItsMaxVelocity) {
 
 /// During acceleration, and at full velocity, where hardly any jerk remains for deceleration.
 TEST(TrajectoryGenerator, StopsAndDeceleratesSoonOnCurvesThatTakeNearlyAllOfTheJerk) {
-    const auto speed_of = [](const Driven& driven) { return std::hypot(driven.last.speed[0], driven.last.speed[1]); };
+    const auto velocity_of = [](const Driven& driven) {
+        return std::hypot(driven.last.velocity[0], driven.last.velocity[1]);
+    };
     for (const double radius : {2, 10})
         for (double when = 0.05; when < 0.6; when += 0.05) {
             SCOPED_TRACE(::testing::Message() << "radius " << radius << ", at " << when << " s");
@@ -137,12 +139,12 @@ TEST(TrajectoryGenerator, StopsAndDeceleratesSoonOnCurvesThatTakeNearlyAllOfTheJ
             Driven held({circle}, {}), slowed({circle}, {});
             while (held.now < when) held.step(0.001, true);
             while (slowed.now < when) slowed.step(0.001, true);
-            const double speed = speed_of(held);
+            const double velocity = velocity_of(held);
             held.generator.hold();
             while (held.generator.next(true) == NextMotion::motion) held.step(0.001, true);
             EXPECT_LT(held.now - when, 0.5);
-            slowed.generator.set_overrides(0.5 * speed / circle.feed, 1);
-            while (speed_of(slowed) > 0.51 * speed && slowed.now < when + 1) slowed.step(0.001, true);
+            slowed.generator.set_overrides(0.5 * velocity / circle.feed, 1);
+            while (velocity_of(slowed) > 0.51 * velocity && slowed.now < when + 1) slowed.step(0.001, true);
             EXPECT_LT(slowed.now - when, 0.8);
             expect_limits(held);
             expect_limits(slowed);

@@ -109,17 +109,17 @@ TEST(TrajectoryGenerator, GoesOnPastACornerToWhatCameBeforeIt) {
 
 TEST(TrajectoryGenerator, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
     Driven driven({long_line(20)}, {});
-    const auto speed_after = [&](double seconds) {
+    const auto velocity_after = [&](double seconds) {
         for (const double until = driven.now + seconds; driven.now < until;) driven.step(0.001, true);
-        return driven.generator.at(0).speed[0];
+        return driven.generator.at(0).velocity[0];
     };
-    EXPECT_NEAR(speed_after(0.5), 20, 1e-6);
+    EXPECT_NEAR(velocity_after(0.5), 20, 1e-6);
     driven.generator.set_overrides(0.5, 1);
-    EXPECT_NEAR(speed_after(0.15), 10, 1e-6);
+    EXPECT_NEAR(velocity_after(0.15), 10, 1e-6);
     driven.generator.set_overrides(2, 1);
-    EXPECT_NEAR(speed_after(0.2), 40, 1e-6);
+    EXPECT_NEAR(velocity_after(0.2), 40, 1e-6);
     driven.generator.set_overrides(0.01, 1);
-    EXPECT_NEAR(speed_after(0.3), 0.2, 1e-6);
+    EXPECT_NEAR(velocity_after(0.3), 0.2, 1e-6);
     expect_limits(driven);
 }
 
@@ -132,7 +132,7 @@ TEST(TrajectoryGenerator, AlwaysStopsWithinTheMovesItKnows) {
         if (driven.generator.stands() || driven.generator.left() < driven.generator.seconds_to_standstill())
             continue;  // the next section starts before the end of this one
         const TrajectoryPoint end = driven.generator.at(driven.generator.seconds_to_standstill());
-        for (const double speed : end.speed) EXPECT_EQ(speed, 0);
+        for (const double velocity : end.velocity) EXPECT_EQ(velocity, 0);
         ++looks;
     }
     EXPECT_GT(looks, 100);

@@ -107,11 +107,11 @@ TEST(TrajectoryInterpolator, StepsAtJunctionsByLessThanTheMaxVelocityStep) {
     double greatest = 0;
     for (std::size_t i = 1; i < moves.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto speed = [&](const PlannedMove& move, double along) {
+            const auto velocity = [&](const PlannedMove& move, double along) {
                 return along * (move.move.end[axis] - move.start[axis]) / move.length;
             };
-            greatest = std::max(greatest, std::fabs(speed(moves[i], moves[i].entry_velocity) -
-                                                    speed(moves[i - 1], moves[i - 1].exit_velocity)));
+            greatest = std::max(greatest, std::fabs(velocity(moves[i], moves[i].entry_velocity) -
+                                                    velocity(moves[i - 1], moves[i - 1].exit_velocity)));
         }
     EXPECT_LT(greatest, machine()[0].max_velocity_step);
     EXPECT_GT(greatest, 0.1);
@@ -125,14 +125,15 @@ TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterAC
     for (double height = 1.5; height < 20; height *= 1.2) {
         const std::vector<Move> back = {line_to({50}, 0.2), line_to({0, 0, height}, 0.2),
                                         line_to({50, 0, height}, 0.2)};
-        double speed = 0, greatest = 0;
+        double velocity = 0, greatest = 0;
         for (const PlannedMove& move : moves_of(back, {}, limits)) {
             double accel = 1e9;
             for (std::size_t axis = 0; axis < 3; ++axis)
                 accel = std::min(accel, limits[axis].max_accel * move.length /
                                             std::max(1e-9, std::fabs(move.move.end[axis] - move.start[axis])));
-            speed = std::max(move.exit_velocity, std::sqrt(std::max(0.0, speed * speed - 2 * accel * move.length)));
-            greatest = std::max(greatest, speed - move.exit_velocity);
+            velocity =
+                std::max(move.exit_velocity, std::sqrt(std::max(0.0, velocity * velocity - 2 * accel * move.length)));
+            greatest = std::max(greatest, velocity - move.exit_velocity);
         }
         EXPECT_LT(greatest, limits[0].max_velocity_step) << "height " << height;
     }

@@ -78,9 +78,9 @@ TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
         ASSERT_EQ(fault_of(*out, t, entry * (1 + 1e-12)), "") << text_of(t);
         const ProfileSample at = out->sample(entry);
         Task rest = t;
-        rest.from = {at.position, std::clamp(at.speed, -t.limits.speed, t.limits.speed),
+        rest.from = {at.position, std::clamp(at.velocity, -t.limits.velocity, t.limits.velocity),
                      std::clamp(at.accel, -t.limits.accel, t.limits.accel)};
-        rest.limits.speed *= 1 + 1e-10;
+        rest.limits.velocity *= 1 + 1e-10;
         const double referee = entry + slowly_found_duration(rest);
         ASSERT_LE(out->duration(), referee + 1e-6 * std::max(1.0, referee)) << text_of(t);
     }
