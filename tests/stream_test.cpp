@@ -233,7 +233,7 @@ TEST_P(StreamExecutorTest, FeelsAnOverrideWithinATenthOfASecondOrSo) {
     double asked_at = -1, slow_at = -1;
     w.on_slice = [&] {
         if (asked_at < 0 && w.seconds() > 2) w.stream->set_overrides(0.5, 1), asked_at = w.seconds();
-        if (asked_at > 0 && slow_at < 0 && w.rack.axes()[0].machine->speed() < 5.2) slow_at = w.seconds();
+        if (asked_at > 0 && slow_at < 0 && w.rack.axes()[0].machine->velocity() < 5.2) slow_at = w.seconds();
     };
     drive_all(w, "G21 G90\nG1 X100 F600\n");
     EXPECT_LT(slow_at - asked_at, 0.45);
@@ -284,7 +284,7 @@ TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMo
         double slowest = 1e9;
         w.on_slice = [&] {
             const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
-            if (x > 8 && x < 12) slowest = std::min(slowest, w.rack.axes()[0].machine->speed());
+            if (x > 8 && x < 12) slowest = std::min(slowest, w.rack.axes()[0].machine->velocity());
         };
         seconds_of(w, "G21 G90 F1200\nG1 X10\n" + between + "\nG1 X20\nM2\n");
         EXPECT_EQ(at.size(), 1u);

@@ -56,12 +56,12 @@ void check_pace(const TomlNode& root, const MarkingJob& job, rack::Problems& pro
 
 bool stands(const MarkingJob& job) {
     const auto profile = job.track().profile;
-    return std::all_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed == 0; });
+    return std::all_of(profile.begin(), profile.end(), [](const parts::VelocityPoint& p) { return p.velocity == 0; });
 }
 bool turns_back(const MarkingJob& job) {
     const auto profile = job.track().profile;
     return std::any_of(profile.begin(), profile.end(),
-                       [&](const parts::SpeedPoint& p) { return p.speed * job.sense() < 0; });
+                       [&](const parts::VelocityPoint& p) { return p.velocity * job.sense() < 0; });
 }
 
 void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {

@@ -106,7 +106,7 @@ parts::ConveyorSettings MarkingJob::track() const {
     out.rotary = belt.rotary;
     out.direction_deg = belt.direction_deg;
     out.centre_mm = {belt.centre_x_mm, belt.centre_y_mm};
-    out.profile = belt.profile.empty() ? std::vector<parts::SpeedPoint>{{0, belt.speed}} : belt.profile;
+    out.profile = belt.profile.empty() ? std::vector<parts::VelocityPoint>{{0, belt.speed}} : belt.profile;
     out.counts_per_unit = belt.counts_per_unit;
     out.slip = belt.slip;
     out.jitter_counts = belt.jitter_counts;
@@ -114,8 +114,10 @@ parts::ConveyorSettings MarkingJob::track() const {
 }
 
 double MarkingJob::sense() const {
-    const std::vector<parts::SpeedPoint> profile = track().profile;
-    return std::any_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed < 0; }) ? -1 : 1;
+    const std::vector<parts::VelocityPoint> profile = track().profile;
+    return std::any_of(profile.begin(), profile.end(), [](const parts::VelocityPoint& p) { return p.velocity < 0; })
+               ? -1
+               : 1;
 }
 
 JobRead read_job(std::string_view text, const std::string& file) {

@@ -47,8 +47,8 @@ struct BeltSettings {
     double counts_per_unit = 1000;
     double slip = 0, jitter_counts = 0;
     bool rotary = false;
-    std::vector<parts::SpeedPoint> profile;  ///< if not empty, replaces `speed`
-    Place place;                             ///< position of the section
+    std::vector<parts::VelocityPoint> profile;  ///< if not empty, replaces `speed`
+    Place place;                                ///< position of the section
 };
 
 enum class FlyMode : std::uint8_t { off, encoder, simulated, mcbsp };

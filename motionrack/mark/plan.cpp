@@ -109,7 +109,7 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
 void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
-    const double way = following.track.profile[0].speed * job.fly.offset_us * 1e-6;
+    const double way = following.track.profile[0].velocity * job.fly.offset_us * 1e-6;
     Spot offset;
     if (following.track.rotary) {
         const SinCos t = sin_cos(way * (pi / 180));
@@ -186,7 +186,7 @@ Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const
     const auto& profile = following.track.profile;
     const bool carried =
         following.mode != FlyMode::off &&
-        std::any_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed != 0; });
+        std::any_of(profile.begin(), profile.end(), [](const parts::VelocityPoint& p) { return p.velocity != 0; });
     const Box box = box_of(drawing);
     if (carried || (box.low.x <= field.high.x && box.high.x >= field.low.x && box.low.y <= field.high.y &&
                     box.high.y >= field.low.y))
@@ -208,7 +208,7 @@ Box Prepared::field() const {
 
 ConveyorTracking following_of(const MarkingJob& job, double factor) {
     ConveyorTracking out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
-    for (parts::SpeedPoint& point : out.track.profile) point.speed *= factor;
+    for (parts::VelocityPoint& point : out.track.profile) point.velocity *= factor;
     return out;
 }
 

@@ -74,7 +74,7 @@ class FitSearch {
         : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, MarkingOutcome& out) {
-        const double greatest = std::min(1000.0, parts::max_track_speed / top_speed());
+        const double greatest = std::min(1000.0, parts::max_track_velocity / top_speed());
         const double least = std::max(1e-3, now.ticks * 1e-5 / max_seconds);
         double low = 1, high = 1;
         out.starts_limit = now.beyond_mm <= 0;
@@ -105,8 +105,8 @@ class FitSearch {
   private:
     double top_speed() const {
         double top = 0;
-        for (const parts::SpeedPoint& point : following_of(job_).track.profile)
-            top = std::max(top, std::fabs(point.speed));
+        for (const parts::VelocityPoint& point : following_of(job_).track.profile)
+            top = std::max(top, std::fabs(point.velocity));
         return top;
     }
     Result<bool> fits(double factor, MarkingOutcome& out) {
@@ -173,7 +173,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
 
 bool moves(const parts::ConveyorSettings& track) {
     return std::any_of(track.profile.begin(), track.profile.end(),
-                       [](const parts::SpeedPoint& p) { return p.speed != 0; });
+                       [](const parts::VelocityPoint& p) { return p.velocity != 0; });
 }
 
 /// With waits, everything must be marked at its intended position.

@@ -139,7 +139,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         out["part"] = {{"name", track->config.name},
                        {"unit", track->config.unit()},
                        {"position", track->track().travel(to_seconds(machine.now()))},
-                       {"speed", track->track().speed(to_seconds(machine.now()))},
+                       {"speed", track->track().velocity(to_seconds(machine.now()))},
                        {"stopped", track->drive->stopped(machine.now())},
                        {"direction_deg", track->config.direction_deg}};
     return out;

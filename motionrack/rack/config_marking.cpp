@@ -19,8 +19,8 @@ constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
     field<&RackConveyor::encoder>("encoder", 0, 1, "", "encoder input of the card for its encoder"),
-    formerly("speed_{u}_s", field<&RackConveyor::speed>("velocity_{u}_s", -parts::max_track_speed,
-                                                        parts::max_track_speed, "{u}/s", "how fast it goes")),
+    formerly("speed_{u}_s", field<&RackConveyor::speed>("velocity_{u}_s", -parts::max_track_velocity,
+                                                        parts::max_track_velocity, "{u}/s", "how fast it goes")),
     field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2", "deceleration at a stop"),
     only_in(field<&RackConveyor::direction_deg>("direction_deg", -3'600, 3'600, "deg",
                                                 "direction of its motion, from +X counter-clockwise"),
@@ -205,7 +205,7 @@ class MarkingReader {
                                number_text(track.passing->length), unit_, number_text(track.passing->every)));
         double fastest = std::fabs(track.speed);
         if (!track.profile.empty()) fastest = 0;
-        for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
+        for (const parts::VelocityPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.velocity));
         if (fastest > track.max_velocity())
             refuse(*node_, with_unit("velocity_{u}_s", unit_),
                    fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "

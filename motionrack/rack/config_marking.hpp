@@ -30,8 +30,8 @@ struct RackConveyor {
     double centre_x_mm = 0, centre_y_mm = 0;  ///< centre of rotation (tables)
     double counts_per_unit = 1000;            ///< encoder counts, four per line; 0: without encoder
     double slip = 0;
-    double jitter_us = 0;                    ///< maximum delay of an edge
-    std::vector<parts::SpeedPoint> profile;  ///< replaces the speed if not empty
+    double jitter_us = 0;                       ///< maximum delay of an edge
+    std::vector<parts::VelocityPoint> profile;  ///< replaces the speed if not empty
     std::optional<parts::SerialPositionSettings> sender;
     std::optional<RackParts> passing;  ///< parts that pass a sensor
 

@@ -35,7 +35,7 @@ sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::
 double speed_after(const parts::DcMotorSettings& servo, double speed, double volts, double seconds) {
     const double inertia = 1 + servo.load, most = servo.top_accel / inertia * seconds;
     const double above = std::max(std::fabs(volts) - servo.dead_band_v, 0.0);
-    const double wanted = std::copysign(std::min(above * servo.gain, servo.top_speed), volts);
+    const double wanted = std::copysign(std::min(above * servo.gain, servo.saturation_velocity), volts);
     const double push = std::clamp((wanted - speed) * std::min(seconds / (servo.lag_s * inertia), 1.0), -most, most);
     const double friction = servo.friction / inertia * seconds;
     if (speed == 0 && std::fabs(push) <= friction) return 0;

@@ -41,7 +41,7 @@ parts::ConveyorSettings RackConveyor::settings() const {
 }
 
 double RackConveyor::max_velocity() const {
-    double out = parts::max_track_speed;
+    double out = parts::max_track_velocity;
     if (has_encoder()) out = std::min(out, max_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
     if (passing) out = std::min(out, max_parts * passing->every);
     return out;

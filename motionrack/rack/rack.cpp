@@ -67,7 +67,7 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     const double counts = axis.counts_per_unit();
     parts::DcMotorSettings out;
     out.gain = servo.speed_per_volt * counts;
-    out.top_speed = servo.saturation() * counts;
+    out.saturation_velocity = servo.saturation() * counts;
     out.top_accel = servo.current_limit_accel * counts;
     out.friction = servo.friction * counts;
     out.lag_s = servo.lag_ms * 1e-3;

@@ -61,7 +61,7 @@ parts::LinearStageSettings motor_settings(const RackStage& stage) {
     parts::LinearStageSettings out;
     out.accel_per_volt = stage.accel_per_volt_m_s2;
     out.top_accel = stage.current_limit_accel_m_s2;
-    out.top_speed = stage.saturation_velocity_m_s;
+    out.saturation_velocity = stage.saturation_velocity_m_s;
     out.viscous = stage.viscous_per_s;
     out.coulomb = stage.coulomb_m_s2;
     out.load = stage.load;

@@ -5,7 +5,7 @@
 //
 //     owner --count(t), rate(t)--> any caller
 //           --crossed(now)-------> the listener whose range was left (at the very instant of the edge)
-//           --rate_changed(now)--> listeners, when the motion's law changes (a speed step, a new segment, a stop)
+//           --rate_changed(now)--> listeners, when the motion's law changes (a velocity step, a new segment, a stop)
 //           --edges(batch)-------> edge listener, in order, before the law changes and at Kernel sync
 #pragma once
 

@@ -181,8 +181,8 @@ class AStopInAState : public testing::TestWithParam<Case> {
 
     rack::Rack& rack() { return o_.machine->rack(); }
     double level(const char* wire) { return *o_.machine->wires().get(wire); }
-    double stage_speed() { return std::fabs(rack().stage("mask")->motor->speed(o_.machine->now())); }
-    double belt_speed() { return rack().track("line")->track().speed(to_seconds(o_.machine->now())); }
+    double stage_speed() { return std::fabs(rack().stage("mask")->motor->velocity(o_.machine->now())); }
+    double belt_speed() { return rack().track("line")->track().velocity(to_seconds(o_.machine->now())); }
     double marked() { return *rack::get_quantity(rack(), "head.marked_mm"); }
 
     /// Starts a laser for eight seconds, a belt and a stage, and switches outputs on.

@@ -34,8 +34,8 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
             rack::Rack& rack = a.machine->rack();
             const Instant now = a.machine->now();
             seen.laser = *a.machine->wires().get("scan.laser_on") != 0;
-            seen.belt_mm_s = rack.track("line")->track().speed(to_seconds(now));
-            seen.mask_m_s = std::fabs(rack.stage("mask_x")->motor->speed(now));
+            seen.belt_mm_s = rack.track("line")->track().velocity(to_seconds(now));
+            seen.mask_m_s = std::fabs(rack.stage("mask_x")->motor->velocity(now));
         });
         a.at(seconds, eve, "workpiece", {{"scanner", "head"}}, [&seen](const Answer& answer) {
             seen.marked_mm = answer.body["marked_mm"];

@@ -86,8 +86,8 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     const double before = state_.motor.rate_hz;
     if (axle_.play() != 0 && (rate > 0) - (rate < 0) != (before > 0) - (before < 0)) axle_.turn(rotor_at(now));
     motor_.note_rate(rate);
-    const double speed = std::fabs(rate);
-    if (speed > state_.top_hz) state_.top_hz = speed;
+    const double velocity = std::fabs(rate);
+    if (velocity > state_.top_hz) state_.top_hz = velocity;
     notify_rate(motor_.rotor_rate(before), now);
 }
 

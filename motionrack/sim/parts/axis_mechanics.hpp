@@ -64,13 +64,13 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     /// True position of the table at `t` (not before the last event, not after the present), mm or degrees.
     double position(Instant t) const { return axle_.position(rotor_at(t)); }
     /// True velocity of the table by the present law, mm/s or degrees/s, signed.
-    double speed() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
+    double velocity() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
     /// Pulses - rotor at `t`: 0 without step loss; a multiple of 4 full steps while in step.
     std::int64_t lost_steps(Instant t) const { return pulses_at(t) - rotor_at(t); }
     std::int64_t lost_steps() const { return lost_steps(kernel_.now()); }
     bool in_step() const { return motor_.in_step(); }
     /// Highest velocity so far with the motor in step, mm/s or degrees/s.
-    double top_speed() const { return state_.top_hz * axle_.units_per_pulse(); }
+    double peak_velocity() const { return state_.top_hz * axle_.units_per_pulse(); }
     double units_per_pulse() const { return axle_.units_per_pulse(); }
 
     /// Wires of the machine; WireId::none if the part is absent.

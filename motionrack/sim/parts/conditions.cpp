@@ -29,7 +29,7 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
                                c.a > 0 ? "plus" : "minus", c.b);
         case AxisCondition::scale_too_fast:
             return fmt::format(
-                "scale {}: at {:.6f} s its speed reached {} counts/s, above the {} counts/s of its electronics; it "
+                "scale {}: at {:.6f} s its velocity reached {} counts/s, above the {} counts/s of its electronics; it "
                 "counts nothing until it is slower, and its position is invalid until it is referenced again",
                 axis, at, c.a, c.b);
         case AxisCondition::scale_lost:

@@ -30,29 +30,30 @@ bool within(double v, double least, double greatest) {
 }
 
 /// The first time at which an object has moved `way` (>= 0) upwards; infinity if never.
-double time_for(double way, double speed, double accel) {
+double time_for(double way, double velocity, double accel) {
     constexpr double never_s = std::numeric_limits<double>::infinity();
     if (!(way < never_s)) return never_s;
-    const double under = speed * speed + 2 * accel * way;
+    const double under = velocity * velocity + 2 * accel * way;
     if (under < 0) return never_s;
     const double root = std::sqrt(under);
-    if (speed + root > 0) return 2 * way / (speed + root);
-    return accel > 0 ? (root - speed) / accel : never_s;
+    if (velocity + root > 0) return 2 * way / (velocity + root);
+    return accel > 0 ? (root - velocity) / accel : never_s;
 }
 
 }  // namespace
 
 Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
     const auto refuse = [](std::string why) { return fail(ErrorKind::refused, std::move(why)); };
-    if (s.profile.empty()) return refuse("a track without a speed: its profile needs a point at least");
+    if (s.profile.empty()) return refuse("a track without a velocity: its profile needs a point at least");
     for (std::size_t i = 0; i < s.profile.size(); ++i) {
-        const SpeedPoint& p = s.profile[i];
+        const VelocityPoint& p = s.profile[i];
         if (!within(p.at_s, 0, 1e6) || (i > 0 && p.at_s <= s.profile[i - 1].at_s))
-            return refuse(fmt::format("point {} of the speed profile is at {} s: times are 0 to 1000000 s and rise",
+            return refuse(fmt::format("point {} of the velocity profile is at {} s: times are 0 to 1000000 s and rise",
                                       i + 1, p.at_s));
-        if (!within(p.speed, -max_track_speed, max_track_speed))
-            return refuse(fmt::format("point {} of the speed profile has the speed {}: -100000 to 100000 are possible",
-                                      i + 1, p.speed));
+        if (!within(p.velocity, -max_track_velocity, max_track_velocity))
+            return refuse(
+                fmt::format("point {} of the velocity profile has the velocity {}: -100000 to 100000 are possible",
+                            i + 1, p.velocity));
     }
     if (!within(std::abs(s.counts_per_unit), 1e-6, 1e9))
         return refuse(fmt::format("an encoder with {} counts a unit: 0.000001 to 1e9 are possible, or negative",
@@ -71,50 +72,50 @@ Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
     out.settings_ = s;
     const SinCos t = sin_cos(s.direction_deg * (pi / 180));
     out.cosine_ = t.cos, out.sine_ = t.sin;
-    double sum = s.profile[0].speed * s.profile[0].at_s;
+    double sum = s.profile[0].velocity * s.profile[0].at_s;
     out.travelled_.push_back(sum);
     for (std::size_t i = 1; i < s.profile.size(); ++i) {
-        const SpeedPoint &a = s.profile[i - 1], &b = s.profile[i];
-        sum += (a.speed + b.speed) / 2 * (b.at_s - a.at_s);
+        const VelocityPoint &a = s.profile[i - 1], &b = s.profile[i];
+        sum += (a.velocity + b.velocity) / 2 * (b.at_s - a.at_s);
         out.travelled_.push_back(sum);
     }
     return out;
 }
 
-double Conveyor::law_speed(double t_s) const {
+double Conveyor::law_velocity(double t_s) const {
     const auto& p = settings_.profile;
     const auto above =
-        std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
-    if (above == p.begin()) return p.front().speed;
-    if (above == p.end()) return p.back().speed;
-    const SpeedPoint &a = *(above - 1), &b = *above;
-    return a.speed + (b.speed - a.speed) * ((t_s - a.at_s) / (b.at_s - a.at_s));
+        std::upper_bound(p.begin(), p.end(), t_s, [](double t, const VelocityPoint& q) { return t < q.at_s; });
+    if (above == p.begin()) return p.front().velocity;
+    if (above == p.end()) return p.back().velocity;
+    const VelocityPoint &a = *(above - 1), &b = *above;
+    return a.velocity + (b.velocity - a.velocity) * ((t_s - a.at_s) / (b.at_s - a.at_s));
 }
 
 std::ptrdiff_t Conveyor::point_before(double t_s) const {
     const auto& p = settings_.profile;
     if (t_s <= p.front().at_s) return -1;
-    return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; }) -
+    return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const VelocityPoint& q) { return t < q.at_s; }) -
            p.begin() - 1;
 }
 
 double Conveyor::law_travel_from(std::ptrdiff_t point, double t_s) const {
     const auto& p = settings_.profile;
-    if (point < 0) return p.front().speed * t_s;
+    if (point < 0) return p.front().velocity * t_s;
     const auto i = static_cast<std::size_t>(point);
     const double dt = t_s - p[i].at_s;
-    if (i + 1 == p.size()) return travelled_[i] + p[i].speed * dt;
-    const SpeedPoint& next = p[i + 1];
-    return travelled_[i] + (p[i].speed + (next.speed - p[i].speed) / (next.at_s - p[i].at_s) * (dt / 2)) * dt;
+    if (i + 1 == p.size()) return travelled_[i] + p[i].velocity * dt;
+    const VelocityPoint& next = p[i + 1];
+    return travelled_[i] + (p[i].velocity + (next.velocity - p[i].velocity) / (next.at_s - p[i].at_s) * (dt / 2)) * dt;
 }
 
 double Conveyor::law_travel(double t_s) const {
     return law_travel_from(point_before(t_s), t_s);
 }
 
-double Conveyor::speed(double t_s) const {
+double Conveyor::velocity(double t_s) const {
     const Driving& d = driving_;
-    return d.by_hand ? d.speed - d.accel * std::max(0.0, d.since_s + d.ramp_s - t_s) : law_speed(t_s);
+    return d.by_hand ? d.velocity - d.accel * std::max(0.0, d.since_s + d.ramp_s - t_s) : law_velocity(t_s);
 }
 
 double Conveyor::driven(double law, double t_s) const {
@@ -125,19 +126,19 @@ double Conveyor::driven(double law, double t_s) const {
 double Conveyor::travel_by_hand(double after_s) const {
     const Driving& d = driving_;
     const double missing_s = std::max(0.0, d.ramp_s - after_s);  // remaining part of the ramp
-    return d.speed * after_s - d.accel / 2 * (d.ramp_s * d.ramp_s - missing_s * missing_s);
+    return d.velocity * after_s - d.accel / 2 * (d.ramp_s * d.ramp_s - missing_s * missing_s);
 }
 
 double Conveyor::travel(double t_s) const {
     return driven(driving_.by_hand ? 0 : law_travel(t_s), t_s);
 }
 
-void Conveyor::drive(double t_s, double speed) {
-    driving_ = {travel(t_s), 0, t_s, speed, 0, 0, 1};
+void Conveyor::drive(double t_s, double velocity) {
+    driving_ = {travel(t_s), 0, t_s, velocity, 0, 0, 1};
 }
 
 void Conveyor::stop(double t_s) {
-    const double now = speed(t_s), accel = now > 0 ? -settings_.deceleration : settings_.deceleration;
+    const double now = velocity(t_s), accel = now > 0 ? -settings_.deceleration : settings_.deceleration;
     driving_ = {travel(t_s), 0, t_s, 0, accel, std::fabs(now) / settings_.deceleration, 1};
 }
 
@@ -154,13 +155,13 @@ double Conveyor::leaves(double from_s, double low, double high) const {
         if (const Driving& d = driving_; d.by_hand && from_s < d.since_s + d.ramp_s) {
             accel = d.accel, end_s = d.since_s + d.ramp_s;
         } else if (!d.by_hand) {
-            const auto above =
-                std::upper_bound(p.begin(), p.end(), from_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
+            const auto above = std::upper_bound(p.begin(), p.end(), from_s,
+                                                [](double t, const VelocityPoint& q) { return t < q.at_s; });
             if (above != p.end()) end_s = above->at_s;
             if (above != p.end() && above != p.begin())
-                accel = (above->speed - (above - 1)->speed) / (above->at_s - (above - 1)->at_s);
+                accel = (above->velocity - (above - 1)->velocity) / (above->at_s - (above - 1)->at_s);
         }
-        const double here = travel(from_s), v = speed(from_s);
+        const double here = travel(from_s), v = velocity(from_s);
         const double after = std::min(time_for(high - here, v, accel), time_for(here - low, -v, -accel));
         if (from_s + after <= end_s || end_s == never_s) return from_s + after;
         from_s = end_s;

@@ -13,18 +13,18 @@
 namespace motionrack::parts {
 
 /// mm/s or degrees/s, in either direction.
-inline constexpr double max_track_speed = 1e5;
+inline constexpr double max_track_velocity = 1e5;
 
-struct SpeedPoint {
+struct VelocityPoint {
     double at_s = 0;
-    double speed = 0;  ///< mm/s or degrees/s; linear between points, constant before the first and after the last
+    double velocity = 0;  ///< mm/s or degrees/s; linear between points, constant before the first and after the last
 };
 
 struct ConveyorSettings {
     bool rotary = false;
     double direction_deg = 0;  ///< belt: direction of motion, from +X counter-clockwise
-    sim::Spot centre_mm{};     ///< rotary: centre; counter-clockwise for a positive speed
-    std::vector<SpeedPoint> profile{{0, 100}};
+    sim::Spot centre_mm{};     ///< rotary: centre; counter-clockwise for a positive velocity
+    std::vector<VelocityPoint> profile{{0, 100}};
     double deceleration = 2000;     ///< deceleration of stop(), units/s2, 1 .. 1e7
     double counts_per_unit = 1000;  ///< counts (x4) per mm or degree, +-1e-6 .. 1e9; negative: opposite direction
     double slip = 0;                ///< slip of the encoder's wheel, -0.5 .. 0.5: it measures 1 - slip of the travel
@@ -39,12 +39,12 @@ class Conveyor {
     /// mm or degrees since 0 s, and the velocity. Before a change of the drive the present motion is extrapolated
     /// backwards.
     double travel(double t_s) const;
-    double speed(double t_s) const;
+    double velocity(double t_s) const;
     /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards);
     /// infinity if never. At `from_s` the travel must be between them.
     double leaves(double from_s, double low, double high) const;
-    /// From t_s on: constant speed, at most max_track_speed; deceleration to a standstill; the profile again.
-    void drive(double t_s, double speed);
+    /// From t_s on: constant velocity, at most max_track_velocity; deceleration to a standstill; the profile again.
+    void drive(double t_s, double velocity);
     void stop(double t_s);
     void follow_profile(double t_s);
     /// Encoder counts (wrapping) at ticks of 10 us: first, first + 1, ..
@@ -61,7 +61,7 @@ class Conveyor {
         double travelled = 0;  ///< travel at the last change
         double law = 0;        ///< travel of the profile at that time
         double since_s = 0;
-        double speed = 0;              ///< manual speed, after the ramp
+        double velocity = 0;           ///< manual velocity, after the ramp
         double accel = 0, ramp_s = 0;  ///< the ramp begins at since_s
         std::int64_t by_hand = 0;
     };
@@ -70,7 +70,7 @@ class Conveyor {
     bool by_hand() const { return driving_.by_hand != 0; }
 
   private:
-    double law_speed(double t_s) const;
+    double law_velocity(double t_s) const;
     double law_travel(double t_s) const;
     /// Index of the profile point at or before that time; -1: before the first.
     std::ptrdiff_t point_before(double t_s) const;

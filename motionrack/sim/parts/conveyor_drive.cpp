@@ -1,4 +1,4 @@
-// Speed changes of a conveyor.
+// Velocity changes of a conveyor.
 #include <array>
 #include <cmath>
 #include <motionrack/sim/parts/conveyor_drive.hpp>
@@ -10,7 +10,7 @@ constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "
 }
 
 ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double max_velocity)
-    : track_(track), max_speed_(max_velocity), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+    : track_(track), max_velocity_(max_velocity), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
 std::span<const std::string_view> ConveyorDrive::fault_names() {
     return track_drive_faults;
@@ -19,7 +19,7 @@ std::span<const std::string_view> ConveyorDrive::fault_names() {
 bool ConveyorDrive::fault(std::string_view name, double value, Instant now) {
     const bool by_hand = name == track_drive_faults[0];
     if (!by_hand && name != track_drive_faults[1]) return false;
-    if (!(std::fabs(value) <= max_speed_)) return false;
+    if (!(std::fabs(value) <= max_velocity_)) return false;
     if (!by_hand) return go_on(now), true;
     change(now, [value](Conveyor& track, double at_s) { track.drive(at_s, value); });
     return true;
@@ -36,9 +36,9 @@ void ConveyorDrive::go_on(Instant now) {
 template <class Change>
 void ConveyorDrive::change(Instant now, Change&& how) {
     for (ConveyorPosition* motion : motions_) motion->deliver_edges();
-    const double speed_before = track_.speed(to_seconds(now));
+    const double velocity_before = track_.velocity(to_seconds(now));
     how(track_, to_seconds(now));
-    for (ConveyorPosition* motion : motions_) motion->changed(speed_before);
+    for (ConveyorPosition* motion : motions_) motion->changed(velocity_before);
 }
 
 }  // namespace motionrack::parts

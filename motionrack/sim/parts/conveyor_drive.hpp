@@ -1,10 +1,10 @@
-// Drive of a conveyor in virtual time: its speed can be set manually, or follow its profile again.
+// Drive of a conveyor in virtual time: its velocity can be set manually, or follow its profile again.
 //
 //   ConveyorDrive ──► Conveyor ──┬─► ConveyorPosition: counts of an encoder
 //                                ├─► ConveyorPosition: position of the parts
 //                                └─► ScanHead, SerialWordSource
 //
-// Faults: drive.speed x (x mm/s or degrees/s from now on, up to the maximum speed; 0: standstill), drive.profile
+// Faults: drive.speed x (x mm/s or degrees/s from now on, up to the maximum velocity; 0: standstill), drive.profile
 // (follow the profile again).
 #pragma once
 
@@ -19,13 +19,13 @@ namespace motionrack::parts {
 
 class ConveyorDrive final : public sim::Device {
   public:
-    /// Adds the device `name` to the kernel before it starts. `max_velocity`: at most max_track_speed.
+    /// Adds the device `name` to the kernel before it starts. `max_velocity`: at most max_track_velocity.
     ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track,
-                  double max_velocity = max_track_speed);
+                  double max_velocity = max_track_velocity);
 
     const Conveyor& track() const { return track_; }
     sim::DeviceId id() const { return id_; }
-    /// Adds a listener for speed changes; before the start.
+    /// Adds a listener for velocity changes; before the start.
     void add(ConveyorPosition& motion) { motions_.push_back(&motion); }
     static std::span<const std::string_view> fault_names();
 
@@ -33,7 +33,7 @@ class ConveyorDrive final : public sim::Device {
     /// Decelerates to a standstill; `go_on`: follows the profile again.
     void stop(Instant now);
     void go_on(Instant now);
-    bool stopped(Instant now) const { return track_.by_hand() && track_.speed(to_seconds(now)) == 0; }
+    bool stopped(Instant now) const { return track_.by_hand() && track_.velocity(to_seconds(now)) == 0; }
 
     void on_scheduled(Instant) override {}
     std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
@@ -44,7 +44,7 @@ class ConveyorDrive final : public sim::Device {
     void change(Instant now, Change&& how);
 
     Conveyor track_;
-    double max_speed_;
+    double max_velocity_;
     std::vector<ConveyorPosition*> motions_;
     sim::DeviceId id_{};
 };

@@ -25,7 +25,7 @@ std::int64_t ConveyorPosition::count(Instant t) const {
 }
 
 double ConveyorPosition::rate(Instant t) const {
-    return track_.speed(to_seconds(t)) * per_unit_;
+    return track_.velocity(to_seconds(t)) * per_unit_;
 }
 
 /// The first instant at or after `from` at which the count is out of the range; at `from` it is within.
@@ -58,9 +58,9 @@ void ConveyorPosition::on_scheduled(Instant now) {
     schedule(now);
 }
 
-void ConveyorPosition::changed(double speed_before) {
+void ConveyorPosition::changed(double velocity_before) {
     const Instant now = kernel_.now();
-    listeners_.notify_rate(speed_before * per_unit_, rate(now), now);
+    listeners_.notify_rate(velocity_before * per_unit_, rate(now), now);
     schedule(now);
 }
 

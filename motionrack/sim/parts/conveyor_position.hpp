@@ -29,9 +29,9 @@ class ConveyorPosition final : public sim::DeferringDevice, public sim::Position
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { hand_over(kernel_.now()); }
 
-    /// Records a change of the conveyor's motion; `speed_before`: its speed() until now. Edges up to now must have been
-    /// delivered.
-    void changed(double speed_before);
+    /// Records a change of the conveyor's motion; `velocity_before`: its velocity() until now. Edges up to now must
+    /// have been delivered.
+    void changed(double velocity_before);
 
     void on_scheduled(Instant now) override;
     void sync(Instant now) override { hand_over(now); }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 3> dc_motor_faults = {"motor.load", "motor.stall", "motor.push"};
 constexpr Duration grid = microseconds(1);
 constexpr double grid_s = 1e-6;
-/// Listeners are notified of speed changes by this part of the top speed.
+/// Listeners are notified of velocity changes by this part of the saturation velocity.
 constexpr double telling = 1.0 / 16;
 
 int sign_of(double x) {
@@ -27,58 +27,58 @@ int sign_of(double x) {
 
 double DcMotorModel::way(double seconds) const {
     const double s = std::min(seconds, end);
-    if (lag == 0) return speed0 * s + aim * s * s * 0.5;
-    return aim * s + (speed0 - aim) * lag * (1 - exponential(-s / lag));
+    if (lag == 0) return velocity0 * s + aim * s * s * 0.5;
+    return aim * s + (velocity0 - aim) * lag * (1 - exponential(-s / lag));
 }
 
-double DcMotorModel::speed(double seconds) const {
+double DcMotorModel::velocity(double seconds) const {
     if (seconds >= end) return after;
-    return lag == 0 ? speed0 + aim * seconds : aim + (speed0 - aim) * exponential(-seconds / lag);
+    return lag == 0 ? velocity0 + aim * seconds : aim + (velocity0 - aim) * exponential(-seconds / lag);
 }
 
 int DcMotorModel::direction() const {
-    return speed0 != 0 ? sign_of(speed0) : sign_of(aim);
+    return velocity0 != 0 ? sign_of(velocity0) : sign_of(aim);
 }
 
-double DcMotor::wanted_speed() const {
+double DcMotor::wanted_velocity() const {
     const double volts = std::fabs(state_.volts) - settings_.dead_band_v;
     if (volts <= 0) return 0;
-    return sign_of(state_.volts) * std::min(volts * settings_.gain, settings_.top_speed);
+    return sign_of(state_.volts) * std::min(volts * settings_.gain, settings_.saturation_velocity);
 }
 
-/// Law of motion from `speed` on with the present voltage and load.
-DcMotorModel DcMotor::law_from(double speed) const {
+/// Law of motion from `velocity` on with the present voltage and load.
+DcMotorModel DcMotor::law_from(double velocity) const {
     const double inertia = 1 + state_.load;
     const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
                  lag = settings_.lag_s * inertia;
-    const double wanted = wanted_speed(), error = wanted - speed;
-    int direction = sign_of(speed);
+    const double wanted = wanted_velocity(), error = wanted - velocity;
+    int direction = sign_of(velocity);
     if (direction == 0) {
         if (state_.held || wanted == 0 || state_.blocked == sign_of(wanted)) return {0, 0, 0, DcMotorModel::endless, 0};
         const double push = std::clamp(wanted / lag, -limit, limit);
         if (std::fabs(push) <= friction) return {0, 0, 0, DcMotorModel::endless, 0};
         direction = sign_of(push);
     }
-    DcMotorModel law{speed, 0, 0, DcMotorModel::endless, 0};
-    const double step = settings_.top_speed * telling;
+    DcMotorModel law{velocity, 0, 0, DcMotorModel::endless, 0};
+    const double step = settings_.saturation_velocity * telling;
     auto ends = [&law](double at, double after) {
         if (at < law.end) law.end = at, law.after = after;
     };
     if (std::fabs(error) > limit * lag * (1 + 1e-9)) {
         law.aim = sign_of(error) * limit - direction * friction;
         if (law.aim == 0) return law;
-        const double full = wanted - sign_of(error) * limit * lag;  // speed at which the current leaves its limit
-        if ((full - speed) / law.aim > 0) ends((full - speed) / law.aim, full);
-        if (law.aim * direction < 0) ends(-speed / law.aim, 0);
-        ends(step / std::fabs(law.aim), speed + sign_of(law.aim) * step);
+        const double full = wanted - sign_of(error) * limit * lag;  // velocity at which the current leaves its limit
+        if ((full - velocity) / law.aim > 0) ends((full - velocity) / law.aim, full);
+        if (law.aim * direction < 0) ends(-velocity / law.aim, 0);
+        ends(step / std::fabs(law.aim), velocity + sign_of(law.aim) * step);
         return law;
     }
     law.lag = lag;
     law.aim = wanted - direction * friction * lag;
-    if (speed != 0 && law.aim * direction < 0) ends(lag * natural_log(1 - speed / law.aim), 0);
-    const double gap = law.aim - speed;
+    if (velocity != 0 && law.aim * direction < 0) ends(lag * natural_log(1 - velocity / law.aim), 0);
+    const double gap = law.aim - velocity;
     if (std::fabs(gap) > 1.5 * step)
-        ends(lag * natural_log(gap / (gap - sign_of(gap) * step)), speed + sign_of(gap) * step);
+        ends(lag * natural_log(gap / (gap - sign_of(gap) * step)), velocity + sign_of(gap) * step);
     return law;
 }
 
@@ -89,7 +89,7 @@ DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSett
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
-    MOTIONRACK_ASSERT(settings.gain > 0 && settings.top_speed > 0 && settings.top_speed <= 1e6 &&
+    MOTIONRACK_ASSERT(settings.gain > 0 && settings.saturation_velocity > 0 && settings.saturation_velocity <= 1e6 &&
                       settings.friction >= 0);
     MOTIONRACK_ASSERT(settings.top_accel > settings.friction && settings.lag_s >= 1e-4 && settings.lag_s <= 10);
     MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load >= 0);
@@ -113,16 +113,16 @@ std::int64_t DcMotor::count(Instant t) const {
 }
 
 double DcMotor::rate(Instant t) const {
-    return state_.law.speed(seconds(t));
+    return state_.law.velocity(seconds(t));
 }
 
-void DcMotor::begin_law(double speed, Instant now) {
+void DcMotor::begin_law(double velocity, Instant now) {
     hand_over(now);
     const double here = state_.part + state_.law.way(seconds(now)), whole = std::floor(here);
     state_.base += static_cast<std::int64_t>(whole);
     state_.part = here - whole;
     state_.since = now;
-    state_.law = law_from(speed);
+    state_.law = law_from(velocity);
 }
 
 /// Handles a change of voltage, load or position by hand.

@@ -1,10 +1,10 @@
-// A DC motor with tachometer on a servo amplifier: the speed follows the voltage with a lag, within the limits of
+// A DC motor with tachometer on a servo amplifier: the velocity follows the voltage with a lag, within the limits of
 // current and load.
 //
-//   volts --dead band--> x gain --saturation--> commanded speed -(current limit)-> torque -(inertia, friction)--> speed
-//                                                    ^------------ tachometer ------------------------------------'
+//   volts --dead band--> x gain --saturation--> commanded velocity -(current limit)-> torque -(inertia, friction)--> v
+//                                                   ^------------- tachometer ------------------------------------'
 //
-//   speed ^        ______ commanded       ramp: the current is at its limit, the speed rises linearly
+//   v     ^        ______ commanded       ramp: the current is at its limit, the velocity v rises linearly
 //         |     .-'                       lag: the remaining change, 1/e of it each `lag`
 //         |    /                          stop: the same downwards; friction ends it, so the rotor reaches standstill
 //         +---/--------------> time       after a finite time
@@ -27,11 +27,11 @@ namespace motionrack::parts {
 
 /// Settings of the amplifier and the unloaded motor; counts are those of the rotor's encoder.
 struct DcMotorSettings {
-    double gain = 10'000;        ///< > 0: counts/s per volt
-    double top_speed = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
-    double top_accel = 2e6;      ///< counts/s2 at the current limit; greater than the friction
-    double lag_s = 0.01;         ///< 0.0001 .. 10: time constant of the speed
-    double friction = 20'000;    ///< counts/s2, >= 0: deceleration without current
+    double gain = 10'000;                  ///< > 0: counts/s per volt
+    double saturation_velocity = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
+    double top_accel = 2e6;                ///< counts/s2 at the current limit; greater than the friction
+    double lag_s = 0.01;                   ///< 0.0001 .. 10: time constant of the velocity
+    double friction = 20'000;              ///< counts/s2, >= 0: deceleration without current
     double dead_band_v = 0.005;  ///< V, 0 .. 5: smaller voltages have no effect; larger ones are reduced by it
     double load = 0;             ///< 0 .. 1000: inertia of the load relative to the motor
     std::optional<std::int64_t> end_minus{};  ///< counts of the end of travel; 0 lies between the ends
@@ -40,15 +40,15 @@ struct DcMotorSettings {
 
 /// One section of motion, times in seconds from its start.
 struct DcMotorModel {
-    double speed0 = 0;  ///< counts/s at the start
-    double aim = 0;     ///< lag: the speed that it approaches; ramp: counts/s2
-    double lag = 0;     ///< s; 0: a ramp
-    double end = 0;     ///< s; the law is valid up to here, `endless`: without limit
-    double after = 0;   ///< speed at the end
+    double velocity0 = 0;  ///< counts/s at the start
+    double aim = 0;        ///< lag: the velocity that it approaches; ramp: counts/s2
+    double lag = 0;        ///< s; 0: a ramp
+    double end = 0;        ///< s; the law is valid up to here, `endless`: without limit
+    double after = 0;      ///< velocity at the end
     static constexpr double endless = 1e9;
 
     double way(double seconds) const;
-    double speed(double seconds) const;
+    double velocity(double seconds) const;
     /// +1, -1, or 0 at standstill.
     int direction() const;
 };
@@ -69,8 +69,8 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
 
     /// The rotor in counts, with its fraction.
     double position(Instant t) const;
-    /// Output of the tachometer, as a part of the top speed.
-    double tacho(Instant t) const { return rate(t) / settings_.top_speed; }
+    /// Output of the tachometer, as a part of the saturation velocity.
+    double tacho(Instant t) const { return rate(t) / settings_.saturation_velocity; }
     /// +1, -1: stationary at that end of travel.
     int blocked() const { return state_.blocked; }
     double volts() const { return state_.volts; }
@@ -103,9 +103,9 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
     };
 
     double seconds(Instant t) const;
-    double wanted_speed() const;
-    DcMotorModel law_from(double speed) const;
-    void begin_law(double speed, Instant now);
+    double wanted_velocity() const;
+    DcMotorModel law_from(double velocity) const;
+    void begin_law(double velocity, Instant now);
     void change(Instant now);
     void tell(double before, Instant now);
     bool meet_ends(Instant now);

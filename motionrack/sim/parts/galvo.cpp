@@ -41,7 +41,7 @@ Result<void> check(const GalvoSettings& s) {
     MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
     MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
-    return range("a maximum speed in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
+    return range("a maximum velocity in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
 }
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {
@@ -55,7 +55,7 @@ void GalvoPair::reset(double x, double y) {
     const double at[2] = {x, y};
     for (std::size_t i = 0; i < 2; ++i) {
         mirrors_[i].position = at[i];
-        mirrors_[i].speed = 0;
+        mirrors_[i].velocity = 0;
         std::fill(mirrors_[i].late.begin(), mirrors_[i].late.end(), at[i]);
     }
 }
@@ -71,10 +71,10 @@ double GalvoPair::step(Mirror& m, double told) const {
         m.head = m.head + 1 == dead_ ? 0 : m.head + 1;
     }
     const double off = m.position - told;
-    const double position = told + (over_tick_[0] * off + over_tick_[1] * m.speed);
-    const double speed = over_tick_[2] * off + over_tick_[3] * m.speed;
+    const double position = told + (over_tick_[0] * off + over_tick_[1] * m.velocity);
+    const double velocity = over_tick_[2] * off + over_tick_[3] * m.velocity;
     m.position += std::clamp(position - m.position, -limit_, limit_);
-    m.speed = std::clamp(speed, -limit_, limit_);
+    m.velocity = std::clamp(velocity, -limit_, limit_);
     return m.position;
 }
 

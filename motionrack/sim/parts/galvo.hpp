@@ -1,6 +1,6 @@
 // Two scan mirrors behind a card: actual positions for the commanded ones of every 10 us.
 //
-//   commanded ──► dead time ──► second-order lag ──► speed limit ──► position at the end of the 10 us
+//   commanded ──► dead time ──► second-order lag ──► velocity limit ──► position at the end of the 10 us
 //
 // Ideal mirrors reach at the end of a tick the position commanded at its start: the micro-step takes its 10 us.
 #pragma once
@@ -43,14 +43,14 @@ class GalvoPair {
 
   private:
     struct Mirror {
-        double position = 0, speed = 0;  ///< bits, bits/tick
+        double position = 0, velocity = 0;  ///< bits, bits/tick
         std::int64_t head = 0;
         std::array<double, max_dead_us / 10> late{};  ///< commanded values during the dead time
     };
     double step(Mirror& mirror, double told) const;
 
     GalvoSettings settings_;
-    std::array<double, 4> over_tick_{};  ///< (position, speed) relative to the target, one tick later
+    std::array<double, 4> over_tick_{};  ///< (position, velocity) relative to the target, one tick later
     double limit_ = 0;                   ///< bits/tick
     std::int64_t dead_ = 0;              ///< ticks
     std::array<Mirror, 2> mirrors_;

@@ -1,6 +1,6 @@
 // The lines A, B and Z at the end of the cable of an encoder or converter, edge by edge, with their faults.
 //
-//   position (counts) ──► single edges, limited by the speed of the electronics ──► dirt
+//   position (counts) ──► single edges, limited by the count rate of the electronics ──► dirt
 //       ──► polarity, noise, swap, break ──► wires
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B

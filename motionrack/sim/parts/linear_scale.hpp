@@ -1,7 +1,7 @@
 // A grating scale with reading head and interpolator on a position function: counts, and lines A and B for listeners.
 //
 //   position ──► (position - zero) * interpolation / pitch ──► dirt ──► direction
-//       ──► speed limit of the electronics ───┬─► counts (PositionFunction)
+//       ──► rate limit of the electronics ────┬─► counts (PositionFunction)
 //                                             └─► a, b, z: wires, generated while subscribed
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B        pitch    |<------- pitch ------->|

@@ -16,7 +16,7 @@ constexpr double counts_per_m = 1e9 * places_per_nm;
 constexpr double ticks_per_s = 1e10;
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t longest = std::int64_t{1}
-                                 << 40;            // ticks of one parabola: position and speed stay within 128 bits
+                                 << 40;            // ticks of one parabola: position and velocity stay within 128 bits
 constexpr std::int64_t viscous_piece = 1'000'000;  // 100 us
 constexpr double viscous_piece_s = 1e-4;
 constexpr std::int64_t farthest_stage_counts = std::int64_t{1} << 50;  // counts, beyond every end of travel
@@ -31,12 +31,12 @@ Wide fine_place(std::int64_t count) {
 }
 
 /// Converts m/s to 2^-68 counts per tick.
-Wide fine_speed(double m_s) {
+Wide fine_velocity(double m_s) {
     return static_cast<Wide>(m_s * (counts_per_m / ticks_per_s) * fine_per_count);
 }
 
-double in_m_s(Wide speed) {
-    return static_cast<double>(speed) / fine_per_count * (ticks_per_s / counts_per_m);
+double in_m_s(Wide velocity) {
+    return static_cast<double>(velocity) / fine_per_count * (ticks_per_s / counts_per_m);
 }
 
 std::int64_t count_of_nm(double nm) {
@@ -55,7 +55,7 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
                          const std::string& wire)
     : kernel_(kernel),
       settings_(s),
-      top_speed_(fine_speed(s.top_speed)),
+      saturation_velocity_(fine_velocity(s.saturation_velocity)),
       end_minus_(count_of_nm(s.end_minus_nm)),
       end_plus_(count_of_nm(s.end_plus_nm)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
@@ -63,7 +63,7 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
     static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * std::size_t{8} + slots * sizeof(Range) + 6 * std::size_t{4},
                   "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.top_accel > 0 && s.top_accel <= 1'000);
-    MOTIONRACK_ASSERT(s.top_speed > 0 && s.top_speed <= 10 && s.viscous >= 0 && s.viscous <= 100);
+    MOTIONRACK_ASSERT(s.saturation_velocity > 0 && s.saturation_velocity <= 10 && s.viscous >= 0 && s.viscous <= 100);
     MOTIONRACK_ASSERT(s.coulomb >= 0 && s.coulomb <= 1'000 && s.load >= 0 && s.load <= 1'000);
     MOTIONRACK_ASSERT(s.end_minus_nm >= -1e10 && s.end_minus_nm <= s.start_nm && s.start_nm <= s.end_plus_nm &&
                       s.end_plus_nm <= 1e10);
@@ -84,15 +84,15 @@ std::int64_t LinearStage::count(Instant t) const {
 }
 
 double LinearStage::rate(Instant t) const {
-    return static_cast<double>(speed_at(t)) / fine_per_count * ticks_per_s;
+    return static_cast<double>(velocity_at(t)) / fine_per_count * ticks_per_s;
 }
 
 double LinearStage::position_nm(Instant t) const {
     return static_cast<double>(place_at(t)) / (fine_per_count * static_cast<double>(places_per_nm));
 }
 
-double LinearStage::speed(Instant t) const {
-    return in_m_s(speed_at(t));
+double LinearStage::velocity(Instant t) const {
+    return in_m_s(velocity_at(t));
 }
 
 double LinearStage::accel() const {
@@ -101,7 +101,7 @@ double LinearStage::accel() const {
 
 /// Direction of the first tick of the parabola, and so of all of it.
 int LinearStage::direction() const {
-    return sign(state_.speed + state_.half_accel);
+    return sign(state_.velocity + state_.half_accel);
 }
 
 // ---- one parabola
@@ -111,12 +111,12 @@ std::int64_t LinearStage::accel_law(double push, int direction) const {
     const double mass = 1 + state_.load, viscous = settings_.viscous / mass;
     const double rubbing = (settings_.coulomb + state_.rubbing) / mass;
     const double accel =
-        (push - direction * rubbing - viscous * in_m_s(state_.speed)) / (1 + viscous * viscous_piece_s / 2);
+        (push - direction * rubbing - viscous * in_m_s(state_.velocity)) / (1 + viscous * viscous_piece_s / 2);
     return static_cast<std::int64_t>(
         std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine_per_count / 2) + 0.5));
 }
 
-/// Begins the law of motion from the present position and speed.
+/// Begins the law of motion from the present position and velocity.
 void LinearStage::begin_law() {
     State& s = state_;
     const double mass = 1 + s.load;
@@ -124,19 +124,19 @@ void LinearStage::begin_law() {
         std::clamp(volts() * settings_.accel_per_volt, -settings_.top_accel, settings_.top_accel) / mass;
     s.half_accel = 0;
     s.length = endless;
-    if (s.held) s.speed = 0;
-    if (s.speed > top_speed_) s.speed = top_speed_;
-    if (s.speed < -top_speed_) s.speed = -top_speed_;
-    if (s.speed != 0) {
-        s.half_accel = accel_law(push, sign(s.speed));
-        const Wide change = 2 * Wide{s.half_accel} * sign(s.speed);
-        if (change < 0 && s.speed * sign(s.speed) < -change) {  // it reverses within a tick
+    if (s.held) s.velocity = 0;
+    if (s.velocity > saturation_velocity_) s.velocity = saturation_velocity_;
+    if (s.velocity < -saturation_velocity_) s.velocity = -saturation_velocity_;
+    if (s.velocity != 0) {
+        s.half_accel = accel_law(push, sign(s.velocity));
+        const Wide change = 2 * Wide{s.half_accel} * sign(s.velocity);
+        if (change < 0 && s.velocity * sign(s.velocity) < -change) {  // it reverses within a tick
             s.length = 1;
             if (settings_.coulomb + s.rubbing == 0) return;
-            s.speed = 0;
+            s.velocity = 0;
         }
     }
-    if (s.speed == 0) {
+    if (s.velocity == 0) {
         const bool stands =
             s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb + s.rubbing;
         s.half_accel = stands ? 0 : accel_law(push, sign(push));
@@ -144,22 +144,23 @@ void LinearStage::begin_law() {
         if (s.half_accel == 0) return;
     }
     s.blocked = 0;
-    if (s.speed * sign(s.half_accel) >= top_speed_) s.half_accel = 0;
+    if (s.velocity * sign(s.half_accel) >= saturation_velocity_) s.half_accel = 0;
     s.length = law_length();
 }
 
-/// Ticks until the parabola reverses, reaches the top speed or a marked speed, or reaches its maximum length.
+/// Ticks until the parabola reverses, reaches the saturation velocity or a marked velocity, or reaches its maximum
+/// length.
 std::int64_t LinearStage::law_length() const {
     std::int64_t length = settings_.viscous > 0 ? viscous_piece : longest;
     if (state_.half_accel == 0) return length;
-    const Wide speed = state_.speed * direction(), change = 2 * Wide{state_.half_accel} * direction();
+    const Wide velocity = state_.velocity * direction(), change = 2 * Wide{state_.half_accel} * direction();
     const auto ends = [&](std::int64_t at) { length = std::min(length, std::max<std::int64_t>(at, 1)); };
-    if (change < 0) ends(steps_up(speed + change + 1, -change));  // the last tick before it moves back
-    if (change > 0) ends(steps_up(top_speed_ - speed, change));
+    if (change < 0) ends(steps_up(velocity + change + 1, -change));  // the last tick before it moves back
+    if (change > 0) ends(steps_up(saturation_velocity_ - velocity, change));
     for (int i = 0; i < mark_count_; ++i) {
         const Wide mark = marks_[static_cast<std::size_t>(i)];
-        if (change > 0 && speed <= mark) ends(steps_up(mark + 1 - speed, change));
-        if (change < 0 && speed > mark) ends(steps_up(speed - mark, -change));
+        if (change > 0 && velocity <= mark) ends(steps_up(mark + 1 - velocity, change));
+        if (change < 0 && velocity > mark) ends(steps_up(velocity - mark, -change));
     }
     return length;
 }
@@ -167,7 +168,7 @@ std::int64_t LinearStage::law_length() const {
 void LinearStage::move_to(Instant now) {
     hand_over(now);
     state_.place = place_at(now);
-    state_.speed = speed_at(now);
+    state_.velocity = velocity_at(now);
     state_.since = now;
 }
 
@@ -195,7 +196,7 @@ Instant LinearStage::law_end() const {
 
 /// Approximate ticks for a distance `way` (>= 0, in the direction of motion).
 std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
-    const double d = static_cast<double>(way), v = std::fabs(static_cast<double>(state_.speed));
+    const double d = static_cast<double>(way), v = std::fabs(static_cast<double>(state_.velocity));
     const double a = static_cast<double>(state_.half_accel) * direction(), under = v * v + 4 * a * d;
     const double whole = v + (under > 0 ? std::sqrt(under) : 0);
     const double ticks = whole > 0 ? 2 * d / whole : static_cast<double>(last);
@@ -247,7 +248,7 @@ bool LinearStage::meet_ends(Instant now) {
     const double before = rate(now);
     move_to(now);
     state_.place = fine_place(plus ? end_plus_ : end_minus_);
-    state_.speed = 0;
+    state_.velocity = 0;
     state_.blocked = way;
     begin_law();
     kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::stage_end), way,
@@ -306,7 +307,7 @@ int LinearStage::add_listener(sim::PositionListener& listener) {
 
 void LinearStage::watch_rate(double rate) {
     MOTIONRACK_ASSERT(mark_count_ < slots && rate >= 0);
-    const double limit = static_cast<double>(top_speed_);
+    const double limit = static_cast<double>(saturation_velocity_);
     marks_[static_cast<std::size_t>(mark_count_++)] =
         static_cast<Wide>(std::min(rate / ticks_per_s * fine_per_count, limit));
 }

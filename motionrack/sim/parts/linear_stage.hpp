@@ -1,15 +1,15 @@
 // A stage on a linear motor with a current amplifier: the voltage sets a force, which accelerates the mass.
 //
 //   volts x accel_per_volt --top_accel--> / (1 + load) --(- friction)--> acceleration
-//       --(top_speed, ends of travel)--> position
+//       --(saturation_velocity, ends of travel)--> position
 //
 //   pos.  ^            .--'      Between two changes of the voltage the position is one parabola; with viscous friction
 //         |         .-'          it is a sequence of parabolas of a tenth of a millisecond each, with the friction of
-//         |  _ . -'              the mean speed (implicit midpoint).
+//         |  _ . -'              the mean velocity (implicit midpoint).
 //         +------------> time
 //
-//   A parabola is in whole numbers: position, speed and acceleration in 2^-68 of a count, time in ticks of 0.1 ns. So
-//   a position is exact at every tick, independent of the queries, and never moves back within a parabola.
+//   A parabola is in whole numbers: position, velocity and acceleration in 2^-68 of a count, time in ticks of 0.1 ns.
+//   So a position is exact at every tick, independent of the queries, and never moves back within a parabola.
 //
 // The position's count is 1/1024 nm: fine enough for any scale on it.
 #pragma once
@@ -31,10 +31,10 @@ namespace motionrack::parts {
 inline constexpr std::int64_t places_per_nm = 1024;
 
 struct LinearStageSettings {
-    double accel_per_volt = 5;  ///< m/s2 per volt, > 0, at most 1000; without load
-    double top_accel = 50;      ///< m/s2, > 0, at most 1000: at the current limit; without load
-    double top_speed = 2;       ///< m/s, > 0, at most 10: limit by the amplifier's voltage
-    double viscous = 0;         ///< 1/s, 0 .. 100: deceleration proportional to the speed, m/s2 per m/s
+    double accel_per_volt = 5;       ///< m/s2 per volt, > 0, at most 1000; without load
+    double top_accel = 50;           ///< m/s2, > 0, at most 1000: at the current limit; without load
+    double saturation_velocity = 2;  ///< m/s, > 0, at most 10: limit by the amplifier's voltage
+    double viscous = 0;              ///< 1/s, 0 .. 100: deceleration proportional to the velocity, m/s2 per m/s
     double coulomb = 0;   ///< m/s2, 0 .. 1000: deceleration by dry friction; a smaller force does not move the stage
     double load = 0;      ///< 0 .. 1000: mass on the stage relative to its own
     double start_nm = 0;  ///< initial position, within the ends
@@ -59,7 +59,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
 
     /// Position in nm with its fraction; m/s; m/s2.
     double position_nm(Instant t) const;
-    double speed(Instant t) const;
+    double velocity(Instant t) const;
     double accel() const;
     double volts() const { return static_cast<double>(state_.microvolts) * 1e-6; }
     /// +1, -1: stationary at that end of travel.
@@ -82,7 +82,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     static constexpr int slots = sim::PositionFunction::max_listeners;
     struct State {
         Wide place = 0;               ///< at `since`
-        Wide speed = 0;               ///< per tick, at `since`
+        Wide velocity = 0;            ///< per tick, at `since`
         std::int64_t half_accel = 0;  ///< half of the acceleration, per tick squared
         Instant since{};
         std::int64_t length = 0;  ///< ticks for which the parabola is valid; `endless`
@@ -99,9 +99,11 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
 
     Wide place_at(Instant t) const { return place_after((t - state_.since).count()); }
     Wide place_after(std::int64_t ticks) const {
-        return state_.place + ticks * (state_.speed + Wide{state_.half_accel} * ticks);
+        return state_.place + ticks * (state_.velocity + Wide{state_.half_accel} * ticks);
     }
-    Wide speed_at(Instant t) const { return state_.speed + 2 * Wide{state_.half_accel} * (t - state_.since).count(); }
+    Wide velocity_at(Instant t) const {
+        return state_.velocity + 2 * Wide{state_.half_accel} * (t - state_.since).count();
+    }
     int direction() const;
     void move_to(Instant now);
     void begin_law();
@@ -119,7 +121,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
 
     sim::Kernel& kernel_;
     LinearStageSettings settings_;
-    Wide top_speed_ = 0;
+    Wide saturation_velocity_ = 0;
     std::int64_t end_minus_ = 0;
     std::int64_t end_plus_ = 0;
     sim::DeviceId id_{};

@@ -5,7 +5,7 @@
 //
 // Windings with mismatch or offset cause an angle error, twice or once per revolution. A tracking converter counts
 // single steps and never skips one: faster motion is delayed. It knows the angle, not the revolutions: after a loss of
-// signal it takes the shorter way. Not reproduced: the lag of its loop while the speed changes.
+// signal it takes the shorter way. Not reproduced: the lag of its loop while the velocity changes.
 //
 // Faults: those of LineOutput, and "gain" (-0.3 .. 0.3), "offset_sin", "offset_cos" (-0.3 .. 0.3 of the amplitude),
 // "broken_sin", "broken_cos" (not 0: no signal).

@@ -65,8 +65,8 @@ TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
     EXPECT_EQ(w.machine.encoder().count(w.kernel.now()), 4000);
     EXPECT_EQ(w.machine.position(w.kernel.now()), 5.0);
     EXPECT_EQ(w.machine.lost_steps(), 0);
-    EXPECT_EQ(w.machine.speed(), 10'000 * 5.0 / 3200);
-    EXPECT_EQ(w.machine.top_speed(), w.machine.speed());
+    EXPECT_EQ(w.machine.velocity(), 10'000 * 5.0 / 3200);
+    EXPECT_EQ(w.machine.peak_velocity(), w.machine.velocity());
     EXPECT_TRUE(w.kernel.conditions().empty());
     EXPECT_LE(w.kernel.events(), 2u);  // single pulses cost no time
 }
@@ -253,7 +253,7 @@ TEST(AxisMechanics, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
     EXPECT_NE(w.machine.lost_steps(), 0);
 }
 
-TEST(AxisMechanics, AMotorFollowsARampToTheSpeedAtWhichItStops) {
+TEST(AxisMechanics, AMotorFollowsARampToTheVelocityAtWhichItStops) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // From standstill to 1600 Hz, up to 20 kHz and down again by 40 Hz each 10 us, and from 1600 Hz to standstill: an

@@ -31,20 +31,20 @@ struct MotorRig {
 /// The same motor in steps of a microsecond.
 struct SteppedMotor {
     DcMotorSettings s;
-    double volts = 0, speed = 0, place = 0.5;
+    double volts = 0, velocity = 0, place = 0.5;
     void run(double seconds) {
         const double h = 1e-6, inertia = 1 + s.load;
         for (auto steps = static_cast<std::int64_t>(std::lround(seconds / h)); steps > 0; --steps) {
             const double drive = std::max(0.0, std::fabs(volts) - s.dead_band_v) * s.gain;
-            const double wanted = std::copysign(std::min(drive, s.top_speed), volts);
+            const double wanted = std::copysign(std::min(drive, s.saturation_velocity), volts);
             const double torque =
-                std::clamp((wanted - speed) / (s.lag_s * inertia), -s.top_accel / inertia, s.top_accel / inertia);
+                std::clamp((wanted - velocity) / (s.lag_s * inertia), -s.top_accel / inertia, s.top_accel / inertia);
             const double friction = s.friction / inertia;
-            if (speed == 0 && std::fabs(torque) <= friction) continue;
-            const double before = speed;
-            speed += h * (torque - (speed > 0 || (speed == 0 && torque > 0) ? friction : -friction));
-            if (before * speed < 0) speed = 0;
-            place += h * (before + speed) * 0.5;
+            if (velocity == 0 && std::fabs(torque) <= friction) continue;
+            const double before = velocity;
+            velocity += h * (torque - (velocity > 0 || (velocity == 0 && torque > 0) ? friction : -friction));
+            if (before * velocity < 0) velocity = 0;
+            place += h * (before + velocity) * 0.5;
         }
     }
 };
@@ -66,12 +66,12 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
         rig.run(time);
         stepped.run(time);
         // One microsecond more or less is 2 counts/s at the maximum acceleration, and the errors of the steps add up.
-        RC_ASSERT(std::fabs(rig.rate() - stepped.speed) < 60);
+        RC_ASSERT(std::fabs(rig.rate() - stepped.velocity) < 60);
         RC_ASSERT(std::fabs(rig.position() - stepped.place) < 3);
     }
 }
 
-TEST(DcMotor, SpeedIsProportionalToTheVoltageUpToSaturation) {
+TEST(DcMotor, VelocityIsProportionalToTheVoltageUpToSaturation) {
     DcMotorSettings s;
     s.friction = 0;
     MotorRig rig(s);

@@ -90,7 +90,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
     s.max_count_rate = 1e9;
     LinearStageSettings stage;
     stage.start_nm = *rc::gen::element(0.0, -9e8, 9e8);
-    stage.top_speed = 0.007;  // below 1e9 counts/s of the finest scale
+    stage.saturation_velocity = 0.007;  // below 1e9 counts/s of the finest scale
     ScaleRig rig(s, stage);
     rig.kernel.start();
     for (int i = 0; i < 6; ++i) {
@@ -113,7 +113,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     LinearScaleSettings s;  // 4.88 nm a count
     LinearStageSettings stage;
     stage.start_nm = -1e9;
-    stage.top_speed = 20e6 * 20e-6 / 4'096 * 0.999'999;
+    stage.saturation_velocity = 20e6 * 20e-6 / 4'096 * 0.999'999;
     ScaleRig rig(s, stage);
     rig.kernel.start();
     rig.volts(1);
@@ -195,7 +195,7 @@ TEST(LinearScale, LinesShowTheCountWhileSomebodyListens) {
 TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
     LinearScaleSettings s;
     LinearStageSettings stage;
-    stage.top_speed = 20e6 * 20e-6 / 4'096 * 0.999'999;
+    stage.saturation_velocity = 20e6 * 20e-6 / 4'096 * 0.999'999;
     ScaleRig rig(s, stage);
     rig.kernel.start();
     rig.volts(10);

@@ -20,7 +20,7 @@ struct Rig {
         kernel.settle();
     }
     void run(double seconds) { kernel.run_until(kernel.now() + from_seconds(seconds)); }
-    double speed() { return stage.speed(kernel.now()); }
+    double velocity() { return stage.velocity(kernel.now()); }
     double nm() { return stage.position_nm(kernel.now()); }
     std::int64_t count() { return stage.count(kernel.now()); }
 
@@ -32,20 +32,20 @@ struct Rig {
 struct Stepped {
     LinearStageSettings s;
     double volts = 0;
-    long double speed = 0, place = 0, fastest = 0;
+    long double velocity = 0, place = 0, fastest = 0;
     void run(double seconds) {
         const long double h = 0.25e-6L, mass = 1 + s.load;
         for (auto steps = std::llround(seconds / 0.25e-6); steps > 0; --steps) {
             const long double push = std::clamp(volts * s.accel_per_volt, -s.top_accel, s.top_accel);
-            if (speed == 0 && std::fabs(push) <= s.coulomb) continue;
-            const long double brake = speed > 0 || (speed == 0 && push > 0) ? s.coulomb : -s.coulomb;
-            const long double before = speed;
-            long double accel = (push - brake - s.viscous * speed) / mass;
-            accel = (push - brake - s.viscous * (speed + accel * h / 2)) / mass;
-            speed = std::clamp<long double>(speed + h * accel, -s.top_speed, s.top_speed);
-            if (before * speed < 0 && s.coulomb > 0) speed = 0;
-            fastest = std::max(fastest, std::fabs(speed));
-            place += h * (before + speed) / 2;
+            if (velocity == 0 && std::fabs(push) <= s.coulomb) continue;
+            const long double brake = velocity > 0 || (velocity == 0 && push > 0) ? s.coulomb : -s.coulomb;
+            const long double before = velocity;
+            long double accel = (push - brake - s.viscous * velocity) / mass;
+            accel = (push - brake - s.viscous * (velocity + accel * h / 2)) / mass;
+            velocity = std::clamp<long double>(velocity + h * accel, -s.saturation_velocity, s.saturation_velocity);
+            if (before * velocity < 0 && s.coulomb > 0) velocity = 0;
+            fastest = std::max(fastest, std::fabs(velocity));
+            place += h * (before + velocity) / 2;
         }
     }
 };
@@ -55,7 +55,7 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
     s.viscous = *rc::gen::element(0.0, 2.0, 50.0);
     s.coulomb = *rc::gen::element(0.0, 0.3);
     s.load = *rc::gen::element(0.0, 2.0);
-    s.top_speed = *rc::gen::element(0.2, 2.0);
+    s.saturation_velocity = *rc::gen::element(0.2, 2.0);
     Rig rig(s);
     rig.kernel.start();
     Stepped stepped{s};
@@ -66,11 +66,11 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         const double time = 1e-4 * *rc::gen::inRange(1, 300);
         rig.run(time);
         stepped.run(time);
-        // At a reversal or at the top speed, the steps have an error of one step: 0.25 us of 50 m/s2 persist for the
-        // rest of the run.
-        RC_ASSERT(std::fabs(rig.speed() - static_cast<double>(stepped.speed)) < 5e-5);
+        // At a reversal or at the saturation velocity, the steps have an error of one step: 0.25 us of 50 m/s2 persist
+        // for the rest of the run.
+        RC_ASSERT(std::fabs(rig.velocity() - static_cast<double>(stepped.velocity)) < 5e-5);
         RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
-        if (s.coulomb == 0 && s.viscous == 0 && stepped.fastest < s.top_speed)
+        if (s.coulomb == 0 && s.viscous == 0 && stepped.fastest < s.saturation_velocity)
             RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 0.01);
     }
 }
@@ -93,7 +93,7 @@ RC_GTEST_PROP(LinearStage, IsWhereItIsHoweverOftenItIsAsked, ()) {
             const Instant from = often.kernel.now();
             often.kernel.run_until(std::min(until, from + Duration{*rc::gen::inRange<std::int64_t>(1, 100'000'000)}));
             std::int64_t before = often.count();
-            if (often.speed() == 0) continue;
+            if (often.velocity() == 0) continue;
             for (int k = 0; k < 3; ++k) RC_ASSERT(often.count() == before);
         }
         RC_ASSERT(seldom.count() == often.count());
@@ -109,12 +109,12 @@ TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
     rig.volts(2);
     rig.run(0.1);
     const double way = rig.nm() * 1e-9;
-    EXPECT_NEAR(rig.speed() * rig.speed() / 2, (10 - 0.5) * way, 1e-12);
-    EXPECT_NEAR(rig.speed(), 0.95, 1e-9);
+    EXPECT_NEAR(rig.velocity() * rig.velocity() / 2, (10 - 0.5) * way, 1e-12);
+    EXPECT_NEAR(rig.velocity(), 0.95, 1e-9);
     EXPECT_NEAR(rig.stage.accel(), 9.5, 1e-9);
     rig.volts(0);
     rig.run(3);
-    EXPECT_EQ(rig.speed(), 0);
+    EXPECT_EQ(rig.velocity(), 0);
     // All of it went into friction.
     EXPECT_NEAR(rig.nm() * 1e-9 * 0.5, 10 * way, 1e-8);
     const std::uint64_t events = rig.kernel.events();
@@ -122,27 +122,27 @@ TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
     EXPECT_EQ(rig.kernel.events(), events) << "a stage that stands costs nothing";
 }
 
-TEST(LinearStage, ViscousFrictionEndsInTheSpeedAtWhichItBrakesAsMuch) {
+TEST(LinearStage, ViscousFrictionEndsInTheVelocityAtWhichItBrakesAsMuch) {
     LinearStageSettings s;
     s.viscous = 20;
     Rig rig(s);
     rig.kernel.start();
     rig.volts(1);
     rig.run(1);
-    EXPECT_NEAR(rig.speed(), 0.25, 1e-8);
+    EXPECT_NEAR(rig.velocity(), 0.25, 1e-8);
     rig.volts(0);
     rig.run(0.1);
-    EXPECT_NEAR(rig.speed(), 0.25 * std::exp(-2.0), 1e-6);
+    EXPECT_NEAR(rig.velocity(), 0.25 * std::exp(-2.0), 1e-6);
 }
 
-TEST(LinearStage, TopSpeedAndCurrentLimitAreKept) {
+TEST(LinearStage, SaturationVelocityAndCurrentLimitAreKept) {
     Rig rig;
     rig.kernel.start();
     rig.volts(100);
     rig.run(0.02);
-    EXPECT_NEAR(rig.speed(), 1, 1e-9) << "50 m/s2 at the current limit";
+    EXPECT_NEAR(rig.velocity(), 1, 1e-9) << "50 m/s2 at the current limit";
     rig.run(0.2);
-    EXPECT_NEAR(rig.speed(), 2, 1e-12);
+    EXPECT_NEAR(rig.velocity(), 2, 1e-12);
     const std::int64_t there = rig.count();
     rig.run(0.1);
     EXPECT_NEAR(static_cast<double>(rig.count() - there), 2e8 * 1024, 1);
@@ -230,8 +230,8 @@ TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
     rig.volts(0.002);  // 0.01 m/s2
     rig.run(0.02);
     rig.volts(0);
-    const double speed = rig.speed();
-    EXPECT_NEAR(speed, 2e-4, 1e-13);
+    const double velocity = rig.velocity();
+    EXPECT_NEAR(velocity, 2e-4, 1e-13);
     const std::int64_t from = rig.count();
     const Instant at = rig.kernel.now();
     std::int64_t last = from;
@@ -270,7 +270,7 @@ TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
     rig.run(1);
     EXPECT_EQ(rig.count(), 1'000'000 * 1024);
     EXPECT_EQ(rig.stage.blocked(), 1);
-    EXPECT_EQ(rig.speed(), 0);
+    EXPECT_EQ(rig.velocity(), 0);
     ASSERT_EQ(rig.kernel.conditions().size(), 1u);
     EXPECT_NE(describe(rig.kernel.conditions()[0], "x")
                   .find("stage x: at 0.020000 s it hit its plus hard stop at 1000000 nm"),
@@ -308,7 +308,7 @@ TEST(LinearStage, FaultsHoldPushBrakeAndLoadIt) {
     EXPECT_TRUE(fault("motor.friction", 1));
     EXPECT_TRUE(fault("motor.load", 3));
     rig.run(0.01);
-    EXPECT_NEAR(rig.speed(), 0.01 * (5 - 1) / 4, 1e-9);
+    EXPECT_NEAR(rig.velocity(), 0.01 * (5 - 1) / 4, 1e-9);
     EXPECT_FALSE(fault("motor.load", -1));
     EXPECT_FALSE(fault("motor.friction", std::nan("")));
     EXPECT_FALSE(fault("motor.push", 1e300));

@@ -33,7 +33,7 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
     EXPECT_NEAR((40.0 * 2999 - x.back()) / 40 * 10, galvo.lag_us() - 5, 0.2);
 }
 
-TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheSpeedLimit) {
+TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheVelocityLimit) {
     GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .max_velocity_bits_ms = 20'000});
     const auto x = driven(galvo, std::vector<std::int32_t>(2000, 10'000));
     double before = 0;
@@ -54,12 +54,12 @@ TEST(Conveyor, TravelIsTheIntegralOfTheProfile) {
     EXPECT_DOUBLE_EQ(track.travel(3), 250);
     EXPECT_DOUBLE_EQ(track.travel(4), 250);
     EXPECT_DOUBLE_EQ(track.travel(5), 150);
-    EXPECT_DOUBLE_EQ(track.speed(3.5), 0);
+    EXPECT_DOUBLE_EQ(track.velocity(3.5), 0);
     std::int32_t counts[2];
     track.counts(100'000, counts);
     EXPECT_EQ(counts[0], 500);
     double sum = 0;
-    for (int i = 0; i < 4500; ++i) sum += track.speed(0.001 * i + 0.0005) * 0.001;
+    for (int i = 0; i < 4500; ++i) sum += track.velocity(0.001 * i + 0.0005) * 0.001;
     EXPECT_NEAR(sum, track.travel(4.5), 1e-6);
 }
 

@@ -1,4 +1,4 @@
-// Conveyors in virtual time: instants at which ranges are left, manual speed changes, parts at a sensor, words on
+// Conveyors in virtual time: instants at which ranges are left, manual velocity changes, parts at a sensor, words on
 // wires.
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double never_s = std::numeric_limits<double>::infinity();
 
-Conveyor track_of(std::vector<SpeedPoint> profile) {
+Conveyor track_of(std::vector<VelocityPoint> profile) {
     return *Conveyor::make({.profile = std::move(profile)});
 }
 
@@ -32,26 +32,26 @@ TEST(Conveyor, TellsWhenItLeavesARange) {
     EXPECT_EQ(stands.leaves(0, -1e-9, 1e-9), never_s);
 }
 
-TEST(Conveyor, GoesOnFromWhereItIsWhenItsSpeedIsChanged) {
+TEST(Conveyor, GoesOnFromWhereItIsWhenItsVelocityIsChanged) {
     Conveyor track = track_of({{0, 100}});
     track.drive(1, -20);
     EXPECT_DOUBLE_EQ(track.travel(1), 100);
     EXPECT_DOUBLE_EQ(track.travel(2), 80);
-    EXPECT_DOUBLE_EQ(track.speed(2), -20);
+    EXPECT_DOUBLE_EQ(track.velocity(2), -20);
     EXPECT_DOUBLE_EQ(track.leaves(2, 70, 90), 2.5);
     track.follow_profile(2);
     EXPECT_DOUBLE_EQ(track.travel(3), 180);
-    EXPECT_DOUBLE_EQ(track.speed(3), 100);
+    EXPECT_DOUBLE_EQ(track.velocity(3), 100);
 }
 
 TEST(Conveyor, BrakesWithItsDecelerationWhenItIsStopped) {
     for (const double way : {1.0, -1.0}) {
         Conveyor track = *Conveyor::make({.profile = {{0, 100 * way}}, .deceleration = 200});
         track.stop(1);  // for 0.5 s, over 25 mm
-        EXPECT_DOUBLE_EQ(track.speed(1), 100 * way);
-        EXPECT_DOUBLE_EQ(track.speed(1.25), 50 * way);
+        EXPECT_DOUBLE_EQ(track.velocity(1), 100 * way);
+        EXPECT_DOUBLE_EQ(track.velocity(1.25), 50 * way);
         EXPECT_DOUBLE_EQ(track.travel(1.25), 118.75 * way);
-        EXPECT_DOUBLE_EQ(track.speed(1.5), 0);
+        EXPECT_DOUBLE_EQ(track.velocity(1.5), 0);
         EXPECT_DOUBLE_EQ(track.travel(1.5), 125 * way);
         EXPECT_DOUBLE_EQ(track.travel(9), 125 * way);
         EXPECT_DOUBLE_EQ(track.leaves(1, way > 0 ? -1 : -118.75, way > 0 ? 118.75 : 1), 1.25);
@@ -98,7 +98,7 @@ TEST(ConveyorPosition, MakesEveryEdgeAtItsInstantThereAndBack) {
     }
 }
 
-TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
+TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsChanged) {
     struct RatesEar final : sim::PositionListener {
         void crossed(Instant) override {}
         void rate_changed(double from, double to, Instant) override { before = from, after = to; }

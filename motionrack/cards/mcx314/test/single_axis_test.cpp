@@ -186,7 +186,7 @@ TEST(SingleAxis, JogsInMillimetresAndOnlyWhileItIsRenewed) {
         rig.port.pass(milliseconds(1));
     }
     EXPECT_EQ(rig.x.state(), AxisState::jogging);
-    EXPECT_NEAR(rig.machines[0]->speed(), 20, 0.01);
+    EXPECT_NEAR(rig.machines[0]->velocity(), 20, 0.01);
     ASSERT_TRUE(rig.x.wait(whole_seconds(5)));
     EXPECT_EQ(rig.x.state(), AxisState::standstill);
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
