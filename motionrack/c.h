@@ -174,7 +174,7 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
  *   pulses            pulses that came to the motor, + less -
  *   lost_pulses       pulses that the rotor did not follow
  *   in_step           1 while the rotor follows the pulses, else 0
- *   top_speed_mm_s    the peak speed so far
+ *   top_speed_mm_s    the peak velocity so far
  *   limit_minus       1 while the machine is at that switch, independent of its wire (if it has one)
  *   limit_plus        the same for the switch at the + end
  *   home              the same for the home switch
@@ -182,7 +182,7 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
  *   drive_v           the voltage at the servo amplifier
  * Of a stage:
  *   position_mm       the true position of the stage
- *   speed_mm_s        its speed, signed
+ *   speed_mm_s        its velocity, signed
  *   drive_v           the voltage at its amplifier
  *   scale_mm          its position by its scale
  *   scale_counts      counts of its scale
@@ -196,7 +196,7 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
  *   unused_frames     frames that its loop could not use (with a servo)
  * Of a belt or a rotary table (mm or deg by its kind):
  *   position_mm       its travel since the start
- *   speed_mm_s        its speed, signed
+ *   speed_mm_s        its velocity, signed
  *   encoder_counts    counts of its encoder
  *   lost_counts       counts that the encoder lost above its maximum rate
  *   word              the sender's last complete word

@@ -15,9 +15,9 @@
 namespace motionrack::test {
 
 /// A velocity step.
-struct SpeedJump {
-    double speed = 0;    ///< size, units a second
-    double seconds = 0;  ///< time since the start of the rack
+struct VelocityJump {
+    double velocity = 0;  ///< size, units a second
+    double seconds = 0;   ///< time since the start of the rack
 };
 
 /// The pulses of one axis, each with its instant and direction.
@@ -33,15 +33,15 @@ class PulseLog final : public sim::EdgeListener {
     std::size_t size() const { return at_.size(); }
 
     /// Returns the largest step, from `window` s before and after each pulse. `accel`: pulses/s2.
-    SpeedJump max_jump(double window, double accel) const {
-        SpeedJump worst;
+    VelocityJump max_jump(double window, double accel) const {
+        VelocityJump worst;
         std::size_t before = 0, after = 0;
         for (std::size_t i = 0; i < at_.size(); ++i) {
             while (at_[before] < at_[i] - window) ++before;
             while (after + 1 < at_.size() && at_[after + 1] <= at_[i] + window) ++after;
             const double change = std::fabs(static_cast<double>(way(i, after) - way(before, i)));
             const double jump = (change - rounding) / window - accel * window;
-            if (jump > worst.speed) worst = {jump, at_[i]};
+            if (jump > worst.velocity) worst = {jump, at_[i]};
         }
         return worst;
     }
@@ -70,7 +70,7 @@ class PulseReferee {
     struct Verdict {
         double parts = 0;
         int axis = 0;
-        SpeedJump jump;
+        VelocityJump jump;
     };
     /// `accel_parts`: share of each axis' acceleration limit that explains a velocity change.
     Verdict verdict(double accel_parts = 1) {
@@ -80,9 +80,9 @@ class PulseReferee {
             rack_.axes()[i].turned_by().deliver_edges();
             const double pulses = axis.pulses_per_unit();
             for (const double window : {0.002, 0.004}) {
-                SpeedJump jump = logs_[i].max_jump(window, accel_parts * axis.max_accel * pulses);
-                jump.speed /= pulses;
-                const double parts = jump.speed / axis.max_velocity_step;
+                VelocityJump jump = logs_[i].max_jump(window, accel_parts * axis.max_accel * pulses);
+                jump.velocity /= pulses;
+                const double parts = jump.velocity / axis.max_velocity_step;
                 if (parts > worst.parts) worst = {parts, static_cast<int>(i), jump};
             }
         }

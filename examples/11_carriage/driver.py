@@ -14,8 +14,8 @@ COUNTS_PER_MM = 100
 MOST_RATE = 16383
 
 with open("machine.toml", "rb") as file:
-    speed_per_volt = tomllib.load(file)["axis"]["X"]["servo"]["velocity_per_volt_mm_s"]
-SCALE = motionrack.SpeedScale(counts_per_volt=speed_per_volt * COUNTS_PER_MM)
+    velocity_per_volt = tomllib.load(file)["axis"]["X"]["servo"]["velocity_per_volt_mm_s"]
+SCALE = motionrack.SpeedScale(counts_per_volt=velocity_per_volt * COUNTS_PER_MM)
 
 
 class Carriage:

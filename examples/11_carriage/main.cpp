@@ -34,7 +34,7 @@ class Carriage {
         rack_.start();
         faults_->begin();
         rack_.on_slice(milliseconds(5), [this] { write_down(); });
-        scale_ = {.analog = true, .counts_per_volt = config.axes[0].servo->speed_per_volt * counts_per_mm};
+        scale_ = {.analog = true, .counts_per_volt = config.axes[0].servo->velocity_per_volt * counts_per_mm};
     }
 
     Result<void> run() {
@@ -98,7 +98,7 @@ class Carriage {
         const Instant now = rack_.kernel().now();
         record_.seconds.push_back(to_seconds(now));
         record_.mm.push_back(static_cast<float>(axis.machine->position(now)));
-        record_.mm_s.push_back(static_cast<float>(axis.speed(now)));
+        record_.mm_s.push_back(static_cast<float>(axis.velocity(now)));
         record_.volts.push_back(static_cast<float>(axis.servo->volts()));
     }
 

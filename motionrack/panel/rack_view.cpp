@@ -55,7 +55,7 @@ json parts_of(const rack::RackConfig& config) {
                        {"kind", track.rotary ? "table" : "belt"},
                        {"unit", track.unit()},
                        {"card", track.card ? json(*track.card) : json()},
-                       {"speed", track.speed}});
+                       {"speed", track.velocity}});
     for (const rack::RackScanner& scanner : config.scanners)
         out.push_back({{"name", scanner.name},
                        {"kind", "scanner"},

@@ -47,7 +47,7 @@ class Breaches {
 /// "jump", "accel", "deviation", "late".
 std::string_view name_of(BreachKind kind);
 
-/// "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the speed of X jumped by 84.000 mm/s; ...".
+/// "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the velocity step of X was 84.0 mm/s; ...".
 std::string sentence_of(const Breach& breach);
 
 /// Velocity step limit in whole pulses. Between two windows, the velocity of an axis may change by what its velocity

@@ -130,7 +130,7 @@ struct RackMotor {
 
 /// A servo amplifier with a DC motor and tachometer instead of a stepping motor: the axis follows a voltage.
 struct RackServo {
-    double speed_per_volt = 100;                ///< mm/s or degrees/s per volt
+    double velocity_per_volt = 100;             ///< mm/s or degrees/s per volt
     std::optional<double> saturation_velocity;  ///< saturation of the amplifier; absent: the velocity at 10 V
     double current_limit_accel = 5000;          ///< acceleration at the amplifier's current limit, without a load
     double friction = 50;                       ///< deceleration without current, per second squared
@@ -140,7 +140,7 @@ struct RackServo {
     std::optional<double> hold_within;  ///< position window that the card holds after a move; absent: no position hold
 
     /// Maximum velocity.
-    double saturation() const { return saturation_velocity.value_or(10 * speed_per_volt); }
+    double saturation() const { return saturation_velocity.value_or(10 * velocity_per_volt); }
 };
 
 /// Switches of an axis by the machine position (mm or degrees) at which they act; absent: not fitted.
@@ -162,8 +162,8 @@ enum class HomingDirection : std::uint8_t { minus, plus };
 struct RackHoming {
     std::int64_t type = 2;                               ///< homing method, 1 .. 4: control::HomingMethod
     HomingDirection direction = HomingDirection::minus;  ///< search direction of the home switch
-    std::optional<double> speed;                         ///< search velocity; absent: a quarter of max_velocity
-    std::optional<double> slow_speed;                    ///< latch velocity; absent: a quarter of max_velocity_step
+    std::optional<double> search_velocity;               ///< search velocity; absent: a quarter of max_velocity
+    std::optional<double> latch_velocity;                ///< latch velocity; absent: a quarter of max_velocity_step
     std::optional<double> position;                      ///< position of home; absent: position of the switch's edge
     std::optional<double> index_after;  ///< distance from the switch to the index; absent: as found by the first homing
     double clearance = 0.1;             ///< further travel after the switch is released, mm or degrees
@@ -258,7 +258,7 @@ struct RackStageServo {
     double step_mm = 1;              ///< steps: not 0
     std::int64_t steps = 4;          ///< steps: number of steps up, and of steps down after them
     double every_ms = 100;           ///< steps: step period, at least the duration of one step
-    double speed_mm_s = 80;
+    double max_velocity_mm_s = 80;
     double accel_mm_s2 = 8'000;
     double jerk_mm_s3 = 1e6;
     double delay_ms = 0;  ///< start of the profile

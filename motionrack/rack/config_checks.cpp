@@ -170,8 +170,8 @@ class AxisCheck {
                              with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
                              with_unit(limit, axis_.unit()), number_text(most)));
         };
-        above("search_velocity_{u}_s", h.speed, axis_.max_velocity, "max_velocity_{u}_s");
-        above("latch_velocity_{u}_s", h.slow_speed, axis_.max_velocity_step, "max_velocity_step_{u}_s");
+        above("search_velocity_{u}_s", h.search_velocity, axis_.max_velocity, "max_velocity_{u}_s");
+        above("latch_velocity_{u}_s", h.latch_velocity, axis_.max_velocity_step, "max_velocity_step_{u}_s");
         if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"method", "encoder_counts_per_rev"}))
             warn("method", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
@@ -265,7 +265,7 @@ class AxisCheck {
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
                               "saturation_velocity_{}_s or encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.saturation()), u, short_text(counts), u));
-        const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
+        const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
         if (axis_.max_velocity_step <= slowest)
             warn("max_velocity_step_{u}_s", {},
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
@@ -276,7 +276,7 @@ class AxisCheck {
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
                              u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
-        const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.speed_per_volt);
+        const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.velocity_per_volt);
         if (axis_.max_velocity > reach * rounding)
             warn("max_velocity_{u}_s", {},
                  fmt::format(
@@ -284,13 +284,13 @@ class AxisCheck {
                      axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
     }
 
-    void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
-        const double rate = speed * axis_.pulses_per_unit();
+    void too_fast_for_motor(std::string_view key, double velocity, const char* limit_key, double limit) {
+        const double rate = velocity * axis_.pulses_per_unit();
         if (!source_.sound({key}) || rate <= limit * rounding) return;
         warn(key, {},
              fmt::format("{} of axis {} is {}, that is {} pulses/s at {} pulses/{}, above the motor's {} {}: it will "
                          "lose steps.",
-                         with_unit(key, axis_.unit()), axis_.letter, number_text(speed), short_text(rate),
+                         with_unit(key, axis_.unit()), axis_.letter, number_text(velocity), short_text(rate),
                          short_text(axis_.pulses_per_unit()), axis_.unit(), limit_key, number_text(limit)));
     }
 

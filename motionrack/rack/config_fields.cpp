@@ -63,8 +63,8 @@ constexpr std::array<Field, 2> motor_table = {
 };
 
 constexpr std::array<Field, 8> servo_table = {
-    formerly("speed_per_volt_{u}_s",
-             field<&RackServo::speed_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "velocity per volt")),
+    formerly("speed_per_volt_{u}_s", field<&RackServo::velocity_per_volt>("velocity_per_volt_{u}_s", 0.000001, 1e6,
+                                                                          "{u}/s", "velocity per volt")),
     absent_means(
         formerly("top_speed_{u}_s", field<&RackServo::saturation_velocity>("saturation_velocity_{u}_s", 0.000001, 1e7,
                                                                            "{u}/s", "saturation of the amplifier")),
@@ -108,12 +108,12 @@ constexpr std::array<Field, 8> homing_table = {
     with_choices(formerly("direction", field<&RackHoming::direction>("search_direction", 0, 0, "",
                                                                      "direction of the search for the home switch")),
                  directions),
-    absent_means(formerly("speed_{u}_s", field<&RackHoming::speed>("search_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
-                                                                   "velocity of the search")),
+    absent_means(formerly("speed_{u}_s", field<&RackHoming::search_velocity>("search_velocity_{u}_s", 0.000001, 1e6,
+                                                                             "{u}/s", "velocity of the search")),
                  "a quarter of the maximum velocity"),
-    absent_means(formerly("slow_speed_{u}_s",
-                          field<&RackHoming::slow_speed>("latch_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
-                                                         "velocity of the last approach, at most the velocity step")),
+    absent_means(formerly("slow_speed_{u}_s", field<&RackHoming::latch_velocity>(
+                                                  "latch_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
+                                                  "velocity of the last approach, at most the velocity step")),
                  "a quarter of the velocity step; of a servo all of it"),
     absent_means(
         formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
@@ -173,7 +173,7 @@ bool has_encoder(const RackAxis& axis) {
 constexpr std::array<AxisSignal, 10> axis_end_table = {{
     {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
     {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
-    {"drive", PinDirection::input, "speed for the servo amplifier, V",
+    {"drive", PinDirection::input, "velocity command of the servo amplifier, V",
      [](const RackAxis& axis) { return !steps(axis); }, "a servo", 1e-6},
     {"enc_a", PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
     {"enc_b", PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},

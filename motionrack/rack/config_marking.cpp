@@ -19,8 +19,8 @@ constexpr std::array<Field, 10> track_table = {
     absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
                  "where [wires] says"),
     field<&RackConveyor::encoder>("encoder", 0, 1, "", "encoder input of the card for its encoder"),
-    formerly("speed_{u}_s", field<&RackConveyor::speed>("velocity_{u}_s", -parts::max_track_velocity,
-                                                        parts::max_track_velocity, "{u}/s", "how fast it goes")),
+    formerly("speed_{u}_s", field<&RackConveyor::velocity>("velocity_{u}_s", -parts::max_track_velocity,
+                                                           parts::max_track_velocity, "{u}/s", "how fast it goes")),
     field<&RackConveyor::deceleration>("deceleration_{u}_s2", 1, 1e7, "{u}/s2", "deceleration at a stop"),
     only_in(field<&RackConveyor::direction_deg>("direction_deg", -3'600, 3'600, "deg",
                                                 "direction of its motion, from +X counter-clockwise"),
@@ -172,16 +172,17 @@ class MarkingReader {
             return false;
         };
         if (profile.type != TomlType::array || profile.children.empty() || profile.children.size() > max_profile_points)
-            return bad(profile.value_place,
-                       fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", max_profile_points));
+            return bad(
+                profile.value_place,
+                fmt::format("profile must be an array of 1 to {} pairs [seconds, velocity].", max_profile_points));
         for (const TomlNode& pair : profile.children) {
             if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
                 !is_number(pair.children[1]))
-                return bad(pair.value_place, "a point of its profile must be a pair [seconds, speed].");
+                return bad(pair.value_place, "a point of its profile must be a pair [seconds, velocity].");
             track.profile.push_back({number(pair.children[0]), number(pair.children[1])});
         }
         if (node_->find(with_unit("velocity_{u}_s", track.unit())) != nullptr)
-            return bad(profile.key_place, "a speed and a profile are both given; leave one out.");
+            return bad(profile.key_place, "a velocity and a profile are both given; leave one out.");
         return true;
     }
 
@@ -203,7 +204,7 @@ class MarkingReader {
             refuse(*node_->find("parts"), with_unit("length_{u}", unit_),
                    fmt::format("a part is {} {} long, but the next one comes after {}.",
                                number_text(track.passing->length), unit_, number_text(track.passing->every)));
-        double fastest = std::fabs(track.speed);
+        double fastest = std::fabs(track.velocity);
         if (!track.profile.empty()) fastest = 0;
         for (const parts::VelocityPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.velocity));
         if (fastest > track.max_velocity())

@@ -24,14 +24,14 @@ struct RackConveyor {
     bool rotary = false;
     std::optional<std::string> card;          ///< an rtc5 card; default destination of the conveyor's lines
     std::int64_t encoder = 0;                 ///< 0, 1: the card's encoder input
-    double speed = 100;                       ///< mm/s or degrees/s
+    double velocity = 100;                    ///< mm/s or degrees/s
     double deceleration = 2000;               ///< mm/s2 or degrees/s2, when the conveyor is stopped
     double direction_deg = 0;                 ///< direction (belts)
     double centre_x_mm = 0, centre_y_mm = 0;  ///< centre of rotation (tables)
     double counts_per_unit = 1000;            ///< encoder counts, four per line; 0: without encoder
     double slip = 0;
     double jitter_us = 0;                       ///< maximum delay of an edge
-    std::vector<parts::VelocityPoint> profile;  ///< replaces the speed if not empty
+    std::vector<parts::VelocityPoint> profile;  ///< replaces the velocity if not empty
     std::optional<parts::SerialPositionSettings> sender;
     std::optional<RackParts> passing;  ///< parts that pass a sensor
 

@@ -133,9 +133,8 @@ std::string rack_file_reference() {
     turning.rotary = true;
     out +=
         "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). "
-        "In place of its speed `profile = [[0, 50], [0.5, 120]]`: seconds and speeds, linear between, constant before "
-        "and after. `motionrack run` and `mr_part_set` "
-        "change the speed: fault `drive.speed`.\n\n" +
+        "In place of its velocity `profile = [[0, 50], [0.5, 120]]`: seconds and velocities, linear between, constant "
+        "before and after. `motionrack run` and `mr_part_set` change the velocity: fault `drive.speed`.\n\n" +
         fields_table(track_fields(), &belt, &turning);
     const parts::SerialPositionSettings sender;
     out +=

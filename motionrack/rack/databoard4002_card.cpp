@@ -53,7 +53,7 @@ db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis&
     if (axis.servo) {
         out.scale.trim = *db::trim_from_text(config.card(axis.card)->databoard4002.trim);
         out.scale.analog = true;
-        out.scale.counts_per_volt = axis.servo->speed_per_volt * out.counts_per_unit;
+        out.scale.counts_per_volt = axis.servo->velocity_per_volt * out.counts_per_unit;
         out.lag_s = axis.servo->lag_ms * 1e-3 * (1 + axis.servo->load);
         out.hold_window = axis.servo->hold_within;
     } else {

@@ -33,12 +33,12 @@ double dirty_lines(const FaultyPart& part) {
 double off_centre(const FaultyPart& part) {
     return counts_per_turn(part) / 7;
 }
-double track_speed_limit(const FaultyPart& part) {
+double track_velocity_limit(const FaultyPart& part) {
     return part.track->config.max_velocity();
 }
 /// The switch back to the profile has no number of its own; it is checked like a velocity.
 double track_profile_limit(const FaultyPart& part) {
-    return std::min(1.0, track_speed_limit(part));
+    return std::min(1.0, track_velocity_limit(part));
 }
 /// Less than half a period, in steps of 0.1 ns.
 double frame_jitter_limit(const FaultyPart& part) {
@@ -85,7 +85,7 @@ constexpr FaultRow stage_faults_table[] = {
     {"scale.expansion", -max_ppm, max_ppm, "ppm", "expansion of the grating"},
 };
 constexpr FaultRow track_faults[] = {
-    {"drive.speed", 0, 0, "/s", "speed from now on, mm/s or degrees/s; 0: standstill", track_speed_limit},
+    {"drive.speed", 0, 0, "/s", "velocity from now on, mm/s or degrees/s; 0: standstill", track_velocity_limit},
     {"drive.profile", 0, 1, "", "1: back to the profile of the rack file", track_profile_limit},
     {"encoder.broken_a", 0, 2, "", "1: track A reads Low, 2: High; 0 repairs it"},
     {"encoder.broken_b", 0, 2, "", "1: track B reads Low, 2: High; 0 repairs it"},
@@ -146,7 +146,7 @@ std::vector<FaultValue> fault_values(Rack& rack) {
             FaultValue& one = out.emplace_back(
                 FaultValue{target.name, row->name, std::string(row->unit), row->doc, row->min, row->max});
             if (row->max_of != nullptr) one.max = row->max_of(part);
-            if (row->max_of != track_speed_limit) continue;
+            if (row->max_of != track_velocity_limit) continue;
             one.min = -one.max;
             one.unit = std::string(part.track->config.unit()) + one.unit;
         }

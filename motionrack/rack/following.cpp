@@ -32,15 +32,15 @@ sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::
 }
 
 /// Integrates the velocity of a servo over `seconds`, a short time: see parts::DcMotor.
-double speed_after(const parts::DcMotorSettings& servo, double speed, double volts, double seconds) {
+double velocity_after(const parts::DcMotorSettings& servo, double velocity, double volts, double seconds) {
     const double inertia = 1 + servo.load, most = servo.top_accel / inertia * seconds;
     const double above = std::max(std::fabs(volts) - servo.dead_band_v, 0.0);
     const double wanted = std::copysign(std::min(above * servo.gain, servo.saturation_velocity), volts);
-    const double push = std::clamp((wanted - speed) * std::min(seconds / (servo.lag_s * inertia), 1.0), -most, most);
+    const double push = std::clamp((wanted - velocity) * std::min(seconds / (servo.lag_s * inertia), 1.0), -most, most);
     const double friction = servo.friction / inertia * seconds;
-    if (speed == 0 && std::fabs(push) <= friction) return 0;
-    const double direction = std::copysign(1.0, speed != 0 ? speed : push);
-    const double after = speed + push - direction * friction;
+    if (velocity == 0 && std::fabs(push) <= friction) return 0;
+    const double direction = std::copysign(1.0, velocity != 0 ? velocity : push);
+    const double after = velocity + push - direction * friction;
     return after * direction > 0 || std::fabs(push) > friction ? after : 0;
 }
 
@@ -121,8 +121,8 @@ void FollowingWatch::follow_servo(std::size_t i, std::int64_t turned, Instant no
     ErrorState& own = state_.axes[i];
     const double seconds = to_seconds(now - own.looked), volts = kernel_.level(watched.volts) * 1e-6;
     own.looked = now;
-    own.speed = speed_after(*watched.servo, own.speed, volts, seconds);
-    own.behind += own.speed * seconds - static_cast<double>(turned);
+    own.velocity = velocity_after(*watched.servo, own.velocity, volts, seconds);
+    own.behind += own.velocity * seconds - static_cast<double>(turned);
     own.behind *= std::max(0.0, 1 - seconds / fades_within_s);
 }
 

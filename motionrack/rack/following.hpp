@@ -73,7 +73,7 @@ class FollowingWatch final : public sim::Device {
         std::int64_t counted = 0;  ///< at the card's inputs
         double worst = 0;          ///< error above the warning limit; 0: below
         double excess = 0;         ///< error above the alarm limit; 0: below
-        double speed = 0;          ///< model velocity of a servo
+        double velocity = 0;       ///< model velocity of a servo
         double behind = 0;         ///< model following error of a servo
         Instant looked{}, warned_at{};
         std::int64_t told = 0;

@@ -216,13 +216,13 @@ class Homing {
         HomingSamples& s = work.samples;
         if (s.seconds.size() >= max_samples) {
             for (std::size_t i = 0; i < s.seconds.size() / 2; ++i)
-                s.seconds[i] = s.seconds[2 * i], s.position[i] = s.position[2 * i], s.speed[i] = s.speed[2 * i];
-            s.seconds.resize(max_samples / 2), s.position.resize(max_samples / 2), s.speed.resize(max_samples / 2);
+                s.seconds[i] = s.seconds[2 * i], s.position[i] = s.position[2 * i], s.velocity[i] = s.velocity[2 * i];
+            s.seconds.resize(max_samples / 2), s.position.resize(max_samples / 2), s.velocity.resize(max_samples / 2);
             work.every *= 2;
         }
         s.seconds.push_back(to_seconds(now - work.at));
         s.position.push_back(static_cast<float>(work.running->machine->position(now)));
-        s.speed.push_back(static_cast<float>(work.running->speed(now)));
+        s.velocity.push_back(static_cast<float>(work.running->velocity(now)));
     }
 
     void tell(const std::vector<Work*>& group) {
@@ -294,10 +294,10 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
     control::HomingRequest order;
     order.type = static_cast<control::HomingMethod>(h.type);
     order.towards_plus = plus;
-    order.search_velocity =
-        h.speed.value_or(std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
+    order.search_velocity = h.search_velocity.value_or(
+        std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
     const double slow = std::min(axis.max_velocity_step, order.search_velocity);
-    order.latch_velocity = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
+    order.latch_velocity = h.latch_velocity.value_or(axis.servo ? slow : slow / 4);
     // The switch is active at and below its position, so a search upwards ends at its release.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);

@@ -44,7 +44,7 @@ struct HomingSettings {
 struct HomingSamples {
     std::vector<double> seconds;  ///< since the start of homing
     std::vector<float> position;  ///< true position, mm or degrees
-    std::vector<float> speed;     ///< true velocity, per second
+    std::vector<float> velocity;  ///< true velocity, per second
 };
 
 struct HomedAxis {

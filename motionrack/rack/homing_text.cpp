@@ -126,7 +126,7 @@ std::string homing_picture(const HomedAxis& axis) {
     const HomingSamples& s = axis.samples;
     const std::vector<trace::SvgChart> charts = {
         {fmt::format("position, {}", axis.unit), {{"", "z", s.seconds, s.position}}, {}},
-        {fmt::format("speed, {}/s", axis.unit), {{"", "y", s.seconds, s.speed}}, {}},
+        {fmt::format("velocity, {}/s", axis.unit), {{"", "y", s.seconds, s.velocity}}, {}},
     };
     std::vector<trace::SvgSpan> spans;
     for (const control::HomingStateVisit& stay : axis.outcome.stays) {

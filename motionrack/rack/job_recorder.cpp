@@ -162,7 +162,7 @@ void JobRecorder::on_scheduled(Instant now) {
 void JobRecorder::sample(const MonitorSample& sample, double deviation_mm) {
     for (std::size_t i = 0; i < sampled_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axis_indexes_[i]);
-        sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.speed[axis], sample.accel[axis],
+        sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.velocity[axis], sample.accel[axis],
                        sample.volts[axis]};
     }
     writer_.sample(sample.at, deviation_mm, sampled_);

@@ -77,7 +77,7 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
         out.actual_end = axis.actual_end;
         for (std::size_t s = 0; s < samples.size(); ++s) {
             out.position.push_back(static_cast<float>(samples[s].position[i]));
-            out.speed.push_back(static_cast<float>(samples[s].speed[i]));
+            out.velocity.push_back(static_cast<float>(samples[s].velocity[i]));
             out.accel.push_back(samples[s].accel[i]);
             if (axis.servo) out.volts.push_back(samples[s].volts[i]);
         }
@@ -89,7 +89,7 @@ std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.ended) return outcome.ended.error().message;
     if (!outcome.position_valid)
         return "The program ended, but motors lost steps: the true positions differ from the commanded ones. "
-               "Lower speed or acceleration.";
+               "Lower velocity or acceleration.";
     if (const std::vector<Breach>& breaches = outcome.breaches.all(); !breaches.empty())
         return fmt::format("The program ended, but motors may have lost steps: {}{}.", sentence_of(breaches.front()),
                            breaches.size() > 1 ? ". Other limits were broken too; see the warnings" : "");
@@ -148,18 +148,18 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         fmt::format("Positions are those of the motors' rotors, sampled every {:.3g} ms; motion between two samples is "
                     "not drawn.",
                     to_seconds(job.monitor().period()) * 1e3),
-        "Speeds are those of the pulse train; acceleration is computed over four samples. Where the speed jumps (at a "
-        "start, a stop, a corner) no acceleration is drawn; the table has the maximum jump, less the part that comes "
-        "from rounding to whole pulses in short segments.",
+        "Velocities are those of the pulse train; acceleration is computed over four samples. Where the velocity jumps "
+        "(at a start, a stop, a corner) no acceleration is drawn; the table has the maximum jump, less the part that "
+        "comes from rounding to whole pulses in short segments.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
         "Deviation is the distance of X, Y, Z from the program as it is written: before corners are cut, short moves "
         "are merged and positions rounded to pulses. It does not include the lag of a rotary axis."};
     if (outcome.rest_axis >= 0)
         data.notes.push_back(
-            "The speed of a servo follows its voltage after the card's relay, with its lag, current limit and "
+            "The velocity of a servo follows its voltage after the card's relay, with its lag, current limit and "
             "friction; the duration of a move follows from the card's slope table, not from the plan. The table has 24 "
-            "steps of speed up and 24 down, each a jump of the voltage, so the acceleration alternates above and below "
-            "its limit.");
+            "steps of velocity up and 24 down, each a jump of the voltage, so the acceleration alternates above and "
+            "below its limit.");
     return data;
 }
 

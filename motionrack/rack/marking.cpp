@@ -33,7 +33,7 @@ parts::ConveyorSettings RackConveyor::settings() const {
     out.direction_deg = direction_deg;
     out.centre_mm = {centre_x_mm, centre_y_mm};
     out.profile = profile;
-    if (profile.empty()) out.profile = {{0, speed}};
+    if (profile.empty()) out.profile = {{0, velocity}};
     if (has_encoder()) out.counts_per_unit = counts_per_unit;
     out.slip = slip;
     out.deceleration = deceleration;

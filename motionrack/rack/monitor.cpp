@@ -15,7 +15,7 @@ constexpr double accel_reserve = 1.03;
 }  // namespace
 
 void Monitor::RateObserver::rate_changed(double before, double rate, Instant now) {
-    speed.changed(before, rate, now);
+    velocity.changed(before, rate, now);
     const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending) {
         const double seconds = to_seconds(now - since);
@@ -62,8 +62,8 @@ void Monitor::RateObserver::settle() {
     ++jumps;
 }
 
-void Monitor::RateObserver::restart(const TopSpeed& fresh, double rate, Instant now) {
-    speed = fresh;
+void Monitor::RateObserver::restart(const PeakVelocity& fresh, double rate, Instant now) {
+    velocity = fresh;
     good = follower = present = rate;
     away = rounding = explained = jump = 0;
     pending = false;
@@ -101,7 +101,7 @@ void Monitor::restart(std::vector<WatchedAxis> axes) {
     seen_ = Seen(axes_, period_, max_samples_);
     const Instant now = kernel_.now();
     for (std::size_t i = 0; i < axes_.size(); ++i)
-        ears_[i].restart(TopSpeed(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
+        ears_[i].restart(PeakVelocity(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
 }
 
 // ---- in virtual time
@@ -121,8 +121,8 @@ void Monitor::finish() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].settle();
         AxisStatistics& out = seen_.statistics[static_cast<std::size_t>(axes_[i].index)];
-        ears_[i].speed.finish();
-        out.peak_velocity = ears_[i].speed.hz() / axes_[i].pulses_per_unit;
+        ears_[i].velocity.finish();
+        out.peak_velocity = ears_[i].velocity.hz() / axes_[i].pulses_per_unit;
         out.peak_velocity_step = ears_[i].jump / axes_[i].pulses_per_unit;
     }
 }
@@ -130,7 +130,7 @@ void Monitor::finish() {
 void Monitor::on_scheduled(Instant now) {
     take(now);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-        ears_[i].speed.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
+        ears_[i].velocity.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
     if (running_) kernel_.schedule(id_, now + period_);
 }
 
@@ -207,7 +207,7 @@ void Monitor::work_off(const RawSample& raw) {
         sample.commanded[axis] = axes_[i].origin + axes_[i].commanded_beyond +
                                  static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
         sample.volts[axis] = raw.volts[i];
-        sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
+        sample.velocity[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
     }
     accelerations(raw, sample);
     look_for_jumps(raw, sample);

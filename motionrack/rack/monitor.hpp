@@ -11,8 +11,8 @@
 #include <motionrack/control/axis_group.hpp>
 #include <motionrack/control/planned_move.hpp>
 #include <motionrack/rack/breaches.hpp>
+#include <motionrack/rack/peak_velocity.hpp>
 #include <motionrack/rack/programmed_path.hpp>
-#include <motionrack/rack/top_speed.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -40,13 +40,13 @@ struct MonitorSample {
     Instant at{};
     std::array<double, control::axis_count> position = {};   ///< true position, mm or degrees
     std::array<double, control::axis_count> commanded = {};  ///< commanded position by the pulses, mm or degrees
-    std::array<double, control::axis_count> speed = {};      ///< velocity of the pulses, per second
+    std::array<double, control::axis_count> velocity = {};   ///< velocity of the pulses, per second
     std::array<float, control::axis_count> volts = {};       ///< volts at the amplifier of a servo
     std::array<float, control::axis_count> accel = {};  ///< over 4 samples, per second squared; NaN at a velocity step
 };
 
 struct AxisStatistics {
-    double peak_velocity = 0;  ///< highest sustained velocity, per second; see TopSpeed
+    double peak_velocity = 0;  ///< highest sustained velocity, per second; see PeakVelocity
     double peak_accel = 0;     ///< per second squared, over 4 samples without a velocity step
     double peak_velocity_step =
         0;  ///< largest velocity step (start, junction, stop), less the effect of whole pulses; per second
@@ -123,14 +123,14 @@ class Monitor final : public sim::Device {
     /// Listens to the changes of one axis' pulse rate.
     class RateObserver final : public sim::PositionListener {
       public:
-        RateObserver(double allowed_hz, Duration period) : speed(allowed_hz, period), jump_hz(allowed_hz) {}
+        RateObserver(double allowed_hz, Duration period) : velocity(allowed_hz, period), jump_hz(allowed_hz) {}
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
         /// Restarts at this rate now, independent of earlier motion.
-        void restart(const TopSpeed& fresh, double rate, Instant now);
+        void restart(const PeakVelocity& fresh, double rate, Instant now);
         /// Confirms the last change as a velocity step.
         void settle();
-        TopSpeed speed;
+        PeakVelocity velocity;
         double good = 0;       // confirmed rate of the axis
         double follower = 0;   // the confirmed rate, but following small steps within the acceleration limit
         double present = 0;    // present rate of the pulses

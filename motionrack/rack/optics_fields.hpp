@@ -33,7 +33,7 @@ inline constexpr std::array<Field, 5> galvo_keys = {
              field<&parts::GalvoSettings::natural_hz>("natural_frequency_hz", 10, 20'000, "Hz", "natural frequency")),
     formerly("damping", field<&parts::GalvoSettings::damping>("damping_ratio", 0.1, 10, "", "1: no overshoot")),
     formerly("greatest_speed", field<&parts::GalvoSettings::max_velocity_bits_ms>("max_velocity_bits_ms", 1, 1e9,
-                                                                                  "bits/ms", "speed limit")),
+                                                                                  "bits/ms", "velocity limit")),
 };
 
 inline constexpr std::array<Field, 3> laser_keys = {

@@ -179,7 +179,7 @@ Track looked_at(const Track& corners, double end) {
 
 std::vector<trace::SvgChart> charts_of(const Looks& plan, const Track& trapezoids, const RackConfig& config) {
     std::vector<trace::SvgChart> out;
-    out.push_back({fmt::format("path speed, {}/s", plan.is_linear() ? "mm" : "deg"),
+    out.push_back({fmt::format("path velocity, {}/s", plan.is_linear() ? "mm" : "deg"),
                    {{"trapezoids", "b", trapezoids.seconds, trapezoids.velocity},
                     {"jerk-limited", "z", plan.path.seconds, plan.path.velocity}},
                    {}});

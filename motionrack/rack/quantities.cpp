@@ -129,15 +129,15 @@ Result<double> quantity_of_card(const Card& card, std::string_view name) {
 // ---- setting
 
 Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::string_view name, double value) {
-    const std::string speed = with_unit(track_speed, track.config.unit());
-    if (name != speed)
+    const std::string velocity = with_unit(track_velocity, track.config.unit());
+    if (name != velocity)
         return fail(ErrorKind::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
-                                                    track.config.name, speed, in_quotes(name)));
+                                                    track.config.name, velocity, in_quotes(name)));
     const double greatest = track.config.max_velocity();
     if (!(std::fabs(value) <= greatest))
         return fail(ErrorKind::refused,
                     fmt::format("{}.{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
-                                track.config.name, speed, value, -greatest, greatest));
+                                track.config.name, velocity, value, -greatest, greatest));
     return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
 }
 
@@ -218,7 +218,7 @@ std::vector<QuantityRange> quantity_ranges(Rack& rack) {
     });
     for (const RunningConveyor& track : rack.tracks())
         for (QuantityRange& one : out)
-            if (one.name == fmt::format("{}.{}", track.config.name, with_unit(track_speed, track.config.unit()))) {
+            if (one.name == fmt::format("{}.{}", track.config.name, with_unit(track_velocity, track.config.unit()))) {
                 one.can_set = true;
                 one.max = track.config.max_velocity();
                 one.min = -one.max;
@@ -271,7 +271,7 @@ Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double
         if (name.whole && name_of(axis) == name.part) return push_axis(rack, axis, part_dot_quantity, value);
     MOTIONRACK_CHECK(get_quantity(rack, part_dot_quantity));  // no other quantity can be set
     return fail(ErrorKind::refused, fmt::format("{} follows from the machine and cannot be set; of axes the position "
-                                                "can, of belts and tables the speed. Nothing was done.",
+                                                "can, of belts and tables the velocity. Nothing was done.",
                                                 part_dot_quantity));
 }
 

@@ -43,7 +43,7 @@ inline constexpr std::array<QuantityRow<RunningAxis>, 13> axis_quantities = {{
          return (value - axis.machine->position(now)) / axis.machine->units_per_pulse();
      }},
     {"speed_{u}_s", "velocity of the table by the rotor, signed",
-     [](RunningAxis& axis, Instant now) { return axis.speed(now); }, measures},
+     [](RunningAxis& axis, Instant now) { return axis.velocity(now); }, measures},
     {"position_pulses", "the rotor in microsteps since the start", rotor, whole, nullptr,
      [](RunningAxis& axis, double value, Instant now) { return value - rotor(axis, now); }},
     {"position_counts", "counts of its encoder since the start",
@@ -58,7 +58,7 @@ inline constexpr std::array<QuantityRow<RunningAxis>, 13> axis_quantities = {{
      [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); }, whole},
     {"in_step", "1 while the rotor follows the pulses, else 0",
      [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, yes_no},
-    {"top_speed_{u}_s", "the peak speed so far",
+    {"top_speed_{u}_s", "the peak velocity so far",
      [](RunningAxis& axis, Instant) { return axis.machine->peak_velocity(); }, measures},
     {"limit_minus", "1 while the machine is at that switch, independent of its wire",
      [](RunningAxis& axis, Instant) { return axis.machine->limit_minus().active() ? 1.0 : 0.0; }, yes_no,
@@ -86,7 +86,7 @@ inline bool has_loop(const RunningStage& stage) {
 inline constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
     {"position_mm", "the true position of the stage",
      [](RunningStage& stage, Instant now) { return stage.motor->position_nm(now) * mm; }, measures},
-    {"speed_mm_s", "its speed, signed",
+    {"speed_mm_s", "its velocity, signed",
      [](RunningStage& stage, Instant now) { return stage.motor->velocity(now) * 1e3; }, measures},
     {"drive_v", "the voltage at its amplifier", [](RunningStage& stage, Instant) { return stage.motor->volts(); },
      measures},
@@ -118,11 +118,11 @@ inline bool with_encoder(const RunningConveyor& track) {
     return track.encoder != nullptr;
 }
 
-inline constexpr std::string_view track_speed = "speed_{u}_s";
+inline constexpr std::string_view track_velocity = "speed_{u}_s";
 inline constexpr std::array<QuantityRow<RunningConveyor>, 6> track_quantities = {{
     {"position_{u}", "its travel since the start",
      [](RunningConveyor& track, Instant now) { return track.track().travel(to_seconds(now)); }, measures},
-    {track_speed, "its speed, signed",
+    {track_velocity, "its velocity, signed",
      [](RunningConveyor& track, Instant now) { return track.track().velocity(to_seconds(now)); }, measures},
     {"encoder_counts", "counts of its encoder",
      [](RunningConveyor& track, Instant) { return static_cast<double>(track.encoder->count()); }, whole, with_encoder},

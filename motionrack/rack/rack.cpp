@@ -66,7 +66,7 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     const RackServo& servo = *axis.servo;
     const double counts = axis.counts_per_unit();
     parts::DcMotorSettings out;
-    out.gain = servo.speed_per_volt * counts;
+    out.gain = servo.velocity_per_volt * counts;
     out.saturation_velocity = servo.saturation() * counts;
     out.top_accel = servo.current_limit_accel * counts;
     out.friction = servo.friction * counts;

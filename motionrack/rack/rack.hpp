@@ -52,7 +52,7 @@ struct RunningAxis {
         return servo ? static_cast<sim::PositionFunction&>(*servo) : card->pulses(channel);
     }
     /// Velocity of the table caused by the rotor at `now`, mm/s or degrees/s, signed.
-    double speed(Instant now) const {
+    double velocity(Instant now) const {
         return servo ? servo->rate(now) * machine->units_per_pulse() : machine->velocity();
     }
 };

@@ -18,7 +18,7 @@ constexpr double nm_per_mm = 1e6;
 constexpr Duration settles = milliseconds(50);
 
 gb::MotionLimits limits_of(const RackStageServo& s) {
-    return {s.speed_mm_s * nm_per_mm, s.accel_mm_s2 * nm_per_mm, s.jerk_mm_s3 * nm_per_mm};
+    return {s.max_velocity_mm_s * nm_per_mm, s.accel_mm_s2 * nm_per_mm, s.jerk_mm_s3 * nm_per_mm};
 }
 
 }  // namespace

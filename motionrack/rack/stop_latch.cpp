@@ -41,8 +41,8 @@ const SourceWords& words_of(StopSource source) {
 }
 
 bool moves(const RunningAxis& axis, Instant now) {
-    const double speed = std::fabs(axis.speed(now));
-    return axis.servo ? speed > trembles * axis.config.max_velocity : speed > 0;
+    const double velocity = std::fabs(axis.velocity(now));
+    return axis.servo ? velocity > trembles * axis.config.max_velocity : velocity > 0;
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ bool StopLatch::trips(const Input& input, Instant now) {
 bool StopLatch::is_behind(const Input& input, Instant now) const {
     if (input.source != StopSource::limit_switch) return false;
     const RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.axis)];
-    return moves(axis, now) && axis.speed(now) * input.direction < 0;
+    return moves(axis, now) && axis.velocity(now) * input.direction < 0;
 }
 
 /// Returns true if the card itself stops the motion at this input.
@@ -230,9 +230,10 @@ void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
             state_.unfollowed |= 1u << axis.config.index();
         }
         if (rack_.config().positions_alone(axis.config)) continue;
-        const double speed = std::fabs(axis.speed(now));
-        const bool without_ramp = source == StopSource::emergency_stop && speed > axis.config.max_velocity_step;
-        const bool drive_gave_up = source == StopSource::drive_alarm && input->axis == static_cast<int>(a) && speed > 0;
+        const double velocity = std::fabs(axis.velocity(now));
+        const bool without_ramp = source == StopSource::emergency_stop && velocity > axis.config.max_velocity_step;
+        const bool drive_gave_up =
+            source == StopSource::drive_alarm && input->axis == static_cast<int>(a) && velocity > 0;
         if (without_ramp || drive_gave_up) state_.lost |= 1u << axis.config.index();
     }
 }

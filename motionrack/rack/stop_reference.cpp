@@ -89,8 +89,8 @@ A position is kept where no step can have been lost, and dropped where one may h
 
 - a ramp loses nothing: the STOP command, limit switches, an alarm of another axis;
 - at a limit switch the chip of an MCX314 that follows a path brakes within the piece that it drives, and ends its
-  pulses where that ends: an axis whose speed then changed at once by more than its start speed is not trusted;
-- without a ramp (the emergency stop) an axis keeps its position that was not faster than its start speed,
+  pulses where that ends: an axis whose velocity then changed at once by more than its velocity step is not trusted;
+- without a ramp (the emergency stop) an axis keeps its position that was not faster than its velocity step,
   which it reaches and leaves at once; so do all axes in a dwell, a hold or at standstill;
 - an axis with a following error above its limit is not trusted: its motor does not follow, or its encoder is dead;
 - an axis whose drive reports an alarm while it moves is not trusted: its motor may not have followed;

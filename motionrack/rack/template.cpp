@@ -192,7 +192,8 @@ std::string marking() {
     out.section("belt.line",
                 "conveyor of the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
     out.fields(track_fields(), &line, &line_defaults, "mm");
-    out.line("# profile = [[0, 0], [0.5, 100]]        # instead of the speed: seconds and speeds, linear between");
+    out.line(
+        "# profile = [[0, 0], [0.5, 100]]        # instead of the velocity: seconds and velocities, linear between");
     out.section("belt.line.parts", "parts at equal distances before a light barrier, which starts the card; optional");
     out.fields(passing_fields(), &parts, &parts, "mm");
     out.section("scanner.head", "mirrors and laser over the belt, and the part, which stores the marks");

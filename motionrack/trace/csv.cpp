@@ -180,7 +180,7 @@ Result<void> write_csv(const ReportData& data, const std::string& path) {
     };
     for (const ReportAxis& axis : data.axes) {
         add(column_name(axis.name, "position", axis.unit), axis.position);
-        add(column_name(axis.name, "velocity", axis.unit + "_s"), axis.speed);
+        add(column_name(axis.name, "velocity", axis.unit + "_s"), axis.velocity);
         add(column_name(axis.name, "acceleration", axis.unit + "_s2"), axis.accel);
         if (axis.servo) add(column_name(axis.name, "drive", "v"), axis.volts);
     }

@@ -75,7 +75,7 @@ struct RecordingHead {
 struct AxisSample {
     double position = 0;   ///< rotor position, mm or degrees
     double commanded = 0;  ///< by the card's pulses
-    double speed = 0;      ///< mm/s or deg/s
+    double velocity = 0;   ///< mm/s or deg/s
     float accel = 0;       ///< mm/s2 or deg/s2; NaN: velocity step
     float volts = 0;       ///< servo command, V
 };

@@ -159,14 +159,14 @@ struct Kept {
 
 /// Columns of one axis, with a block of each.
 struct AxisBlock {
-    hdf5::Reader position, speed, accel, volts;
+    hdf5::Reader position, velocity, accel, volts;
     bool servo = false;
-    std::array<double, read_block> positions, speeds;
+    std::array<double, read_block> positions, velocities;
     std::array<float, read_block> accels, voltages;
 
     Result<void> read(std::uint64_t from, std::size_t count) {
         MOTIONRACK_CHECK(position.read(from, count, positions.data()));
-        MOTIONRACK_CHECK(speed.read(from, count, speeds.data()));
+        MOTIONRACK_CHECK(velocity.read(from, count, velocities.data()));
         MOTIONRACK_CHECK(accel.read(from, count, accels.data()));
         return servo ? volts.read(from, count, voltages.data()) : Result<void>();
     }
@@ -186,7 +186,7 @@ void put(ReportData& data, const DecimatingBuffer<Kept>& keeper, const std::vect
         for (std::size_t i = 0; i < axes.size(); ++i) {
             ReportAxis& axis = data.axes[i];
             axis.position.push_back(static_cast<float>(sample.axes[i].position));
-            axis.speed.push_back(static_cast<float>(sample.axes[i].speed));
+            axis.velocity.push_back(static_cast<float>(sample.axes[i].velocity));
             axis.accel.push_back(sample.axes[i].accel);
             if (axes[i].servo) axis.volts.push_back(sample.axes[i].volts);
             if (const int along = path_axis(axes[i].name); along >= 0)
@@ -208,12 +208,12 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         auto one = std::make_unique<AxisBlock>();
         one->servo = axis.servo;
         MOTIONRACK_TRY(one->position, file_.column(folder + "/position"));
-        MOTIONRACK_TRY(one->speed, file_.column(folder + "/velocity"));
+        MOTIONRACK_TRY(one->velocity, file_.column(folder + "/velocity"));
         MOTIONRACK_TRY(one->accel, file_.column(folder + "/acceleration"));
         if (axis.servo) {
             MOTIONRACK_TRY(one->volts, file_.column(folder + "/drive"));
         }
-        size = std::min({size, one->position.size(), one->speed.size(), one->accel.size()});
+        size = std::min({size, one->position.size(), one->velocity.size(), one->accel.size()});
         if (axis.servo) size = std::min(size, one->volts.size());
         axes.push_back(std::move(one));
     }
@@ -228,7 +228,7 @@ Result<void> RecordingReader::read_samples(ReportData& data) const {
         for (std::size_t i = 0; i < count; ++i) {
             Kept one{times[i], {}};
             for (std::size_t k = 0; k < axes.size(); ++k)
-                one.axes[k] = {axes[k]->positions[i], 0, axes[k]->speeds[i], axes[k]->accels[i],
+                one.axes[k] = {axes[k]->positions[i], 0, axes[k]->velocities[i], axes[k]->accels[i],
                                axes[k]->servo ? axes[k]->voltages[i] : 0};
             keeper.add(one, deviations[i]);
         }

@@ -55,7 +55,7 @@ struct RecordingWriter::Signal {
 struct RecordingWriter::Samples {
     struct Axis {
         bool servo = false;
-        Buffered<double> position, commanded, speed;
+        Buffered<double> position, commanded, velocity;
         Buffered<float> accel, volts;
     };
     Buffered<std::int64_t> times;
@@ -65,7 +65,7 @@ struct RecordingWriter::Samples {
     bool write() {
         bool good = times.write() && deviation.write();
         for (Axis& axis : axes)
-            good = good && axis.position.write() && axis.commanded.write() && axis.speed.write() &&
+            good = good && axis.position.write() && axis.commanded.write() && axis.velocity.write() &&
                    axis.accel.write() && (!axis.servo || axis.volts.write());
         return good;
     }
@@ -148,7 +148,7 @@ void RecordingWriter::make_samples(const RecordingHead& head) {
         one.servo = axis.servo;
         column(one.position, name + "/position", axis.unit);
         column(one.commanded, name + "/commanded", axis.unit);
-        column(one.speed, name + "/velocity", axis.unit + "/s");
+        column(one.velocity, name + "/velocity", axis.unit + "/s");
         column(one.accel, name + "/acceleration", axis.unit + "/s2");
         if (axis.servo) column(one.volts, name + "/drive", "V");
         samples_->axes.push_back(std::move(one));
@@ -175,7 +175,7 @@ void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const Ax
         Samples::Axis& axis = samples_->axes[i];
         note(axis.position.add(axes[i].position));
         note(axis.commanded.add(axes[i].commanded));
-        note(axis.speed.add(axes[i].speed));
+        note(axis.velocity.add(axes[i].velocity));
         note(axis.accel.add(axes[i].accel));
         if (axis.servo) note(axis.volts.add(axes[i].volts));
     }

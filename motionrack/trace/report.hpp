@@ -48,7 +48,7 @@ struct ReportAxis {
     double actual_end = 0;          ///< true end position of the motor
     /// Series over ReportData::seconds: each is empty or of the same length. Non-finite values are skipped.
     std::vector<float> position;
-    std::vector<float> speed;
+    std::vector<float> velocity;
     std::vector<float> accel;
     std::vector<float> volts;  ///< at a servo's amplifier, V; empty for other axes
 };

@@ -147,8 +147,8 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
         if (axis.min_position < axis.max_position) out.limits = {{axis.min_position, ""}, {axis.max_position, ""}};
         charts.push_back({number_of, std::move(out)});
     }
-    if (!axis.speed.empty()) {
-        SvgChart out = chart("Velocity, " + axis.unit + "/s", look, data, axis.speed);
+    if (!axis.velocity.empty()) {
+        SvgChart out = chart("Velocity, " + axis.unit + "/s", look, data, axis.velocity);
         if (axis.max_velocity > 0) out.limits = {{axis.max_velocity, ""}, {-axis.max_velocity, ""}};
         charts.push_back({number_of, std::move(out)});
     }

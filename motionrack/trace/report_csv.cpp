@@ -41,7 +41,7 @@ Put reader_of(ReportData& data, const std::string& column) {
     const std::string unit = letter >= 'x' ? "mm" : "deg", what = column.substr(2);
     std::vector<float> ReportAxis::*series = nullptr;
     if (what == "position_" + unit) series = &ReportAxis::position;
-    if (what == "velocity_" + unit + "_s") series = &ReportAxis::speed;
+    if (what == "velocity_" + unit + "_s") series = &ReportAxis::velocity;
     if (what == "acceleration_" + unit + "_s2") series = &ReportAxis::accel;
     if (what == "drive_v") series = &ReportAxis::volts;
     if (series == nullptr) return {};
@@ -92,9 +92,9 @@ Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::str
 
 /// Computes the peak values of an axis from its samples.
 void add_tops(ReportAxis& axis) {
-    for (const float speed : axis.speed)
-        if (std::isfinite(speed))
-            axis.peak_velocity = std::max(axis.peak_velocity, std::fabs(static_cast<double>(speed)));
+    for (const float velocity : axis.velocity)
+        if (std::isfinite(velocity))
+            axis.peak_velocity = std::max(axis.peak_velocity, std::fabs(static_cast<double>(velocity)));
     for (const float accel : axis.accel)
         if (std::isfinite(accel)) axis.peak_accel = std::max(axis.peak_accel, std::fabs(static_cast<double>(accel)));
     if (!axis.position.empty()) axis.planned_end = axis.actual_end = axis.position.back();

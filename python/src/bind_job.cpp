@@ -50,7 +50,7 @@ py::tuple samples_of(const Ran& ran) {
     for (const rack::AxisOutcome& axis : ran.outcome.axes) {
         const auto i = static_cast<std::size_t>(axis.index);
         add(axis.index, "position", [i](const rack::MonitorSample& sample) { return sample.position[i]; });
-        add(axis.index, "velocity", [i](const rack::MonitorSample& sample) { return sample.speed[i]; });
+        add(axis.index, "velocity", [i](const rack::MonitorSample& sample) { return sample.velocity[i]; });
         add(axis.index, "accel", [i](const rack::MonitorSample& sample) { return sample.accel[i]; });
         if (axis.servo) add(axis.index, "volts", [i](const rack::MonitorSample& sample) { return sample.volts[i]; });
     }

@@ -89,7 +89,7 @@ inline void set_microsteps(RackConfig& config, std::int64_t microsteps) {
 
 /// Expects no velocity step, by the pulses and by the monitor, and no other breach or loss.
 inline void expect_lossless(const Driven& driven, double jump = 1.15) {
-    EXPECT_LE(driven.worst.parts, jump) << "axis " << driven.worst.axis << ": " << driven.worst.jump.speed
+    EXPECT_LE(driven.worst.parts, jump) << "axis " << driven.worst.axis << ": " << driven.worst.jump.velocity
                                         << " units/s at " << driven.worst.jump.seconds << " s";
     for (const Breach& breach : driven.outcome.breaches.all()) ADD_FAILURE() << sentence_of(breach);
     EXPECT_TRUE(driven.outcome.position_valid);

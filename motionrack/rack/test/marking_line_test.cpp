@@ -156,7 +156,7 @@ TEST(MarkingLine, ASnapshotTakesMarksBack) {
     EXPECT_EQ(bench.workpiece().points().size(), points);
 }
 
-TEST(MarkingLine, TheSpeedCanBeChangedAndTheEncoderBroken) {
+TEST(MarkingLine, TheVelocityCanBeChangedAndTheEncoderBroken) {
     Line bench;
     bench.ms(100);
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
@@ -287,7 +287,7 @@ TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
     EXPECT_THAT(refused("[belt.line]\ncentre_x_mm = 1\n"), HasSubstr("centre_x_mm"));
     EXPECT_THAT(refused("[belt.line]\nvelocity_mm_s = 1\nprofile = [[0, 1]]\n"), HasSubstr("leave one out"));
     EXPECT_THAT(refused("[belt.line]\nprofile = [[1, 1], [0, 2]]\n"), HasSubstr("rise"));
-    EXPECT_THAT(refused("[belt.line]\nprofile = [1, 2]\n"), HasSubstr("pair [seconds, speed]"));
+    EXPECT_THAT(refused("[belt.line]\nprofile = [1, 2]\n"), HasSubstr("pair [seconds, velocity]"));
     EXPECT_THAT(refused("[belt.one]\ncard = \"scan\"\n[belt.two]\ncard = \"scan\"\n"),
                 HasSubstr("encoder input 0 of card scan has the encoder of one"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"),

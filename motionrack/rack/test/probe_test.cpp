@@ -64,9 +64,10 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
         // It stops beyond the edge, within the braking distance and a margin.
-        const double speed = feed / 60.0, way = out.axes[0].actual_end - whole(edge);
+        const double velocity = feed / 60.0, way = out.axes[0].actual_end - whole(edge);
         EXPECT_GE(way, 0);
-        EXPECT_LE(way, speed * speed / 2 / 900 + speed * 0.03 + 0.01) << "F" << feed;  // at 1000 mm/s2 and 20,000 mm/s3
+        EXPECT_LE(way, velocity * velocity / 2 / 900 + velocity * 0.03 + 0.01)
+            << "F" << feed;  // at 1000 mm/s2 and 20,000 mm/s3
         EXPECT_EQ(out.axes[0].lost_pulses, 0);
     }
 }

@@ -22,7 +22,7 @@ struct Machine {
         axis = *rack.axes()[0].card->axis(rack.config(), 'X');
     }
     double mm() { return rack.axes()[0].machine->position(rack.kernel().now()); }
-    double speed() { return rack.axes()[0].speed(rack.kernel().now()); }
+    double velocity() { return rack.axes()[0].velocity(rack.kernel().now()); }
     sim::VirtualHost& host() { return rack.axes()[0].card->host(); }
     Instant now() { return rack.kernel().now(); }
     /// Checks the axis every ms during that time.
@@ -56,7 +56,7 @@ TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoTrust) {
     EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(m.axis->move_by(50, 20));
     m.run(whole_seconds(1));
-    EXPECT_NEAR(m.speed(), 20, 1.1) << "friction and dead band take a little";
+    EXPECT_NEAR(m.velocity(), 20, 1.1) << "friction and dead band take a little";
     ASSERT_TRUE(m.axis->wait(whole_seconds(10)));
     EXPECT_NEAR(m.mm(), 150, 0.3);
 }
@@ -89,19 +89,19 @@ TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
 TEST(ServoAxis, JogsForAsLongAsItIsToldTo) {
     Machine m;
     m.here_is(100);
-    const auto jog = [&](double speed, int ms) {
+    const auto jog = [&](double velocity, int ms) {
         for (int i = 0; i < ms; i += 20) {
-            ASSERT_TRUE(m.axis->jog(speed, m.now()));
+            ASSERT_TRUE(m.axis->jog(velocity, m.now()));
             m.run(milliseconds(20));
         }
     };
     jog(200, 1'000);
     EXPECT_EQ(m.axis->state(), AxisState::jogging);
-    EXPECT_NEAR(m.speed(), 200, 3);
+    EXPECT_NEAR(m.velocity(), 200, 3);
     jog(50, 600);
-    EXPECT_NEAR(m.speed(), 50, 2) << "on the fly";
+    EXPECT_NEAR(m.velocity(), 50, 2) << "on the fly";
     jog(-100, 1'000);
-    EXPECT_NEAR(m.speed(), -100, 2) << "by way of a stop";
+    EXPECT_NEAR(m.velocity(), -100, 2) << "by way of a stop";
     m.run(milliseconds(1'000));
     EXPECT_EQ(m.axis->state(), AxisState::standstill) << "nobody asked any more";
     ASSERT_TRUE(m.axis->jog(300, m.now()));
@@ -109,7 +109,7 @@ TEST(ServoAxis, JogsForAsLongAsItIsToldTo) {
     ASSERT_TRUE(m.axis->jog(0, m.now()));
     EXPECT_EQ(m.axis->state(), AxisState::stopping);
     ASSERT_TRUE(m.axis->wait(whole_seconds(5)));
-    EXPECT_EQ(m.speed(), 0);
+    EXPECT_EQ(m.velocity(), 0);
 }
 
 TEST(ServoAxis, AJogEndsAtTheEndOfTheTravel) {
@@ -131,7 +131,7 @@ TEST(ServoAxis, AStopDeceleratesAndAStopAtOnceIsShorterAndBothKeepThePosition) {
         ASSERT_TRUE(m.axis->move_to(2'500, 500));
         m.run(whole_seconds(2));
         const double from = m.mm();
-        EXPECT_NEAR(m.speed(), 500, 3);
+        EXPECT_NEAR(m.velocity(), 500, 3);
         at_once ? m.axis->stop_now() : m.axis->stop();
         ASSERT_TRUE(m.axis->wait(whole_seconds(5)));
         way[at_once] = m.mm() - from;
@@ -168,7 +168,7 @@ TEST(ServoAxis, TheEmergencyStopEndsAMoveAndItStaysWhenReleased) {
     ASSERT_FALSE(moved);
     EXPECT_THAT(moved.error().message, HasSubstr("the emergency stop is active"));
     EXPECT_EQ(*m.desk.get("board.relay"), 0);
-    EXPECT_EQ(m.speed(), 0);
+    EXPECT_EQ(m.velocity(), 0);
     EXPECT_THAT(m.axis->move_to(0, 100).error().message, HasSubstr("release it"));
     ASSERT_TRUE(m.desk.force("estop", std::nan("")));
     const double there = m.mm();
@@ -202,7 +202,7 @@ TEST(ServoAxis, TheWatchdogsResetTakesTheTrustAway) {
     ASSERT_TRUE(inject_fault(m.rack, "watchdog.hang", "board"));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
-    EXPECT_EQ(m.speed(), 0);
+    EXPECT_EQ(m.velocity(), 0);
     EXPECT_LT(m.mm(), 1'500) << "the watchdog reacts after a second";
     EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(inject_fault(m.rack, "watchdog.hang=0", "board"));
@@ -250,7 +250,7 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     ASSERT_TRUE(inject_fault(m.rack, "motor.stall=0", "X"));
     ASSERT_TRUE(m.desk.force("X.drive", -2));
     m.host().pass(milliseconds(500));
-    EXPECT_NEAR(m.speed(), -200, 2);
+    EXPECT_NEAR(m.velocity(), -200, 2);
     EXPECT_THAT(m.desk.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
 }
 
@@ -305,7 +305,7 @@ TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndIsNotTrusted) {
     m.axis->stop();
     EXPECT_THAT(m.axis->home_outcome().sentence, HasSubstr("stopped in SEARCH"));
     ASSERT_TRUE(m.axis->wait(whole_seconds(5)));
-    EXPECT_EQ(m.speed(), 0);
+    EXPECT_EQ(m.velocity(), 0);
 }
 
 TEST(ServoAxis, AnEmergencyStopEndsAHoming) {

@@ -137,7 +137,7 @@ TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop)
     EXPECT_FALSE(fast.outcome.position_valid);
     const StoppedRun slow = run_stopped(stop_axes, "G21 G90 F60\nG1 X80\nM2\n", {"estop=0@1s"});
     EXPECT_FALSE(slow.outcome.ended);
-    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its start speed: it stops within a step";
+    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step: it stops within a step";
 }
 
 TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
@@ -173,7 +173,7 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
         EXPECT_THAT(pieces.error(), HasSubstr("The position of X is not trusted any more: steps may have been lost"));
     }
     const StoppedRun slow = run_stopped(jerk, "G21 G90\nG1 X200 F60\nM2\n", {"X.limit_plus=0@1s"});
-    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its start speed";
+    EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step";
 }
 
 /// While the chip decelerates, moves queued behind the line must not change the acceleration.

@@ -23,7 +23,7 @@ const whole = {
 if (!(whole.to > whole.from)) whole.to = whole.from + 1;
 
 // time: the cursor, null = none; from, to: what the charts show; move: the move pointed at, -1 = none.
-const state = { time: null, from: whole.from, to: whole.to, move: -1, bySpeed: false };
+const state = { time: null, from: whole.from, to: whole.to, move: -1, byVelocity: false };
 const painters = [];
 let asked = false;
 const repaint = () => {

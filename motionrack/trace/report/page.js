@@ -25,7 +25,7 @@ const pointAt = (view, at) => {
   const line = (edge && lineAt(time)) || (plan ? Math.round(planned.line[plan.i]) : 0);
   const words = [(line > 0 ? "Line " + line + "   " : "") + (edge ? shownTime(time) : "programmed"),
     ["x", "y", "z"].map((name) => name.toUpperCase() + " " + shownNumber(between(path[name], edge || plan))).join("  ")];
-  if (edge) words.push(shownNumber(edgeSpeed[edge.i]) + " mm/s");
+  if (edge) words.push(shownNumber(edgeVelocity[edge.i]) + " mm/s");
   view.tip.textContent = words.join("\n");
   if (edge) setTime(time);
   const left = at.x + 220 > view.canvas.clientWidth;
@@ -103,10 +103,10 @@ if (!document.getElementById("path").hidden) {
   document.getElementById("within").textContent = known ? "The lines drawn lie within " + Number(off.toPrecision(1)) + " mm of the recorded ones." : "The lines drawn are coarse: the path has too many corners for this page.";
   document.querySelector("#path .tools").hidden = driven.t.length < 2;
   document.getElementById("slow").textContent = "0";
-  document.getElementById("fast").textContent = shownNumber(topEdgeSpeed) + " mm/s";
-  document.getElementById("by-speed").addEventListener("change", (event) => {
-    state.bySpeed = event.target.checked;
-    document.getElementById("speed-scale").hidden = !state.bySpeed;
+  document.getElementById("fast").textContent = shownNumber(topEdgeVelocity) + " mm/s";
+  document.getElementById("by-velocity").addEventListener("change", (event) => {
+    state.byVelocity = event.target.checked;
+    document.getElementById("velocity-scale").hidden = !state.byVelocity;
     repaint();
   });
 }

@@ -4,16 +4,16 @@ const [travelLow, travelHigh] = drawing.travel;
 const frameMiddle = frameLow.map((low, i) => (low + frameHigh[i]) / 2);
 const frameSize = Math.max(1e-6, Math.hypot(...frameLow.map((low, i) => frameHigh[i] - low)));
 
-// Speed along each driven edge, and the colour for it: slow is blue, fast is orange.
-const edgeSpeed = new Float64Array(driven.t.length);
-let topEdgeSpeed = 0;
+// Velocity along each driven edge, and the colour for it: slow is blue, fast is orange.
+const edgeVelocity = new Float64Array(driven.t.length);
+let topEdgeVelocity = 0;
 for (let i = 1; i < driven.t.length; ++i) {
   const span = driven.t[i] - driven.t[i - 1];
-  edgeSpeed[i] = span > 0 ? Math.hypot(driven.x[i] - driven.x[i - 1], driven.y[i] - driven.y[i - 1], driven.z[i] - driven.z[i - 1]) / span : 0;
-  topEdgeSpeed = Math.max(topEdgeSpeed, edgeSpeed[i]);
+  edgeVelocity[i] = span > 0 ? Math.hypot(driven.x[i] - driven.x[i - 1], driven.y[i] - driven.y[i - 1], driven.z[i] - driven.z[i - 1]) / span : 0;
+  topEdgeVelocity = Math.max(topEdgeVelocity, edgeVelocity[i]);
 }
 const shades = 24;
-const shadeOf = (speed) => topEdgeSpeed > 0 ? Math.min(shades - 1, Math.floor(speed / topEdgeSpeed * shades)) : 0;
+const shadeOf = (velocity) => topEdgeVelocity > 0 ? Math.min(shades - 1, Math.floor(velocity / topEdgeVelocity * shades)) : 0;
 const shade = (k) => `hsl(${225 - 210 * k / (shades - 1)} 75% 48%)`;
 
 const start = () => ({ yaw: -0.61, tilt: 0.55, zoom: 1, shiftX: 0, shiftY: 0 });
@@ -144,11 +144,11 @@ const drawPlanned = (pen, view, to, colours) => {
 const drawDriven = (pen, view, to, colours) => {
   const points = view.points = driven.t.length ? Array.from(driven.t, (_, i) => to(driven.x[i], driven.y[i], driven.z[i])) : [];
   pen.lineJoin = pen.lineCap = "round";
-  pen.lineWidth = state.bySpeed ? 2.5 : 1.5;
-  if (state.bySpeed) {
+  pen.lineWidth = state.byVelocity ? 2.5 : 1.5;
+  if (state.byVelocity) {
     const paths = Array.from({ length: shades }, () => new Path2D());
     for (let i = 1; i < points.length; ++i) {
-      const path = paths[shadeOf(edgeSpeed[i])];
+      const path = paths[shadeOf(edgeVelocity[i])];
       path.moveTo(...points[i - 1]);
       path.lineTo(...points[i]);
     }
@@ -194,7 +194,7 @@ const drawArrows = (pen, points, width, height, colours) => {
     run += length;
   }
   const apart = Math.max(90, seen / 40);
-  pen.fillStyle = state.bySpeed ? colours.ink : colours.driven;
+  pen.fillStyle = state.byVelocity ? colours.ink : colours.driven;
   pen.strokeStyle = colours.card;
   pen.lineWidth = 1;
   pen.beginPath();

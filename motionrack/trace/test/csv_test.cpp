@@ -44,7 +44,7 @@ TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
     data.axes.resize(2);
     data.axes[0].name = std::string("X");
     data.axes[0].position = {0, 0.0125F};
-    data.axes[0].speed = {0, 25};
+    data.axes[0].velocity = {0, 25};
     data.axes[0].accel = {500, 500};
     data.axes[1].name = std::string("A");
     data.axes[1].unit = "deg";

@@ -35,7 +35,7 @@ ReportData circle(std::size_t samples) {
         data.deviation_mm.push_back(static_cast<float>(0.004 * part));
         for (std::size_t a = 0; a < 2; ++a) {
             data.axes[a].position.push_back(static_cast<float>(at[a]));
-            data.axes[a].speed.push_back(i == samples * 2 / 3 ? 77.0F : static_cast<float>(10 * std::sin(angle)));
+            data.axes[a].velocity.push_back(i == samples * 2 / 3 ? 77.0F : static_cast<float>(10 * std::sin(angle)));
         }
     }
     data.planned = {segment};
@@ -171,10 +171,10 @@ TEST(Report, ThinningKeepsExtremesAndStaysNearThePath) {
     const std::size_t samples = 300'000;
     const std::string page = report_html(circle(samples));
     const auto drawing = drawing_of(page);
-    const auto speed = unpacked(drawing["charts"][1]["v"]);
-    EXPECT_LT(speed.size(), 6001U);
-    EXPECT_NEAR(*std::max_element(speed.begin(), speed.end()), 77, 1e-3);
-    EXPECT_NEAR(*std::min_element(speed.begin(), speed.end()), -10, 1e-3);
+    const auto velocity = unpacked(drawing["charts"][1]["v"]);
+    EXPECT_LT(velocity.size(), 6001U);
+    EXPECT_NEAR(*std::max_element(velocity.begin(), velocity.end()), 77, 1e-3);
+    EXPECT_NEAR(*std::min_element(velocity.begin(), velocity.end()), -10, 1e-3);
     const auto x = unpacked(drawing["driven"]["x"]), y = unpacked(drawing["driven"]["y"]);
     ASSERT_GT(x.size(), 50U);
     EXPECT_LT(x.size(), samples / 10);
@@ -187,7 +187,7 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     ReportData data = circle(1000);
     const double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 1000; i += 7) {
-        data.axes[0].speed[i] = static_cast<float>(not_a_number);
+        data.axes[0].velocity[i] = static_cast<float>(not_a_number);
         data.axes[1].position[i] = static_cast<float>(-infinity);
         data.driven[i] = {not_a_number, infinity, 0};
         data.seconds[i] = i % 2 == 0 ? not_a_number : data.seconds[i];
@@ -244,7 +244,7 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
         data.driven.push_back({jitter(random), jitter(random), jitter(random)});
         data.deviation_mm.push_back(static_cast<float>(jitter(random)));
         for (ReportAxis& axis : data.axes) {
-            for (auto* series : {&axis.position, &axis.speed, &axis.accel})
+            for (auto* series : {&axis.position, &axis.velocity, &axis.accel})
                 series->push_back(static_cast<float>(jitter(random)));
         }
         const Xyz a = {jitter(random), jitter(random), jitter(random)},

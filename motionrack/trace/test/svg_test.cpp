@@ -34,13 +34,13 @@ TEST(SvgPath, FromAboveHasYUpAndDrawsTraversesApart) {
 
 TEST(SvgPath, AShadeColoursRunsAndHasAScale) {
     ReportData data = corner();
-    const std::vector<float> speed = {0, 0, 50, 50};
-    const std::string svg = svg_path(data, PathView::plan, {268, 268, false}, {speed, 50, "mm/s"});
+    const std::vector<float> velocity = {0, 0, 50, 50};
+    const std::string svg = svg_path(data, PathView::plan, {268, 268, false}, {velocity, 50, "mm/s"});
     EXPECT_NE(svg.find("<polyline stroke=\"#f69721\" points=\"34,234 134,194\"/>"), std::string::npos) << svg;  // slow
     EXPECT_NE(svg.find("<polyline stroke=\"#0d0887\" points=\"134,74 54,74\"/>"), std::string::npos) << svg;    // fast
     EXPECT_NE(svg.find(">50 mm/s</text>"), std::string::npos);
     EXPECT_EQ(svg.find("class=\"driven\""), std::string::npos);
-    EXPECT_NE(svg_path(data, PathView::plan, {268, 268, false}, {std::span(speed).first(3), 50, "mm/s"})
+    EXPECT_NE(svg_path(data, PathView::plan, {268, 268, false}, {std::span(velocity).first(3), 50, "mm/s"})
                   .find("class=\"driven\""),
               std::string::npos)
         << "shades that do not fit are left out";

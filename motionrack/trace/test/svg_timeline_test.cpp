@@ -13,7 +13,7 @@ const std::vector<float> timeline_values = {0, 5, 5, 1};
 
 std::string picture(const std::vector<SvgSpan>& spans) {
     const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", timeline_seconds, timeline_values}}, {}},
-                                          {"speed, mm/s", {{"", "y", timeline_seconds, timeline_values}}, {}}};
+                                          {"velocity, mm/s", {{"", "y", timeline_seconds, timeline_values}}, {}}};
     return svg_timeline("A <title>", charts, spans, {720, 500, true});
 }
 
@@ -21,7 +21,7 @@ TEST(SvgTimeline, HasEveryChartAndEveryName) {
     const std::string out = picture({{"first 1 s", 0, 1}, {"second & last", 1, 3}});
     EXPECT_THAT(out, testing::HasSubstr("A &lt;title&gt;"));
     EXPECT_THAT(out, testing::HasSubstr("position, mm"));
-    EXPECT_THAT(out, testing::HasSubstr("speed, mm/s"));
+    EXPECT_THAT(out, testing::HasSubstr("velocity, mm/s"));
     EXPECT_THAT(out, testing::HasSubstr("first 1 s</text>"));
     EXPECT_THAT(out, testing::HasSubstr("second &amp; last</text>"));
 }
@@ -41,7 +41,7 @@ TEST(SvgTimeline, NamesOfShortSpansDoNotCoverEachOther) {
 
 TEST(SvgTimeline, NamesTheLinesOfAChart) {
     const std::vector<SvgChart> charts = {
-        {"speed",
+        {"velocity",
          {{"planned", "x", timeline_seconds, timeline_values}, {"driven", "y", timeline_seconds, timeline_values}},
          {}}};
     const std::string out = svg_timeline("A title", charts, {}, {720, 200, true});

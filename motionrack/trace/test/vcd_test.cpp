@@ -28,12 +28,12 @@ TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
     const auto limit = vcd.add_wire("limit+", true);
     vcd.pop_scope();
     const auto counter = vcd.add_vector("counter", 32, 5);
-    const auto speed = vcd.add_real("speed");
+    const auto velocity = vcd.add_real("velocity");
     vcd.change(step, 1, microseconds(5));
     vcd.change(counter, 6, microseconds(5));
     vcd.change(step, 0, microseconds(7));
     vcd.change(limit, 0, whole_seconds(1));
-    vcd.change_real(speed, -2.5, whole_seconds(1));
+    vcd.change_real(velocity, -2.5, whole_seconds(1));
     vcd.change(counter, 0, whole_seconds(1) + Duration{1});
     ASSERT_TRUE(vcd.close(whole_seconds(2)));
     EXPECT_EQ(file_text(vcd_scratch.path("a.vcd")),
@@ -44,7 +44,7 @@ TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
               "$var wire 1 \" limitp $end\n"
               "$upscope $end\n"
               "$var wire 32 # counter [31:0] $end\n"
-              "$var real 64 $ speed $end\n"
+              "$var real 64 $ velocity $end\n"
               "$enddefinitions $end\n"
               "#0\n$dumpvars\n0!\n1\"\nb101 #\nr0 $\n$end\n"
               "#50000\n1!\nb110 #\n"

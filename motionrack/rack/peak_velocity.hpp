@@ -12,10 +12,10 @@
 namespace motionrack::rack {
 
 /// Allocates only in the constructor.
-class TopSpeed {
+class PeakVelocity {
   public:
     /// A rate change above `jump_hz` starts another segment. `period`: time between two samples.
-    TopSpeed(double jump_hz, Duration period);
+    PeakVelocity(double jump_hz, Duration period);
     /// Reports a rate change from `before` to `rate`, pulses/s.
     void changed(double before, double rate, Instant now);
     /// Call every period with the pulse count and the present rate.
