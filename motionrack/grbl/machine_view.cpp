@@ -43,7 +43,7 @@ int alarm_of_stop(operate::Machine& machine) {
 double feed_now(const operate::Machine& machine) {
     double linear = 0, rotary = 0;
     for (const operate::AxisStatus& axis : machine.status().axes)
-        (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
+        (axis.rotary ? rotary : linear) += axis.velocity * axis.velocity;
     return std::sqrt(linear > 0 ? linear : rotary) * 60;
 }
 

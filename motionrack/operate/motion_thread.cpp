@@ -370,7 +370,7 @@ static AxisStatus look_at(rack::RunningAxis& axis, bool position_valid, bool ena
     const double counts = axis.config.counts_per_unit();
     out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
     out.true_position = axis.machine->position(now);
-    out.speed = axis.velocity(now);
+    out.velocity = axis.velocity(now);
     return out;
 }
 

@@ -54,7 +54,7 @@ struct AxisStatus {
     double commanded = 0;      ///< position by the card's pulses
     double actual = 0;         ///< position by the encoder; `commanded` without one
     double true_position = 0;  ///< true position of the table, independent of any counter
-    double speed = 0;          ///< per second, signed
+    double velocity = 0;       ///< per second, signed
     std::int64_t pulses = 0;   ///< counters of the card
     std::int64_t counts = 0;
 };

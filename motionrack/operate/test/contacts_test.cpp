@@ -82,7 +82,7 @@ TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffer
     declare_all(o);
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
     o.at(1, [channel](Machine& m) { EXPECT_TRUE(m.wires().force(channel, 0)); });
-    o.at(1.01, [](Machine& m) { EXPECT_EQ(m.status().axes[0].speed, 0) << "the first contact acts at once"; });
+    o.at(1.01, [](Machine& m) { EXPECT_EQ(m.status().axes[0].velocity, 0) << "the first contact acts at once"; });
     o.at(1.4, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
         EXPECT_THAT(m.status().alarms, testing::SizeIs(1)) << "contacts may be unlike for half a second";

@@ -45,7 +45,7 @@ rack::RackConfig rack_of(const JogCase& one) {
 
 /// Maximum excess of the axis over the limit, maximum distance of the table from the axis, and the final position.
 struct Seen {
-    double beyond = 0, apart = 0, commanded = 0, end_speed = 0;
+    double beyond = 0, apart = 0, commanded = 0, end_velocity = 0;
     std::string conditions;
     bool position_valid = false;
     MachineState state = MachineState::disabled;
@@ -68,7 +68,7 @@ Seen jog_on(const JogCase& one) {
         const AxisStatus& x = status.axes[0];
         seen.beyond = std::max({seen.beyond, one.min - x.commanded, x.commanded - one.max});
         seen.apart = std::max(seen.apart, std::fabs(x.true_position - x.commanded));
-        if (x.speed != 0) seen.end_speed = std::fabs(x.speed);
+        if (x.velocity != 0) seen.end_velocity = std::fabs(x.velocity);
     });
     o.run(last + 1);
     seen.commanded = o.x();
@@ -125,7 +125,7 @@ TEST_P(JogToTheLimit, StopsWithinAPulseOfItAndNeverBeyond) {
     const double limit = one.direction > 0 ? one.max : one.min;
     EXPECT_LT(std::fabs(limit - seen.commanded), 1 / pulses_per_mm + 1e-9);
     EXPECT_LE(seen.apart, 0.5 / pulses_per_mm + 1e-9) << "no step was lost; a start may be between two pulses";
-    EXPECT_LE(seen.end_speed, 2.1 + 0.002 * one.accel) << "it ends with a ramp down to the start speed";
+    EXPECT_LE(seen.end_velocity, 2.1 + 0.002 * one.accel) << "it ends with a ramp down to the velocity step";
     EXPECT_EQ(seen.conditions, "");
     EXPECT_TRUE(seen.position_valid);
     EXPECT_EQ(seen.state, MachineState::standstill);

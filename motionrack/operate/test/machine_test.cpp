@@ -206,7 +206,7 @@ TEST(AMachine, OverridesAndSingleStepsAProgram) {
     o.run(8);
     EXPECT_EQ(holds, 1);
     EXPECT_NEAR(o.x(), 30, 0.5 / 640);
-    EXPECT_LT(o.top_speed, 10.1);
+    EXPECT_LT(o.peak_velocity, 10.1);
 }
 
 TEST(AMachine, WithHomeSwitchesTrustsNoPositionUntilItIsHomed) {

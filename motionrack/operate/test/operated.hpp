@@ -68,7 +68,7 @@ class Operated {
     std::optional<test::MachineWatch> watch;
     std::vector<std::string> states;  ///< in order of occurrence
     std::vector<control::gcode::CanonCallKind> events;
-    double top_speed = 0, stood_since = 0;
+    double peak_velocity = 0, stood_since = 0;
 
   private:
     struct Order {
@@ -86,8 +86,8 @@ class Operated {
         if (see_) see_(status);
         if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
         for (const AxisStatus& axis : status.axes) {
-            top_speed = std::max(top_speed, std::fabs(axis.speed));
-            if (axis.speed != 0) stood_since = to_seconds(status.at);
+            peak_velocity = std::max(peak_velocity, std::fabs(axis.velocity));
+            if (axis.velocity != 0) stood_since = to_seconds(status.at);
         }
     }
     std::deque<Order> orders_;

@@ -39,7 +39,7 @@ struct Served : Operated {
         call(0.1, "TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 8000}, {"m_A", 1}});
         at(0.3, [](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::service);
-            EXPECT_GT(m.status().axes[0].speed, 0.5);
+            EXPECT_GT(m.status().axes[0].velocity, 0.5);
         });
     }
     std::vector<std::string> said;
@@ -246,7 +246,7 @@ TEST(AService, EndsWithTheProgram) {
     o.run(0.5);
     EXPECT_FALSE(o.machine->service().on());
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
-    EXPECT_EQ(o.machine->status().axes[0].speed, 0);
+    EXPECT_EQ(o.machine->status().axes[0].velocity, 0);
 }
 
 TEST(AService, OfAnotherSessionGoesOn) {

@@ -28,7 +28,7 @@ TEST(AServoAxis, DrivesALongLineInOneGo) {
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.run(3);
     EXPECT_NEAR(o.x(), 600, 0.3);
-    EXPECT_GT(o.top_speed, 480) << "of 500";
+    EXPECT_GT(o.peak_velocity, 480) << "of 500";
 }
 
 TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
@@ -175,12 +175,12 @@ TEST(AServoAxis, StandsWhenItsCardHasHungForLessThanASecond) {
         o.at(0.2, motion.begin);
         o.at(0.4, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
         o.at(1.1, [](Machine& m) {
-            EXPECT_NE(m.status().axes[0].speed, 0) << "it cannot be stopped yet";
+            EXPECT_NE(m.status().axes[0].velocity, 0) << "it cannot be stopped yet";
             m.stop();
             EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang=0", "board"));
         });
         o.at(3, [](Machine& m) {
-            EXPECT_EQ(m.status().axes[0].speed, 0);
+            EXPECT_EQ(m.status().axes[0].velocity, 0);
             EXPECT_EQ(m.state(), MachineState::error_stop);
             EXPECT_FALSE(m.status().axes[0].position_valid);
             m.reset();

@@ -236,17 +236,17 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
         });
         o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({80, 80, 20, 20}, 50)); });
         o.at(0.5, [](Machine& m) {
-            EXPECT_GT(m.status().axes[3].speed, 2);
+            EXPECT_GT(m.status().axes[3].velocity, 2);
             EXPECT_TRUE(m.wires().force("Z.limit_minus", 0));
         });
         std::int64_t stood = 0;
         o.each_status([&](const Status& status) {
-            if (status.at <= milliseconds(500) || status.axes[3].speed != 0) return;
+            if (status.at <= milliseconds(500) || status.axes[3].velocity != 0) return;
             if (stood == 0) stood = status.axes[3].pulses;
             EXPECT_EQ(status.axes[3].pulses, stood) << profile << ": it moved again, at " << to_seconds(status.at);
         });
         o.at(0.9, [&](Machine& m) {
-            EXPECT_EQ(m.status().axes[3].speed, 0) << profile;
+            EXPECT_EQ(m.status().axes[3].velocity, 0) << profile;
             EXPECT_EQ(m.state(), MachineState::error_stop) << profile;
         });
         o.run(1.2);

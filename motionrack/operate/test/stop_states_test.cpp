@@ -181,8 +181,8 @@ class AStopInAState : public testing::TestWithParam<Case> {
 
     rack::Rack& rack() { return o_.machine->rack(); }
     double level(const char* wire) { return *o_.machine->wires().get(wire); }
-    double stage_speed() { return std::fabs(rack().stage("mask")->motor->velocity(o_.machine->now())); }
-    double belt_speed() { return rack().track("line")->track().velocity(to_seconds(o_.machine->now())); }
+    double stage_velocity() { return std::fabs(rack().stage("mask")->motor->velocity(o_.machine->now())); }
+    double belt_velocity() { return rack().track("line")->track().velocity(to_seconds(o_.machine->now())); }
     double marked() { return *rack::get_quantity(rack(), "head.marked_mm"); }
 
     /// Starts a laser for eight seconds, a belt and a stage, and switches outputs on.
@@ -199,8 +199,8 @@ class AStopInAState : public testing::TestWithParam<Case> {
         EXPECT_EQ(o_.machine->state(), state().state) << name_of(o_.machine->state());
         EXPECT_EQ(level("scan.laser_on"), 1);
         EXPECT_EQ(level("glass.out0"), 1);
-        EXPECT_GT(belt_speed(), 0);
-        EXPECT_GT(stage_speed(), 0.01);
+        EXPECT_GT(belt_velocity(), 0);
+        EXPECT_GT(stage_velocity(), 0.01);
     }
     /// Expects everything that must be off immediately.
     void expect_off() {
@@ -225,11 +225,11 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
     o_.at(stop - source().ahead_s, source().begin);
     o_.at(stop - 0.01, [&](Machine&) {
         expect_all_on();
-        belt = belt_speed();
+        belt = belt_velocity();
     });
     o_.at(stop + 0.01, [&](Machine&) {
         expect_off();
-        EXPECT_LT(belt_speed(), belt) << "it brakes";
+        EXPECT_LT(belt_velocity(), belt) << "it brakes";
         laser = marked();
     });
     o_.at(released, [&](Machine& m) { source().end(m); });
@@ -243,8 +243,8 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
         EXPECT_FALSE(m.begin_program("G0 X110\n", "q"));
         EXPECT_FALSE(m.jog('X', 5));
         EXPECT_FALSE(m.home("X"));
-        EXPECT_LT(stage_speed(), 0.001);
-        EXPECT_EQ(belt_speed(), 0);
+        EXPECT_LT(stage_velocity(), 0.001);
+        EXPECT_EQ(belt_velocity(), 0);
         m.reset();
     });
     o_.at(over, [&](Machine& m) {
@@ -255,8 +255,8 @@ TEST_P(AStopInAState, HoldsUntilAReset) {
         EXPECT_EQ(m.status().axes[1].commanded, y);
         EXPECT_EQ(marked(), laser) << "the laser stays off";
         expect_off();
-        EXPECT_EQ(belt_speed(), 0);
-        EXPECT_LT(stage_speed(), 0.001);
+        EXPECT_EQ(belt_velocity(), 0);
+        EXPECT_LT(stage_velocity(), 0.001);
     });
     o_.run(over + 0.01);
 }

@@ -111,7 +111,7 @@ TEST(ALibraryOnThePage, StopsWithTheControlAndTheConnection) {
         a.good(0.3, "call", call_of("SetRange", {{"data", 800'000}}));
         a.good(0.4, "call", call_of("TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 8000}, {"m_A", 1}}));
         a.at(0.6, [&] {
-            EXPECT_GT(a.machine->status().axes[0].speed, 0);
+            EXPECT_GT(a.machine->status().axes[0].velocity, 0);
             if (leaves)
                 a.panel->left("w1");
             else
