@@ -73,7 +73,7 @@ Counted read_pictures(std::uint16_t port, const Load& load) {
         }
         client.say({{"id", 1},
                     {"subscribe",
-                     {{"channels", {"X.commanded", "Y.commanded", "Z.commanded", "A.commanded", "X.speed"}},
+                     {{"channels", {"X.commanded", "Y.commanded", "Z.commanded", "A.commanded", "X.velocity"}},
                       {"rate_hz", load.rate_hz}}}});
     }
     std::vector<pollfd> ready;

@@ -83,7 +83,7 @@ for (const [key, axis, sign] of [
     await done(tab);
   });
 
-test('with Shift it jogs at the greatest speed', async () => {
+test('with Shift it jogs at the maximum velocity', async () => {
   const tab = await armed();
   await tab.page.keyboard.down('Shift');
   await tab.page.keyboard.down('ArrowRight');

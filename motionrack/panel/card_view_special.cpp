@@ -40,7 +40,7 @@ json looped_stages(rack::Rack& rack) {
             out.push_back({{"name", stage.config.name},
                            {"unit", "mm"},
                            {"position", stage.motor->position_nm(now) * 1e-6},
-                           {"speed", stage.motor->velocity(now) * 1e3},
+                           {"velocity", stage.motor->velocity(now) * 1e3},
                            {"stopped", stage.processor->stopped()}});
     return out;
 }

@@ -75,7 +75,7 @@ void ChannelRegistry::add_axes(operate::Machine& machine) {
         {"actual", "{u}", "position by the encoder; commanded without an encoder",
          [](const AxisStatus& axis) { return axis.actual; }},
         {"error", "{u}", "commanded - actual", [](const AxisStatus& axis) { return axis.commanded - axis.actual; }},
-        {"speed", "{u}/s", "of the rotor, signed", [](const AxisStatus& axis) { return axis.velocity; }},
+        {"velocity", "{u}/s", "of the rotor, signed", [](const AxisStatus& axis) { return axis.velocity; }},
     };
     const auto& axes = machine.rack().axes();
     for (std::size_t i = 0; i < axes.size(); ++i)

@@ -55,7 +55,7 @@ json parts_of(const rack::RackConfig& config) {
                        {"kind", track.rotary ? "table" : "belt"},
                        {"unit", track.unit()},
                        {"card", track.card ? json(*track.card) : json()},
-                       {"speed", track.velocity}});
+                       {"velocity", track.velocity}});
     for (const rack::RackScanner& scanner : config.scanners)
         out.push_back({{"name", scanner.name},
                        {"kind", "scanner"},
@@ -139,7 +139,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         out["part"] = {{"name", track->config.name},
                        {"unit", track->config.unit()},
                        {"position", track->track().travel(to_seconds(machine.now()))},
-                       {"speed", track->track().velocity(to_seconds(machine.now()))},
+                       {"velocity", track->track().velocity(to_seconds(machine.now()))},
                        {"stopped", track->drive->stopped(machine.now())},
                        {"direction_deg", track->config.direction_deg}};
     return out;

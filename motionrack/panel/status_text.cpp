@@ -152,7 +152,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
                             {"commanded", axis.commanded},
                             {"actual", axis.actual},
                             {"error", axis.commanded - axis.actual},
-                            {"speed", axis.velocity},
+                            {"velocity", axis.velocity},
                             {"pulses", axis.pulses},
                             {"counts", axis.counts},
                             {"min", fact.min},

@@ -15,7 +15,7 @@ from .rack import Rack
 
 @dataclass(frozen=True)
 class AxisStatus:
-    """One axis: positions in ``unit`` (mm or deg), speed per s.
+    """One axis: positions in ``unit`` (mm or deg), velocity per s.
     ``true_position`` is the position of the simulated table, whatever a counter says."""
 
     unit: str
@@ -24,7 +24,7 @@ class AxisStatus:
     commanded: float
     actual: float
     true_position: float
-    speed: float
+    velocity: float
     pulses: int
     counts: int
 

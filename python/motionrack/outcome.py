@@ -15,7 +15,7 @@ from .trace import Trace, Values
 
 @dataclass(frozen=True)
 class AxisOutcome:
-    """Result of one axis. Positions in ``unit`` (mm or deg), speeds per s, accelerations per s2."""
+    """Result of one axis. Positions in ``unit`` (mm or deg), velocities per s, accelerations per s2."""
 
     axis: str
     unit: str
@@ -40,7 +40,7 @@ class AxisOutcome:
 
 @dataclass(frozen=True)
 class ExecutedMove:
-    """An executed move: length in mm (deg), speeds per s, start and end in s since the rack's start."""
+    """An executed move: length in mm (deg), velocities per s, start and end in s since the rack's start."""
 
     move: int
     line: int
@@ -205,7 +205,7 @@ class Homing:
     axes: Mapping[str, dict[str, Any]]
     pictures: Mapping[str, str] = field(
         repr=False
-    )  #: position, speed and states over time, SVG, of each axis that started
+    )  #: position, velocity and states over time, SVG, of each axis that started
     _text: str = field(repr=False)
     _json: str = field(repr=False)
 

@@ -55,7 +55,7 @@ py::dict dict_of(const operate::AxisStatus& axis) {
     out["commanded"] = axis.commanded;
     out["actual"] = axis.actual;
     out["true_position"] = axis.true_position;
-    out["speed"] = axis.velocity;
+    out["velocity"] = axis.velocity;
     out["pulses"] = axis.pulses;
     out["counts"] = axis.counts;
     return out;

@@ -8,7 +8,7 @@ export interface CarrierState {
   name: string;
   unit: string;
   position: number;
-  speed: number;
+  velocity: number;
   stopped: boolean;
 }
 
@@ -18,7 +18,7 @@ export function Carrier({ part }: { part: CarrierState }): JSX.Element {
     <div>
       <dt>{part.name}</dt>
       <dd class="tabular">
-        {fixed(part.position, 2)} {unit}, {fixed(part.speed, 1)} {unit}/s{' '}
+        {fixed(part.position, 2)} {unit}, {fixed(part.velocity, 1)} {unit}/s{' '}
         {part.stopped && (
           <Button why={mayOperate()} icon="run" onClick={() => void command('start_part', { part: part.name })}>
             Start {part.name}

@@ -16,7 +16,7 @@ const AXES = [0, 1, 2, 3];
 const HEADS = [
   'Axis',
   'Position, counts',
-  'Speed, counts/s',
+  'Velocity, counts/s',
   'Lines',
   'Calibrated',
   'Illegal transitions',
@@ -45,7 +45,7 @@ interface Seen {
 }
 
 /** Counts per second between two answers: of the count that no calibration zeroes. */
-export function speedOf({ now, before }: Seen, axis: number): number | null {
+export function velocityOf({ now, before }: Seen, axis: number): number | null {
   const [to, from] = [valueOf(now, `${axis}.RAW`), valueOf(before, `${axis}.RAW`)];
   if (now === null || before === null || to === null || from === null || now.at <= before.at) return null;
   return (to - from) / (now.at - before.at);
@@ -95,7 +95,7 @@ function Axis({ card, seen, axis }: { card: CardInfo; seen: Seen; axis: number }
     <tr>
       <th scope="row">{axis}</th>
       <td class="tabular">{whole(valueOf(answer, `${axis}.POSITION`))}</td>
-      <td class="tabular">{fixed(speedOf(seen, axis), 0)}</td>
+      <td class="tabular">{fixed(velocityOf(seen, axis), 0)}</td>
       <td class="levels">
         {LINES.map((line) => (
           <Led

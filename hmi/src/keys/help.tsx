@@ -53,7 +53,7 @@ export function Help(): JSX.Element {
             <td>
               <kbd>Shift</kbd> + a jog key
             </td>
-            <td>Rapid jog: at the axis' greatest speed</td>
+            <td>Rapid jog: at the axis' maximum velocity</td>
           </tr>
         </tbody>
       </table>

@@ -41,7 +41,7 @@ export interface AxisStatus {
   commanded: number;
   actual: number;
   error: number;
-  speed: number;
+  velocity: number;
   pulses: number;
   counts: number;
   min: number;

@@ -112,7 +112,7 @@ function Axis({ axis }: { axis: AxisStatus }): JSX.Element {
         </div>
         <div>
           <dt>{unit}/s</dt>
-          <dd class="tabular">{fixed(axis.speed, 2)}</dd>
+          <dd class="tabular">{fixed(axis.velocity, 2)}</dd>
         </div>
       </dl>
       <Homed axis={axis} />

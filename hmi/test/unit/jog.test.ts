@@ -37,14 +37,14 @@ describe('a held jog', () => {
     expect(jogs(program)).toHaveLength(12);
   });
 
-  test('goes at the chosen part of the axis’ greatest speed, backwards as fast as forwards', async () => {
+  test('goes at the chosen part of the axis’ maximum velocity, backwards as fast as forwards', async () => {
     const { lease, program } = await opened();
     lease.setSpeedPart(0.5);
     lease.begin('key', 'Y', -1);
     expect(jogs(program)).toEqual([['Y', -10]]);
   });
 
-  test('goes at the greatest speed as a rapid one, until it is slowed down', async () => {
+  test('goes at the maximum velocity as a rapid one, until it is slowed down', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1, true);
     await after(80);

@@ -249,7 +249,7 @@ describe('a jog key', () => {
     expect(commands(program)).toEqual(['jog_by']);
   });
 
-  test('with Shift jogs at the greatest speed until Shift is let go', async () => {
+  test('with Shift jogs at the maximum velocity until Shift is let go', async () => {
     const { browser, program } = await listening(HOLD);
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight', { shiftKey: true });

@@ -15,7 +15,7 @@ export const axis = (letter: string, part: Partial<AxisStatus> = {}): AxisStatus
   commanded: 0,
   actual: 0,
   error: 0,
-  speed: 0,
+  velocity: 0,
   pulses: 0,
   counts: 0,
   min: 0,

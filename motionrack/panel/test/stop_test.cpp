@@ -39,7 +39,7 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
         });
         a.at(seconds, eve, "workpiece", {{"scanner", "head"}}, [&seen](const Answer& answer) {
             seen.marked_mm = answer.body["marked_mm"];
-            seen.shown_mm_s = answer.body["part"]["speed"];
+            seen.shown_mm_s = answer.body["part"]["velocity"];
             seen.belt_waits = answer.body["part"]["stopped"];
         });
         a.at(seconds, eve, "frames", nlohmann::json::object(),
