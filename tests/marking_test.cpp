@@ -58,7 +58,7 @@ TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
                    name);
 }
 
-TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
+TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheVelocityThatFits) {
     std::string job = text_of(source_root / "examples/marking/long.toml");
     job.replace(job.find("velocity_mm_s = 150"), 19, "velocity_mm_s = 300");
     job.replace(job.find("ruler.svg"), 9, "examples/marking/ruler.svg");
@@ -97,7 +97,7 @@ TEST_F(MarkCommand, PrintsTheSameAsJson) {
     EXPECT_EQ(all["drawing_mm"], 40);
     EXPECT_LT(all["marked"]["worst_mm"].get<double>(), 0.0025);
     EXPECT_NEAR(all["without_correction"]["worst_mm"].get<double>(), 8, 0.01);
-    EXPECT_NEAR(all["fits_times_the_speed"].get<double>(), 7.57, 0.01);
+    EXPECT_NEAR(all["fits_times_the_velocity"].get<double>(), 7.57, 0.01);
     EXPECT_NEAR(all["room"]["mm"].get<double>(), 46.568, 0.001);
     EXPECT_EQ(all["room"]["edge"], "right");
     EXPECT_TRUE(all["marked"]["overflows"].empty());
@@ -217,12 +217,12 @@ TEST_F(MarkCommand, RefusesADrawingThatDoesNotReachTheField) {
     EXPECT_THAT(far.out, HasSubstr("more than 100000 mm from the field's middle"));
 }
 
-TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
+TEST_F(MarkCommand, SearchesTheVelocityThatFitsNoFartherThanAPartCanGo) {
     write("job.toml",
           "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nvelocity_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = "
           "'encoder'\n");
     const Ran ran = motionrack("mark job.toml -q --picture ''");
-    EXPECT_THAT(ran.out, testing::Not(HasSubstr("speed profile"))) << ran.out;
+    EXPECT_THAT(ran.out, testing::Not(HasSubstr("velocity profile"))) << ran.out;
 }
 
 TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
@@ -255,8 +255,8 @@ TEST_F(MarkCommand, CalibratesOrSaysWhyNot) {
           Case{"scale --readings 1 2 --distance 0", 3, "distance"},
           Case{"scale --readings 1 --distance 5", 1, "--readings"}, Case{"scale --readings 1 nan --distance 5", 3, ""},
           Case{"rotary --marks 0 0 0 1 1 100 2 2 200", 3, "line"}, Case{"rotary --marks 1 2 3", 1, "--marks"},
-          Case{"lag --speeds 100 100 --shifts 0.1 0.2", 3, "speed"},
-          Case{"lag --speeds 100 500 --shifts 0.1 -9", 3, ""}, Case{"", 1, "subcommand"}}) {
+          Case{"lag --velocities 100 100 --shifts 0.1 0.2", 3, "velocity"},
+          Case{"lag --velocities 100 500 --shifts 0.1 -9", 3, ""}, Case{"", 1, "subcommand"}}) {
         const Ran ran = motionrack(std::string("calibrate ") + c.arguments);
         EXPECT_EQ(ran.code, c.code) << c.arguments << ": " << ran.out;
         EXPECT_THAT(ran.out, HasSubstr(c.said)) << c.arguments;

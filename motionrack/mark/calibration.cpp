@@ -115,23 +115,23 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
 }
 
 Result<LagResult> calibrate_lag(const LagData& d) {
-    if (!good({d.speed_mm_s[0], d.speed_mm_s[1], d.shift_mm[0], d.shift_mm[1], d.shift_uncertainty_mm}) ||
+    if (!good({d.velocity_mm_s[0], d.velocity_mm_s[1], d.shift_mm[0], d.shift_mm[1], d.shift_uncertainty_mm}) ||
         d.shift_uncertainty_mm < 0)
         return refused(no_numbers);
-    const double speeds = d.speed_mm_s[1] - d.speed_mm_s[0];
-    if (speeds == 0)
+    const double velocities = d.velocity_mm_s[1] - d.velocity_mm_s[0];
+    if (velocities == 0)
         return refused(
-            fmt::format("Both crosses were marked at {:g} mm/s. Mark one at another speed.", d.speed_mm_s[0]));
+            fmt::format("Both crosses were marked at {:g} mm/s. Mark one at another velocity.", d.velocity_mm_s[0]));
     LagResult out;
-    out.lag_us = {(d.shift_mm[1] - d.shift_mm[0]) / speeds * 1e6,
-                  std::sqrt(2.0) * d.shift_uncertainty_mm / std::fabs(speeds) * 1e6};
+    out.lag_us = {(d.shift_mm[1] - d.shift_mm[0]) / velocities * 1e6,
+                  std::sqrt(2.0) * d.shift_uncertainty_mm / std::fabs(velocities) * 1e6};
     if (out.lag_us.value < -std::fmax(5.0, 3 * out.lag_us.uncertainty) || out.lag_us.value > 655'350)
         return refused(
             fmt::format("The lag would be {:.1f} us; the card compensates 0 to 655350. Is the sign of the shifts "
                         "right? Positive is against the movement.",
                         out.lag_us.value));
     out.tracking_error = static_cast<int>(std::floor(std::fmax(out.lag_us.value, 0) / 10 + 0.5));
-    out.fixed_shift_mm = d.shift_mm[0] - out.lag_us.value * 1e-6 * d.speed_mm_s[0];
+    out.fixed_shift_mm = d.shift_mm[0] - out.lag_us.value * 1e-6 * d.velocity_mm_s[0];
     return out;
 }
 

@@ -43,7 +43,7 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
                                       double count_uncertainty = 0.5);
 
 struct LagData {
-    std::array<double, 2> speed_mm_s{};  ///< velocities of the part
+    std::array<double, 2> velocity_mm_s{};  ///< velocities of the part
     std::array<double, 2> shift_mm{};  ///< offset of the cross from its nominal position, positive against the movement
     double shift_uncertainty_mm = 0;
 };
@@ -52,7 +52,7 @@ struct LagResult {
     int tracking_error = 0;     ///< for set_fly_tracking_error: 10 us
     double fixed_shift_mm = 0;  ///< velocity-independent part: caused by the fixture, not by a delay
 };
-/// Errors: refused if speeds are equal, or the lag is negative beyond its uncertainty or above 655,350 us.
+/// Errors: refused if both velocities are equal, or the lag is negative beyond its uncertainty or above 655,350 us.
 Result<LagResult> calibrate_lag(const LagData& data);
 
 }  // namespace motionrack::mark

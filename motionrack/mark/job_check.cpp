@@ -69,19 +69,19 @@ void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
     const auto wrong = [&](std::string_view key, std::string message) {
         problems.error(root.find("fly")->place_of(key), std::move(message));
     };
-    const double simulated = fly.simulated_speed.value_or(job.belt.profile.empty() ? job.belt.speed : 0);
+    const double simulated = fly.simulated_velocity.value_or(job.belt.profile.empty() ? job.belt.velocity : 0);
     if (fly.mode == FlyMode::simulated && simulated == 0)
         wrong("mode",
-              "The simulated encoder needs a constant speed above or below 0: that of [belt] or [table], or, with a "
-              "profile, simulated_speed in [fly]; or use mode encoder.");
-    if (fly.simulated_speed && fly.mode != FlyMode::simulated)
-        wrong(
-            job.belt.rotary ? "simulated_speed_deg_s" : "simulated_speed_mm_s",
-            "The simulated encoder's speed is given, but the mode is another one; use mode simulated or leave it out.");
+              "The simulated encoder needs a constant velocity above or below 0: that of [belt] or [table], or, with a "
+              "profile, simulated_velocity in [fly]; or use mode encoder.");
+    if (fly.simulated_velocity && fly.mode != FlyMode::simulated)
+        wrong(job.belt.rotary ? "simulated_velocity_deg_s" : "simulated_velocity_mm_s",
+              "The simulated encoder's velocity is given, but the mode is another one; use mode simulated or leave it "
+              "out.");
     if (fly.mode == FlyMode::mcbsp && fly.tracking_error_us != 0)
         wrong("tracking_error_us",
               "The card compensates tracking errors of encoders only, not of a McBSP source; use offset_us, which is "
-              "exact at constant speed.");
+              "exact at constant velocity.");
     if (fly.waits == WaitMode::none) return;
     const double quarter = job.belt.direction_deg / 90;
     if (job.belt.rotary)
@@ -113,8 +113,9 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
                        "McBSP words have absolute positions, which no command zeroes at a start, so only the first of "
                        "several parts would be correct; use mode encoder, or one part without [parts].");
     if (stands(job) || turns_back(job))
-        problems.error(table.key_place,
-                       "Parts need a moving belt or table that never reverses; give [belt] or [table] such a speed.");
+        problems.error(
+            table.key_place,
+            "Parts need a moving belt or table that never reverses; give [belt] or [table] such a velocity.");
     if (parts.start == PartStart::equidistant && (!parts.at.empty() || parts.track_delay != 0))
         problems.error(table.place_of("start"),
                        fmt::format("Equidistant parts need no sensor: the first begins at once, the others after "

@@ -51,7 +51,7 @@ inline constexpr std::array<Field, 7> pace_fields = {
     field<&ProcessSpeeds::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to laser off"),
 };
 inline constexpr std::array<Field, 5> belt_fields = {
-    formerly("speed_mm_s", field<&BeltSettings::speed>("velocity_mm_s", -1e5, 1e5, "mm/s", "speed")),
+    formerly("speed_mm_s", field<&BeltSettings::velocity>("velocity_mm_s", -1e5, 1e5, "mm/s", "velocity")),
     field<&BeltSettings::direction_deg>("direction_deg", -3600, 3600, "deg",
                                         "direction of its motion, from +X counter-clockwise"),
     field<&BeltSettings::counts_per_unit>("counts_per_mm", -1e6, 1e6, "", "counts of its encoder, four a line"),
@@ -59,7 +59,7 @@ inline constexpr std::array<Field, 5> belt_fields = {
     field<&BeltSettings::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
 };
 inline constexpr std::array<Field, 6> table_fields = {
-    formerly("speed_deg_s", field<&BeltSettings::speed>("velocity_deg_s", -1e5, 1e5, "deg/s", "counter-clockwise")),
+    formerly("speed_deg_s", field<&BeltSettings::velocity>("velocity_deg_s", -1e5, 1e5, "deg/s", "counter-clockwise")),
     field<&BeltSettings::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
     field<&BeltSettings::counts_per_unit>("counts_per_deg", -1e6, 1e6, "", "counts of its encoder, four a line"),
@@ -73,12 +73,14 @@ inline constexpr std::array<Field, 7> fly_fields = {
         "lag of the mirrors that the card compensates, in steps of 10 us; encoders only"),
     field<&FlySettings::scale_factor>("scale_factor", 0.01, 100, "",
                                       "factor of a wrong scale: 1.01 is one percent too large"),
-    absent_means(field<&FlySettings::simulated_speed>("simulated_speed_{u}_s", -1e5, 1e5, "{u}/s",
-                                                      "mode simulated: the speed that the card's clock represents"),
-                 "the speed of the belt"),
+    absent_means(
+        formerly("simulated_speed_{u}_s", field<&FlySettings::simulated_velocity>(
+                                              "simulated_velocity_{u}_s", -1e5, 1e5, "{u}/s",
+                                              "mode simulated: the velocity that the card's clock represents")),
+        "the velocity of the belt"),
     field<&FlySettings::offset_us>(
         "offset_us", -1e6, 1e6, "us",
-        "shifts all marks ahead by the motion of the belt in this time at its first speed: for a late source"),
+        "shifts all marks ahead by the motion of the belt in this time at its first velocity: for a late source"),
     with_choices(formerly("waits", field<&FlySettings::waits>(
                                        "wait_mode", 0, 0, "",
                                        "auto: each stroke waits until it is in the field; long strokes are split")),
@@ -115,7 +117,7 @@ struct SectionInfo {
     ArrayKey array{};
 };
 inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none",
-                                      "instead of the speed: [[seconds, speed], ..], linear between the points"};
+                                      "instead of the velocity: [[seconds, velocity], ..], linear between the points"};
 inline constexpr ArrayKey at_key{
     "part_positions_{u}",
     "{u}",
@@ -129,7 +131,7 @@ inline constexpr std::array<SectionInfo, 11> sections = {
                 "One of `svg`, `gcode` and `text`. Repeated `[[drawing]]` sections mark several drawings in turn."},
     SectionInfo{"optics", optics_fields, ""},
     SectionInfo{"lens", rack::lens_keys, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
-    SectionInfo{"galvo", rack::galvo_keys, "Without `ideal_mirrors` they have dead time, lag and a speed limit."},
+    SectionInfo{"galvo", rack::galvo_keys, "Without `ideal_mirrors` they have dead time, lag and a velocity limit."},
     SectionInfo{"laser", rack::laser_keys, ""},
     SectionInfo{"pace", pace_fields,
                 "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},

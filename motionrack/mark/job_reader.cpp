@@ -24,15 +24,16 @@ void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& pro
     const TomlNode* profile = table.find("profile");
     if (profile == nullptr) return;
     if (profile->type != TomlType::array || profile->children.empty() || profile->children.size() > 10'000)
-        return problems.error(profile->value_place, "'profile' must be an array of 1 to 10000 pairs [seconds, speed].");
+        return problems.error(profile->value_place,
+                              "'profile' must be an array of 1 to 10000 pairs [seconds, velocity].");
     for (const TomlNode& pair : profile->children) {
         if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
             !is_number(pair.children[1]))
-            return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, speed].");
+            return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, velocity].");
         belt.profile.push_back({decimal_field(pair.children[0]), decimal_field(pair.children[1])});
     }
     if (table.find("velocity_mm_s") != nullptr || table.find("velocity_deg_s") != nullptr)
-        problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
+        problems.error(profile->key_place, "A velocity and a 'profile' are both given; leave one out.");
     if (const auto track = parts::Conveyor::make({.profile = belt.profile}); !track)
         problems.error(profile->value_place, track.error().message);
 }
@@ -106,7 +107,7 @@ parts::ConveyorSettings MarkingJob::track() const {
     out.rotary = belt.rotary;
     out.direction_deg = belt.direction_deg;
     out.centre_mm = {belt.centre_x_mm, belt.centre_y_mm};
-    out.profile = belt.profile.empty() ? std::vector<parts::VelocityPoint>{{0, belt.speed}} : belt.profile;
+    out.profile = belt.profile.empty() ? std::vector<parts::VelocityPoint>{{0, belt.velocity}} : belt.profile;
     out.counts_per_unit = belt.counts_per_unit;
     out.slip = belt.slip;
     out.jitter_counts = belt.jitter_counts;

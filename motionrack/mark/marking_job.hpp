@@ -41,13 +41,13 @@ struct ProcessSpeeds {
 };
 
 struct BeltSettings {
-    double speed = 0;                         ///< mm/s, or degrees/s of a table
+    double velocity = 0;                      ///< mm/s, or degrees/s of a table
     double direction_deg = 0;                 ///< belt only
     double centre_x_mm = 0, centre_y_mm = 0;  ///< table only
     double counts_per_unit = 1000;
     double slip = 0, jitter_counts = 0;
     bool rotary = false;
-    std::vector<parts::VelocityPoint> profile;  ///< if not empty, replaces `speed`
+    std::vector<parts::VelocityPoint> profile;  ///< if not empty, replaces `velocity`
     Place place;                                ///< position of the section
 };
 
@@ -59,8 +59,8 @@ struct FlySettings {
     double tracking_error_us = 0;  ///< multiple of 10 us
     double scale_factor = 1;       ///< factor on the correct scale, to simulate a wrong calibration
     std::optional<double>
-        simulated_speed;   ///< mm/s or degrees/s represented by the simulated encoder; empty: belt velocity
-    double offset_us = 0;  ///< shifts all marks by the initial belt velocity times this, to compensate a late source
+        simulated_velocity;  ///< mm/s or degrees/s represented by the simulated encoder; empty: belt velocity
+    double offset_us = 0;    ///< shifts all marks by the initial belt velocity times this, to compensate a late source
     WaitMode waits = WaitMode::none;
     double margin_mm = 1;  ///< with waits: minimum distance of marks from the field edge
 };

@@ -39,16 +39,16 @@ void fit(Out to, const MarkingJob& job, const MarkingOutcome& out) {
     const char* what = out.starts_limit ? "the time between two parts" : "the field";
     const char* unit = job.belt.rotary ? "degrees/s" : "mm/s";
     if (*out.fits_factor == 0 && out.starts_limit) {
-        fmt::format_to(to, "Starts are lost at any speed of the parts. Increase their spacing.\n");
+        fmt::format_to(to, "Starts are lost at any velocity of the parts. Increase their spacing.\n");
     } else if (*out.fits_factor == 0) {
         fmt::format_to(to, "The drawing does not fit the field even while the part is at rest. Make it smaller.\n");
     } else if (out.fits_any) {
-        fmt::format_to(to, "It fits the field at any speed up to {:g} times this one.\n", *out.fits_factor);
+        fmt::format_to(to, "It fits the field at any velocity up to {:g} times this one.\n", *out.fits_factor);
     } else if (job.belt.profile.empty()) {
         fmt::format_to(to, "It just fits {} at {:.5g} {}; this job has {:g} {}.\n", what,
-                       *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
+                       *out.fits_factor * job.belt.velocity, unit, job.belt.velocity, unit);
     } else {
-        fmt::format_to(to, "It just fits {} at {:.4g} times the speeds of the profile.\n", what, *out.fits_factor);
+        fmt::format_to(to, "It just fits {} at {:.4g} times the velocities of the profile.\n", what, *out.fits_factor);
     }
 }
 
@@ -69,7 +69,7 @@ std::vector<std::string> warnings_of(const MarkingOutcome& out) {
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(
             fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its "
-                        "width): slightly more speed or a slightly later start overflows the correction",
+                        "width): a slightly higher velocity or a slightly later start overflows the correction",
                         room.mm, room.edge, wanted, min_room_part * 100));
     if (!out.in_field())
         warnings.push_back(

@@ -207,7 +207,8 @@ Box Prepared::field() const {
 }
 
 ConveyorTracking following_of(const MarkingJob& job, double factor) {
-    ConveyorTracking out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
+    ConveyorTracking out{job.track(), job.fly.mode, job.fly.simulated_velocity.value_or(job.belt.velocity) * factor,
+                         true};
     for (parts::VelocityPoint& point : out.track.profile) point.velocity *= factor;
     return out;
 }
@@ -217,7 +218,7 @@ double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following)
         case FlyMode::mcbsp:
             return job.sender.bits_per_mm;
         case FlyMode::simulated:
-            return following.simulated_speed != 0 ? 1e6 / following.simulated_speed : 0;
+            return following.simulated_velocity != 0 ? 1e6 / following.simulated_velocity : 0;
         default:
             return following.track.counts_per_unit;
     }

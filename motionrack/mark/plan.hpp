@@ -37,8 +37,8 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load);
 struct ConveyorTracking {
     parts::ConveyorSettings track;
     FlyMode mode = FlyMode::off;
-    double simulated_speed = 0;  ///< mm/s or degrees/s represented by the simulated encoder
-    bool corrects = true;        ///< false: only the correction is omitted
+    double simulated_velocity = 0;  ///< mm/s or degrees/s represented by the simulated encoder
+    bool corrects = true;           ///< false: only the correction is omitted
 };
 /// Tracking of a job, with all velocities multiplied by `factor`.
 ConveyorTracking following_of(const MarkingJob& job, double factor = 1);

@@ -86,10 +86,10 @@ void add_numbers(const MarkingJob& job, const MarkingOutcome& out, trace::Report
     add("Minimum margin in the field", fmt::format("{:.2f}", room_of(out, out.on).mm), "mm");
     if (!out.fits_factor) return;
     if (job.belt.profile.empty() && !out.fits_any)
-        add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.speed),
+        add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.velocity),
             job.belt.rotary ? "degrees/s" : "mm/s");
     else
-        add("It fits up to", fmt::format("{:.4g}", *out.fits_factor), "times the speed");
+        add("It fits up to", fmt::format("{:.4g}", *out.fits_factor), "times the velocity");
 }
 
 void add_series(const MarkingOutcome& out, trace::ReportData& data) {

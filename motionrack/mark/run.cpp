@@ -47,7 +47,7 @@ class StationSink final : public rtc5::Sink {
 struct Quick {
     double ticks = 0;
     double beyond_mm = 0;    ///< maximum distance beyond the field; 0 or less: inside
-    bool some_lost = false;  ///< lost starts, except those beyond a queue of eight, which are lost at any speed
+    bool some_lost = false;  ///< lost starts, except those beyond a queue of eight, which are lost at any velocity
     bool fits() const { return beyond_mm <= 0 && !some_lost; }
 };
 
@@ -74,7 +74,7 @@ class FitSearch {
         : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, MarkingOutcome& out) {
-        const double greatest = std::min(1000.0, parts::max_track_velocity / top_speed());
+        const double greatest = std::min(1000.0, parts::max_track_velocity / peak_velocity());
         const double least = std::max(1e-3, now.ticks * 1e-5 / max_seconds);
         double low = 1, high = 1;
         out.starts_limit = now.beyond_mm <= 0;
@@ -103,7 +103,7 @@ class FitSearch {
     }
 
   private:
-    double top_speed() const {
+    double peak_velocity() const {
         double top = 0;
         for (const parts::VelocityPoint& point : following_of(job_).track.profile)
             top = std::max(top, std::fabs(point.velocity));
@@ -178,10 +178,10 @@ bool moves(const parts::ConveyorSettings& track) {
 
 /// With waits, everything must be marked at its intended position.
 Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const MarkingOutcome& out) {
-    const std::string fast =
-        job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";
+    const std::string fast = job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.velocity))
+                                                      : "the velocities of the profile";
     const std::string slow = job.belt.profile.empty()
-                                 ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed))
+                                 ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.velocity))
                                  : fmt::format("{:.4g} times them", *out.fits_factor);
     return fail(ErrorKind::refused,
                 fmt::format("The belt is too fast: at {} marks leave the field by up to {:.3f} mm before they are "

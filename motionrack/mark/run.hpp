@@ -84,7 +84,7 @@ struct MarkingOutcome {
     /// Maximum velocity factor of the part before the corrected position leaves the field; empty without correction or
     /// movement. 0: the drawing does not fit even at standstill.
     std::optional<double> fits_factor;
-    bool fits_any = false;      ///< fits at all tested speeds (up to 1000 times)
+    bool fits_any = false;      ///< fits at all tested velocities (up to 1000 times)
     bool starts_limit = false;  ///< limited by a lost start, not by the field
     Box field;                  ///< mm
     bool waits = false;         ///< marks keep the job's margin from the field edge

@@ -37,7 +37,7 @@ void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, c
         job.lens = scanner.lens;
         const rack::RackConveyor* track = scanner.track ? config.track(*scanner.track) : nullptr;
         if (track == nullptr) return;
-        job.belt.speed = track->velocity;
+        job.belt.velocity = track->velocity;
         job.belt.profile = track->profile;
         job.belt.rotary = track->rotary;
         job.belt.direction_deg = track->direction_deg;

@@ -16,7 +16,7 @@ namespace {
 
 struct CalibrateOptions {
     mark::ScaleData scale{.bits_per_mm = 8656};
-    std::vector<double> readings, marks, speeds, shifts;
+    std::vector<double> readings, marks, velocities, shifts;
     double place_uncertainty_mm = 0.01, count_uncertainty = 0.5;
     mark::LagData lag{.shift_uncertainty_mm = 0.005};
 };
@@ -50,12 +50,12 @@ int rotary(const CalibrateOptions& o) {
 }
 
 int lag(CalibrateOptions& o) {
-    for (std::size_t i = 0; i < 2; ++i) o.lag.speed_mm_s[i] = o.speeds[i], o.lag.shift_mm[i] = o.shifts[i];
+    for (std::size_t i = 0; i < 2; ++i) o.lag.velocity_mm_s[i] = o.velocities[i], o.lag.shift_mm[i] = o.shifts[i];
     const auto out = mark::calibrate_lag(o.lag);
     if (!out) return report(out.error());
     fmt::print(
         "lag:             {}\ntracking error:  {}, for set_fly_tracking_error\nfixed shift:     {:.4f} mm at any "
-        "speed\n",
+        "velocity\n",
         shown(out->lag_us, "us"), out->tracking_error, out->fixed_shift_mm);
     return exit_done;
 }
@@ -96,13 +96,13 @@ void add_calibrate(CLI::App& app, Action& chosen) {
         "Measure the marks with the table back at count 0, in the field's coordinates.\n"
         "Example: motionrack calibrate rotary --marks 30 0 0 26 15 30000 15 26 60000");
     r->callback([o, &chosen] { chosen = [o] { return rotary(*o); }; });
-    CLI::App* l = group->add_subcommand("lag", "tracking error from a cross marked at two speeds of the part");
-    l->add_option("--speeds", o->speeds, "mm/s, of both")->expected(2)->required();
+    CLI::App* l = group->add_subcommand("lag", "tracking error from a cross marked at two velocities of the part");
+    l->add_option("--velocities", o->velocities, "mm/s, of both")->expected(2)->required();
     l->add_option("--shifts", o->shifts, "mm, displacement of both crosses; positive against the movement")
         ->expected(2)
         ->required();
     l->add_option("--shift-uncertainty", o->lag.shift_uncertainty_mm, "mm")->capture_default_str();
-    l->footer("Example: motionrack calibrate lag --speeds 100 500 --shifts 0.015 0.075");
+    l->footer("Example: motionrack calibrate lag --velocities 100 500 --shifts 0.015 0.075");
     l->callback([o, &chosen] { chosen = [o] { return lag(*o); }; });
 }
 

@@ -64,7 +64,7 @@ std::string json_text(const mark::MarkingOutcome& out) {
                                   {"elements", out.elements},
                                   {"marked", mark_json(out.on)}};
     if (out.off) all["without_correction"] = mark_json(*out.off);
-    if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
+    if (out.fits_factor) all["fits_times_the_velocity"] = *out.fits_factor;
     const mark::FieldMargin room = mark::room_of(out, out.on);
     all["room"] = {{"mm", room.mm}, {"edge", room.edge}};
     all["warnings"] = mark::warnings_of(out);

@@ -71,8 +71,9 @@ const std::terminate_handler terminate_before = std::get_terminate();
 
 /// Names the present options for former ones, on a command line that was refused. Returns false if it has none.
 bool name_renamed_options(int argc, char** argv) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> renamed = {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed = {
         {{"--speed", "--time-scale"},
+         {"--speeds", "--velocities"},
          {"--free", "--unthrottled"},
          {"--no-pairing", "--no-auth"},
          {"--for", "--duration"},

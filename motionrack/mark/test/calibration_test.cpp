@@ -68,17 +68,17 @@ TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
     EXPECT_NEAR(std::sqrt(squares) / uncertainty, 1, 0.1);
 }
 
-TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
+TEST(Calibration, LagFromACrossMarkedAtTwoVelocitiesIsThatOfTheMirrors) {
     // The vertical line of the cross, marked on the simulated belt; its offset on the part gives the delay of the
     // mirrors.
-    const auto shift = [](double speed, int tracking_error_us) {
+    const auto shift = [](double velocity, int tracking_error_us) {
         JobRead read = read_job(
             "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal_mirrors = false\ndead_time_us = "
             "50\nnatural_frequency_hz = "
             "3183.1\ndamping_ratio = 1\nmax_velocity_bits_ms = 1e7\n"
             "[pace]\njump_delay_us = 2000\nmark_delay_us = 1000\nlaser_on_us = 500\n[belt]\ncounts_per_mm = "
             "20000\nvelocity_mm_s = " +
-                std::to_string(speed) +
+                std::to_string(velocity) +
                 "\n[fly]\nmode = 'encoder'\ntracking_error_us = " + std::to_string(tracking_error_us) + "\n",
             "j");
         const Prepared prepared = *prepare(*read.job, [](const std::string&) -> Result<std::string> {
@@ -89,14 +89,14 @@ TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
         return -points.at(points.size() / 2).at.x;
     };
     const auto out = calibrate_lag(
-        {.speed_mm_s = {100, 500}, .shift_mm = {shift(100, 0), shift(500, 0)}, .shift_uncertainty_mm = 0.002});
+        {.velocity_mm_s = {100, 500}, .shift_mm = {shift(100, 0), shift(500, 0)}, .shift_uncertainty_mm = 0.002});
     ASSERT_TRUE(out) << out.error().text();
     EXPECT_NEAR(out->lag_us.value, 150, 6);
     EXPECT_EQ(out->tracking_error, 15);
     EXPECT_NEAR(out->lag_us.uncertainty, std::sqrt(2.0) * 0.002 / 400 * 1e6, 1e-9);
     EXPECT_LT(std::fabs(shift(500, 150)), 0.006) << "set, the cross is in its place";
-    EXPECT_FALSE(calibrate_lag({.speed_mm_s = {100, 100}, .shift_mm = {0, 1}}));
-    EXPECT_FALSE(calibrate_lag({.speed_mm_s = {100, 500}, .shift_mm = {0, -1}}));
+    EXPECT_FALSE(calibrate_lag({.velocity_mm_s = {100, 100}, .shift_mm = {0, 1}}));
+    EXPECT_FALSE(calibrate_lag({.velocity_mm_s = {100, 500}, .shift_mm = {0, -1}}));
 }
 
 }  // namespace

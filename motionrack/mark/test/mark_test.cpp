@@ -72,20 +72,20 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     }
 }
 
-TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
+TEST(MarkJob, TheVelocityAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
     MarkingJob job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
     const MarkingOutcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
     // 0.08 s and slightly more until the last corner; the field ends at 60.57 mm.
     EXPECT_GT(*out.fits_factor, 6);
     EXPECT_LT(*out.fits_factor, 9);
-    job.belt.speed = 100 * *out.fits_factor;
+    job.belt.velocity = 100 * *out.fits_factor;
     EXPECT_TRUE(run(job).on.overflows.empty());
-    job.belt.speed *= 1.001;
+    job.belt.velocity *= 1.001;
     const MarkingOutcome over = run(job);
     ASSERT_EQ(over.on.overflows.size(), 1u);
     EXPECT_EQ(over.on.overflows[0].name, "FLY_X_OVERFLOW");
-    EXPECT_NEAR(*over.fits_factor * job.belt.speed, 100 * *out.fits_factor, 0.2);
+    EXPECT_NEAR(*over.fits_factor * job.belt.velocity, 100 * *out.fits_factor, 0.2);
     EXPECT_THAT(outcome_text(job, over), HasSubstr("FLY_X_OVERFLOW at 0.0"));
 }
 
@@ -129,7 +129,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\njump_delay_us = 55\n"), HasSubstr("steps of 10 us"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[bolt]\n"), HasSubstr("belt"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[belt]\nprofile = [[0, 1], [0, 2]]\n"), HasSubstr("j.toml:4:"));
-    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[fly]\nmode = 'simulated'\n"), HasSubstr("constant speed"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[fly]\nmode = 'simulated'\n"), HasSubstr("constant velocity"));
     EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[parts]\nat_mm = [0, 40]\n"),
                 HasSubstr("'at_mm' is now 'part_positions_mm'."));

@@ -40,8 +40,8 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
     for (const char* mode : {"encoder", "simulated"})
         for (const char* way : {"0", "90", "180", "30"})
             for (const char* counts : {"1000", "-1000"})
-                for (const char* speed : {"200", "-200"}) {
-                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nvelocity_mm_s = ") + speed +
+                for (const char* velocity : {"200", "-200"}) {
+                    const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nvelocity_mm_s = ") + velocity +
                                             "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
                                             "\n[fly]\nmode = '" + mode +
                                             "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";

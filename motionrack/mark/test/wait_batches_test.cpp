@@ -80,21 +80,21 @@ TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
     EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
 }
 
-TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheSpeedThatFits) {
+TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheVelocityThatFits) {
     const std::string why = refusal(job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'")), long_svg);
     EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks leave the field by up to"));
     const std::size_t at = why.find("The limit is ");
     ASSERT_NE(at, std::string::npos) << why;
     const double fits = std::stod(why.substr(at + 13));
     MarkingJob job = job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'"));
-    job.belt.speed = fits * 0.999;
+    job.belt.velocity = fits * 0.999;
     EXPECT_EQ(refusal(job, long_svg), "");
-    job.belt.speed = fits * 1.001;
+    job.belt.velocity = fits * 1.001;
     EXPECT_NE(refusal(job, long_svg), "");
-    // A slower belt says the same speed.
-    job.belt.speed = fits / 2;
+    // A slower belt says the same velocity.
+    job.belt.velocity = fits / 2;
     const MarkingOutcome slow = run(job, long_svg);
-    EXPECT_NEAR(*slow.fits_factor * job.belt.speed, fits, 0.02 * fits);
+    EXPECT_NEAR(*slow.fits_factor * job.belt.velocity, fits, 0.02 * fits);
 }
 
 TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
@@ -130,19 +130,19 @@ TEST(Waits, GoTogetherWithPartsAndProfiles) {
     EXPECT_EQ(profile.on.deviation.missing_mm, 0);
 }
 
-TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsSpeed) {
+TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsVelocity) {
     const std::string job =
         "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
     const MarkingOutcome encoder = run(job_of(job + "mode = 'encoder'\n"));
     EXPECT_LE(encoder.on.deviation.worst_mm, 0.003);
-    const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_speed_mm_s = 100\n"));
+    const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_velocity_mm_s = 100\n"));
     // 40 ms from 100 to 60 mm/s: 0.04 * 20 = 0.8 mm less way than supposed at 80 ms.
     EXPECT_NEAR(simulated.on.deviation.worst_mm, 0.8, 0.08);
-    EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_speed in [fly]"));
-    EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_speed_mm_s = 100\n"), HasSubstr("j.toml:8:24"));
+    EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_velocity in [fly]"));
+    EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_velocity_mm_s = 100\n"), HasSubstr("j.toml:8:27"));
 }
 
-TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantSpeed) {
+TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantVelocity) {
     const auto job = [](const std::string& belt, const std::string& offset) {
         return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt +
                "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
@@ -152,7 +152,7 @@ TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantSpeed) {
     EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.worst_mm, 0.005);
     EXPECT_GT(run(job_of(job(table, ""))).on.deviation.worst_mm, 0.05);
     EXPECT_LE(run(job_of(job(table, "offset_us = 1500"))).on.deviation.worst_mm, 0.004);
-    // What is left when the speed changes: 1000 mm/s2 for 40 ms are 40 mm/s more, over 1.5 ms.
+    // What is left when the velocity changes: 1000 mm/s2 for 40 ms are 40 mm/s more, over 1.5 ms.
     const std::string rising = "[belt]\nprofile = [[0, 200], [0.04, 200], [0.08, 240]]";
     EXPECT_NEAR(run(job_of(job(rising, "offset_us = 1500"))).on.deviation.worst_mm, 0.06, 0.008);
     EXPECT_THAT(errors_of(job(belt, "tracking_error_us = 100")), HasSubstr("encoders only"));
