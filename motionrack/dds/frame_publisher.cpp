@@ -18,7 +18,7 @@ void wait_until(Instant due, const std::atomic<bool>* stop) {
 }  // namespace
 
 FramePublisher::FramePublisher(Publisher& publisher, const PublishingSettings& settings)
-    : publisher_(publisher), settings_(settings), pacer_(settings.speed, settings.pace) {
+    : publisher_(publisher), settings_(settings), pacer_(settings.time_scale, settings.pace) {
     // Linux may add 50 us to a thread's sleeps, a quarter of the default period.
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }

@@ -18,7 +18,7 @@ class FrameSource {
 };
 
 struct PublishingSettings {
-    double speed = 1;                                                   ///< bus time per unit of real time
+    double time_scale = 1;                                              ///< bus time per unit of real time
     Duration pace = microseconds(200);                                  ///< real time between two frames
     std::uint64_t max_frames = 0;                                       ///< frames to publish; 0: all
     const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame

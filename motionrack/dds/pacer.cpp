@@ -11,10 +11,11 @@ Instant FramePacer::due(Instant frame, Instant now) {
         first_frame_ = frame;
         first_due_ = now;
     }
-    // Speed 1 uses whole ticks; otherwise 53 bits resolve a tick within a day's run.
+    // A time scale of 1 uses whole ticks; otherwise 53 bits resolve a tick within a day's run.
     const Duration elapsed = frame - first_frame_;
-    const Duration real =
-        speed_ == 1 ? elapsed : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / speed_)};
+    const Duration real = time_scale_ == 1
+                              ? elapsed
+                              : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / time_scale_)};
     const Instant due = first_due_ + real;
     const Duration behind = now - due;
     worst_ = std::max(worst_, behind);

@@ -11,8 +11,8 @@ class FramePacer {
   public:
     static constexpr Duration max_behind = whole_seconds(1);
 
-    /// `speed`: bus time per unit of real time, > 0; `pace`: real time between two frames.
-    FramePacer(double speed, Duration pace) : speed_(speed), pace_(pace) {}
+    /// `time_scale`: bus time per unit of real time, > 0; `pace`: real time between two frames.
+    FramePacer(double time_scale, Duration pace) : time_scale_(time_scale), pace_(pace) {}
 
     /// Due time of the frame of bus time `frame`, queried at `now`. The first frame is due at once. A past due time
     /// means publication at once, counted as late beyond one pace. Beyond `max_behind` the schedule restarts instead of
@@ -24,7 +24,7 @@ class FramePacer {
     Duration worst() const { return worst_; }  ///< lateness of the latest frame
 
   private:
-    double speed_;
+    double time_scale_;
     Duration pace_, worst_{};
     bool begun_ = false;
     Instant first_frame_{}, first_due_{};

@@ -77,7 +77,7 @@ class CountingSource final : public FrameSource {
 
 TEST(FramePublisher, EndsWithTheSourceOrTheCountOrTheStop) {
     PublishingSettings settings;
-    settings.speed = 1e6;
+    settings.time_scale = 1e6;
     {
         CountingPublisher publisher;
         CountingSource source;
@@ -111,7 +111,7 @@ TEST(FramePublisher, TellsWhatStoppedTheSource) {
     CountingSource source;
     source.broken = 5;
     PublishingSettings settings;
-    settings.speed = 1e6;
+    settings.time_scale = 1e6;
     const auto done = publish_frames(publisher, source, settings);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "The scale is broken.");

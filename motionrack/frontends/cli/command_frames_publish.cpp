@@ -25,7 +25,7 @@ struct PublishOptions {
     BusOptions bus;
     std::string rack, program, card;
     std::vector<std::string> faults;
-    double speed = 1, seconds = 0;
+    double time_scale = 1, seconds = 0;
     std::uint64_t count = 0;
     bool json = false, quiet = false;
 };
@@ -67,7 +67,7 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
         print_warning(
             fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer "
                         "is too slow for --time-scale {:g}.",
-                        done.slips, options.speed));
+                        done.slips, options.time_scale));
     if (publisher.refused() != 0)
         print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
 }
@@ -159,11 +159,12 @@ int publish_rack(Run& run) {
 }
 
 int publish(const PublishOptions& options) {
-    if (!(options.speed >= 1e-6 && options.speed <= 1e3) || !(options.seconds >= 0 && options.seconds <= 1e8)) {
+    if (!(options.time_scale >= 1e-6 && options.time_scale <= 1e3) ||
+        !(options.seconds >= 0 && options.seconds <= 1e8)) {
         print_error(
             fmt::format("--time-scale is {:g} and --duration {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing "
                         "was published.",
-                        options.speed, options.seconds));
+                        options.time_scale, options.seconds));
         return exit_usage;
     }
     if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
@@ -176,8 +177,8 @@ int publish(const PublishOptions& options) {
     const auto faults = rack::FaultSchedule::create(rack, options.faults);
     if (!faults) return report(faults.error());
     dds::PublishingSettings settings;
-    settings.speed = options.speed;
-    settings.pace = from_seconds(to_seconds((*tap)->period()) / options.speed);
+    settings.time_scale = options.time_scale;
+    settings.pace = from_seconds(to_seconds((*tap)->period()) / options.time_scale);
     settings.max_frames = options.count;
     settings.stop = &stop_asked;
     const auto publisher =
@@ -199,7 +200,7 @@ void add_frames_publish(CLI::App& frames, Action& chosen) {
                         "part program that the rack's axes execute at the same time; its end ends the command");
     add_bus_options(*command, options->bus);
     command->add_option("--card", options->card, "the card whose frames are published (default: the bus' host)");
-    command->add_option("--time-scale", options->speed, "virtual seconds a second: 0.1 is ten times slower")
+    command->add_option("--time-scale", options->time_scale, "virtual seconds a second: 0.1 is ten times slower")
         ->capture_default_str();
     command->add_option("--count", options->count, "end after this number of frames");
     command->add_option("--duration", options->seconds, "end after this virtual time, s");
