@@ -39,7 +39,7 @@ TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
         EXPECT_GE(limited, bound) << entry.path();
         double peak = 0;
         for (const auto& axis : plan["axes"])
-            for (const char* part : {"of_speed", "of_accel", "of_jerk"})
+            for (const char* part : {"of_velocity", "of_accel", "of_jerk"})
                 peak = std::max(peak, axis[part].get<double>());
         EXPECT_LE(peak, 1 + 1e-6) << entry.path();
         std::array<char, 200> row{};

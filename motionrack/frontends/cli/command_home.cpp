@@ -103,7 +103,7 @@ void add_home(CLI::App& app, Action& chosen) {
                      "the index (default: the rack file's)")
         ->check(CLI::Range(1, 4));
     command->add_option("--picture", options->picture,
-                        "write position, speed and states over time as SVG; of several axes NAME_X.svg ..");
+                        "write position, velocity and states over time as SVG; of several axes NAME_X.svg ..");
     command
         ->add_option("--fault", options->faults,
                      "inject a fault during the run, NAME=VALUE@TIME: X.home.stuck_open@0s, estop=0@0.3s")

@@ -34,7 +34,7 @@ struct PlanOptions {
 
 /// Peak values of one axis in a plan.
 struct AxisPeaks {
-    double speed = 0, accel = 0, jerk = 0;
+    double velocity = 0, accel = 0, jerk = 0;
 };
 struct Planned {
     double seconds = 0;
@@ -80,7 +80,7 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
                 view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
             for (std::size_t k = 0; k < out.axes.size(); ++k) {
                 AxisPeaks& axis = out.axes[k];
-                axis = {std::max(axis.speed, std::fabs(state.velocity[k])),
+                axis = {std::max(axis.velocity, std::fabs(state.velocity[k])),
                         std::max(axis.accel, std::fabs(state.accel[k])), std::max(axis.jerk, std::fabs(state.jerk[k]))};
             }
         }
@@ -117,13 +117,13 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
     fmt::print("Peak of the jerk-limited plan, and its share of the axis' limit:\n");
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
-        if (most.speed == 0) continue;
+        if (most.velocity == 0) continue;
         const auto value = [&](double peak, const char* unit, double limit) {
             return limit > 0 ? fmt::format("{:>11.5g} {}/{:<3} {:>5.1f} %", peak, axis.unit(), unit,
                                            100 * part_of(peak, limit))
                              : fmt::format("{:>11.5g} {}/{:<3} no limit", peak, axis.unit(), unit);
         };
-        fmt::print("  {} {} {} {}\n", axis.letter, value(most.speed, "s", axis.max_velocity),
+        fmt::print("  {} {} {} {}\n", axis.letter, value(most.velocity, "s", axis.max_velocity),
                    value(most.accel, "s2", axis.max_accel), value(most.jerk, "s3", axis.max_jerk));
     }
 }
@@ -143,10 +143,10 @@ void print_json(const Plans& plans, const rack::RackConfig& config) {
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
         out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()},
-                                                    {"speed", most.speed},
+                                                    {"velocity", most.velocity},
                                                     {"accel", most.accel},
                                                     {"jerk", most.jerk},
-                                                    {"of_speed", part_of(most.speed, axis.max_velocity)},
+                                                    {"of_velocity", part_of(most.velocity, axis.max_velocity)},
                                                     {"of_accel", part_of(most.accel, axis.max_accel)},
                                                     {"of_jerk", part_of(most.jerk, axis.max_jerk)}};
     }
@@ -209,7 +209,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     add_reading_options(*command, options->reading);
     command->add_option(
         "--picture", options->picture,
-        "write the jerk-limited plan as SVG: the path coloured by speed; speed, acceleration and jerk over time");
+        "write the jerk-limited plan as SVG: the path coloured by velocity; velocity, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
     command->footer(
         "Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards execute the trapezoids; with "

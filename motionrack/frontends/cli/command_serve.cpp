@@ -35,7 +35,7 @@ struct ServeOptions {
     std::int64_t journal_megabytes = 1000;
     bool grbl_resets_stop_all = false;
     std::vector<std::string> hosts, origins, live;
-    double speed = 1;
+    double time_scale = 1;
     bool free = false, paused = false, no_pairing = false;
 };
 
@@ -71,7 +71,7 @@ class Serving {
         settings.clock = options_.paused ? operate::ClockMode::paused
                          : options_.free ? operate::ClockMode::unthrottled
                                          : operate::ClockMode::real;
-        settings.factor = options_.speed;
+        settings.factor = options_.time_scale;
         settings.meanwhile = [this] { stop_if_asked(); };
         settings.version = MOTIONRACK_VERSION;
         settings.boot = auth::random_token().substr(0, 8);
@@ -231,7 +231,7 @@ void add_serve(CLI::App& app, Action& chosen) {
         ->add_option("--address", options->address,
                      "address to serve; other than this computer's loopback only with TLS")
         ->capture_default_str();
-    command->add_option("--time-scale", options->speed, "rack seconds per real second")
+    command->add_option("--time-scale", options->time_scale, "rack seconds per real second")
         ->check(CLI::Range(operate::ClockPacer::min_factor, operate::ClockPacer::max_factor))
         ->capture_default_str();
     command->add_flag("--unthrottled", options->free, "run without real-time pacing");
