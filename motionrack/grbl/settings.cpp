@@ -104,7 +104,7 @@ constexpr std::array<Setting, 22> table = {{
 
 constexpr std::array<AxisSetting, 4> axis_table = {{
     {100, "pulses per mm or degree", [](const RackAxis& axis) { return axis.pulses_per_unit(); }},
-    {110, "maximum speed, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
+    {110, "maximum velocity, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
     {120, "acceleration, mm/s2", [](const RackAxis& axis) { return axis.max_accel; }},
     {130, "travel, mm", [](const RackAxis& axis) { return axis.max_position - axis.min_position; }},
 }};
