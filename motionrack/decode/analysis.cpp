@@ -1,4 +1,4 @@
-// Blocks are divided at the ends of peak-speed windows; each channel begins when all of its lines have a level.
+// Blocks are divided at the ends of peak-velocity windows; each channel begins when all of its lines have a level.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,8 +66,8 @@ class ChannelRun {
     void end_window(double begin_s, double seconds) {
         const std::int64_t counted = decoder_.count() - window_count_;
         window_count_ = decoder_.count();
-        const double speed = static_cast<double>(counted) / seconds;
-        if (!peak || std::fabs(speed) > std::fabs(peak->counts_per_s)) peak = Peak{speed, begin_s};
+        const double velocity = static_cast<double>(counted) / seconds;
+        if (!peak || std::fabs(velocity) > std::fabs(peak->counts_per_s)) peak = Peak{velocity, begin_s};
     }
     const ChannelDecoder& decoder() const { return decoder_; }
     std::optional<std::uint64_t> begun() const { return begun_; }
@@ -206,7 +206,7 @@ Result<Analysis> Run::all() {
         return fail(
             ErrorKind::refused,
             fmt::format(
-                "A window of {} s for the peak speed: it must be more than 0 and less than 1e18 samples or ticks. "
+                "A window of {} s for the peak velocity: it must be more than 0 and less than 1e18 samples or ticks. "
                 "Nothing was decoded.",
                 settings_.window_s));
     window_ = std::max<std::int64_t>(1, std::llround(ticks));

@@ -1,4 +1,4 @@
-// Analysis of a capture from first to last sample: counts, speeds and errors of each encoder.
+// Analysis of a capture from first to last sample: counts, velocities and errors of each encoder.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 namespace motionrack::decode {
 
 struct AnalysisSettings {
-    double window_s = 1e-3;  ///< length of the window for the peak speed; > 0
+    double window_s = 1e-3;  ///< length of the window for the peak velocity; > 0
     ChannelSettings channel;
     std::function<void(double part)> progress;  ///< after each block, 0 .. 1; -1 if the size is unknown
     std::function<bool()> stop;                 ///< true ends the analysis early

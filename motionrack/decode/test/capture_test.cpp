@@ -249,7 +249,7 @@ TEST(RawCapture, CountsSamplesOfEverySizeAsTheReferee) {
     }
 }
 
-TEST(RawCapture, FindsTheSpeedOfItsFastestWindow) {
+TEST(RawCapture, FindsTheVelocityOfItsFastestWindow) {
     std::string file;
     unsigned phase = 0;
     const auto run = [&](int samples, int each, unsigned step) {

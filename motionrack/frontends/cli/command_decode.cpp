@@ -91,7 +91,7 @@ int decode_file(DecodeOptions& options) {
 void add_decode(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DecodeOptions>();
     CLI::App* command = app.add_subcommand(
-        "decode", "Count the encoders in a logic analyser's capture: counts, speeds, illegal transitions, indexes");
+        "decode", "Count the encoders in a logic analyser's capture: counts, velocities, illegal transitions, indexes");
     command->add_option("FILE", options->file, "VCD, CSV or raw binary capture, '-': standard input")->required();
     command
         ->add_option("--channel", options->channels,
@@ -106,7 +106,7 @@ void add_decode(CLI::App& app, Action& chosen) {
                      "bytes a sample of a raw capture, the lowest first")
         ->check(CLI::Range(1, 8))
         ->option_text("1 .. 8 (1)");
-    command->add_option("--window-ms", options->window_ms, "window of the peak speed, ms")->capture_default_str();
+    command->add_option("--window-ms", options->window_ms, "window of the peak velocity, ms")->capture_default_str();
     command->add_flag("--index-low", options->analysis.channel.index_low,
                       "the index line is active low: its falling edges count");
     command
