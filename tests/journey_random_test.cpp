@@ -58,7 +58,7 @@ TEST_P(JourneyAtRandom, BigAndSmallMovesMixedEndExactlyStayOnTheirPathAndKeepThe
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::mixed), 0.25);
 }
 
-TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepSpeedAndAcceleration) {
+TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepVelocityAndAcceleration) {
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::tiny), 0.25);
 }
 

@@ -160,9 +160,9 @@ TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
                          plain = record(request_for(program, {}, {}, profile), "plain.h5");
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
         const auto reader = trace::RecordingReader::open(at("a.h5"));
-        for (const auto& [when, speed] : read<double>(*reader, "X.velocity"))
+        for (const auto& [when, velocity] : read<double>(*reader, "X.velocity"))
             if (Instant{when} > milliseconds(700) && Instant{when} < milliseconds(800)) {
-                EXPECT_EQ(speed, 0) << "held, at " << when;
+                EXPECT_EQ(velocity, 0) << "held, at " << when;
             }
         for (std::size_t i = 0; i < plain.axes.size(); ++i)
             EXPECT_EQ(outcome.axes[i].pulse_position, plain.axes[i].pulse_position) << i;

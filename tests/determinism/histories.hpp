@@ -10,7 +10,7 @@ namespace motionrack {
 std::string example_histories(const std::filesystem::path& root);
 
 /// The example racks, each with its program or by itself for half a second, a line each: name, hash of its state with
-/// all places, speeds and counts, hash of its history, ticks that it took.
+/// all places, velocities and counts, hash of its history, ticks that it took.
 std::string rack_histories(const std::filesystem::path& root);
 
 }  // namespace motionrack

@@ -15,7 +15,7 @@ void check(const ChannelResult& channel, const Analysis& analysis) {
     require(channel.up + channel.down + channel.illegal <= analysis.samples, "a sample is one step at most");
     require(channel.first_illegal.size() <= channel.illegal && channel.first_indexes.size() <= channel.indexes,
             "no more events are listed than were counted");
-    require(std::isfinite(channel.mean_per_s) && channel.seconds >= 0, "a mean speed is a number");
+    require(std::isfinite(channel.mean_per_s) && channel.seconds >= 0, "a mean velocity is a number");
     for (std::size_t i = 0; i < channel.first_indexes.size(); ++i) {
         require(channel.first_indexes[i].sample < analysis.samples, "an index is in the capture");
         require(i == 0 || channel.first_indexes[i].time_s >= channel.first_indexes[i - 1].time_s,

@@ -248,15 +248,16 @@ void Invariants::see_stop(const Sight& now) {
 
 void Invariants::see_parts(const Sight& now) {
     if (now.latched) parts_stand_ = true;
-    if (!now.latched && parts_stand_ && knows_orders_ && now.belt_speed > last_.belt_speed)
+    if (!now.latched && parts_stand_ && knows_orders_ && now.belt_velocity > last_.belt_velocity)
         found(Rule::stop_stays, now.at, "a belt or table goes on by a reset, without an order");
     if (!now.latched || now.at - latched_at_ <= lasers_off_within) return;
     if (now.lasers_on > 0)
         found(Rule::stop_slows, now.at,
               fmt::format("a laser is on {:.4f} s after a stop", to_seconds(now.at - latched_at_)));
-    if (now.belt_speed > last_.belt_speed && last_.latched)
-        found(Rule::stop_slows, now.at,
-              fmt::format("belts went from {:g} to {:g} a second after a stop", last_.belt_speed, now.belt_speed));
+    if (now.belt_velocity > last_.belt_velocity && last_.latched)
+        found(
+            Rule::stop_slows, now.at,
+            fmt::format("belts went from {:g} to {:g} a second after a stop", last_.belt_velocity, now.belt_velocity));
 }
 
 /// Uses the highest velocity of the intervals with the stop command as reference; afterwards the velocity may only
@@ -272,9 +273,9 @@ void Invariants::see_braking(double seconds, const Sight& now) {
     }
     const bool heard = now.latched && base_at_ >= latched_at_ + settings_.obeyed;
     if (!heard) linear_moves_ = linear > 0 || (now.latched && linear_moves_);
-    const double speed = std::sqrt(linear_moves_ ? linear : rotary);
+    const double velocity = std::sqrt(linear_moves_ ? linear : rotary);
     if (!heard) {
-        lowest_ = std::max(now.latched ? lowest_ : 0, speed);
+        lowest_ = std::max(now.latched ? lowest_ : 0, velocity);
         if (now.latched && linear + rotary > 0)
             stands_by_ = latched_at_ + from_seconds(0.3 + to_seconds(settings_.obeyed) + 2 * settings_.jerk_time_s +
                                                     2.5 * std::sqrt(linear + rotary) / min_accel);
@@ -282,21 +283,21 @@ void Invariants::see_braking(double seconds, const Sight& now) {
     }
     if (stood_ && linear + rotary > 0)
         found(Rule::stop_stays, now.at,
-              fmt::format("something moved at {:g} a second while a stop is in force, {:.3f} s after it", speed,
+              fmt::format("something moved at {:g} a second while a stop is in force, {:.3f} s after it", velocity,
                           to_seconds(now.at - latched_at_)));
     // At the end of a jerk-limited ramp the pulse interval may exceed the check interval.
     const bool driven =
         std::any_of(now.axes.begin(), now.axes.end(), [](const AxisSight& axis) { return axis.driven; });
     if (linear + rotary == 0 && !driven) stood_ = true;
-    if (speed > lowest_ * 1.02 + noise)
+    if (velocity > lowest_ * 1.02 + noise)
         found(Rule::stop_slows, now.at,
-              fmt::format("{:.3f} s after a stop the speed grew from {:g} to {:g} a second",
-                          to_seconds(now.at - latched_at_), lowest_, speed));
-    lowest_ = std::min(lowest_, speed);
+              fmt::format("{:.3f} s after a stop the velocity grew from {:g} to {:g} a second",
+                          to_seconds(now.at - latched_at_), lowest_, velocity));
+    lowest_ = std::min(lowest_, velocity);
     if (!stood_ && stands_by_ != never && now.at > stands_by_)
         found(Rule::stop_slows, now.at,
               fmt::format("{:.3f} s after a stop it still moves at {:g} a second", to_seconds(now.at - latched_at_),
-                          speed));
+                          velocity));
 }
 
 // ---- alarms

@@ -55,7 +55,7 @@ struct Sight {
     bool latched = false;
     bool abrupt = false;  ///< ends pulses without a ramp
     int lasers_on = 0;
-    double belt_speed = 0;  ///< sum over all belts and tables
+    double belt_velocity = 0;  ///< sum over all belts and tables
     std::vector<AxisSight> axes;
     const std::vector<operate::Alarm>* alarms = nullptr;
 };

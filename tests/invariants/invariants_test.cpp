@@ -149,7 +149,7 @@ const Broken broken[] = {
      [](History& h) {
          h.latch(true);
          h.pass(0.02);
-         h.now().belt_speed = 3;
+         h.now().belt_velocity = 3;
          h.pass(0.02);
      }},
     {"motion_before_a_reset", Rule::stop_stays,
@@ -164,7 +164,7 @@ const Broken broken[] = {
          h.order(Invariants::Order::reset);
          h.latch(false);
          h.pass(0.02);
-         h.now().belt_speed = 3;
+         h.now().belt_velocity = 3;
          h.pass(0.02);
      }},
     {"a_stop_that_is_not_taken", Rule::stop_is_taken,

@@ -55,7 +55,7 @@ Sight RackWatch::sight() {
     out.abrupt = latch.latched() && latch.tripped_by(rack::StopSource::emergency_stop);
     for (const sim::WireId laser : lasers_) out.lasers_on += rack_.kernel().level(laser) != 0;
     for (const rack::RunningConveyor& track : rack_.tracks())
-        out.belt_speed += std::fabs(track.track().velocity(to_seconds(now)));
+        out.belt_velocity += std::fabs(track.track().velocity(to_seconds(now)));
     for (rack::RunningAxis& axis : rack_.axes()) {
         AxisSight& one = out.axes.emplace_back();
         one.sent = axis.turned_by().count(now);
