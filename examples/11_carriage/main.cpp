@@ -111,7 +111,7 @@ class Carriage {
 
 std::string picture(const Record& r) {
     const std::vector<trace::SvgChart> charts = {{"position, mm", {{"", "z", r.seconds, r.mm}}, {}},
-                                                 {"speed, mm/s", {{"", "y", r.seconds, r.mm_s}}, {}},
+                                                 {"velocity, mm/s", {{"", "y", r.seconds, r.mm_s}}, {}},
                                                  {"voltage at the amplifier, V", {{"", "x", r.seconds, r.volts}}, {}}};
     return trace::svg_timeline("Transfer carriage", charts, r.legs, {.width = 720, .height = 620, .standalone = true});
 }
