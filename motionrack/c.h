@@ -326,8 +326,8 @@ MR_API const char* mr_report(const mr_rack* rack);
 /* ---- The whole world ---- */
 
 /* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The
- * same calls from here on do the same in both; where its axes stand and whether that is trusted goes with it. But a
- * driver's memory belongs to its host: the first mr_home of a copy initialises its cards again. A recording and the
+ * same calls from here on do the same in both; the positions of its axes, valid or not, go with it. But a driver's
+ * memory belongs to its host: the first mr_home of a copy initialises its cards again. A recording and the
  * call-back of mr_on_condition stay with the first. *copy is set to NULL if it fails. MR_BAD_CALL, MR_REFUSED (a
  * call-back called), MR_INTERNAL. */
 MR_API int mr_snapshot(mr_rack* rack, mr_rack** copy);

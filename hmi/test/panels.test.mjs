@@ -32,13 +32,13 @@ async function done(tab) {
 const panel = (tab, name) => tab.page.getByRole('region', { name });
 const number = (text) => Number(text.replace(/\u2009/g, '').replace('\u2212', '-'));
 
-test('axes are homed, with their phases and what was found; then they are trusted', async () => {
+test('axes are homed, with their phases and what was found; then they are valid', async () => {
   const tab = await at('operate');
   await tab.page.getByRole('button', { name: 'Home all' }).click();
   await tab.page.getByRole('list', { name: 'Phases of homing' }).waitFor();
   await state(tab, 'homing');
   await until(() => tab.status.state === 'standstill', 'all axes are homed', 60000);
-  await until(() => tab.status.axes.every((axis) => axis.position_valid), 'all positions are trusted');
+  await until(() => tab.status.axes.every((axis) => axis.position_valid), 'all positions are valid');
   await until(async () => (await tab.page.locator('.homed.yes').count()) === 4, 'all axes are shown as homed');
   await tab.page.getByText('Homed; results').click();
   await tab.page.locator('.homing td').first().waitFor();

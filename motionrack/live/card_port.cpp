@@ -90,7 +90,7 @@ Result<void> CardPort::check_answers() {
     if (!trouble_ && !quiet_.empty())
         trouble_ = Error{ErrorKind::io,
                          fmt::format("Every register reads FFFFh: no card answers at {}. No access is made from here "
-                                     "on; its axes may still drive, and their positions are not trusted. Check the "
+                                     "on; its axes may still drive, and their positions are not valid. Check the "
                                      "region, offset and stride, and whether the card is in its slot and has power.",
                                      path_)};
     if (trouble_) return tl::unexpected<Error>(*trouble_);

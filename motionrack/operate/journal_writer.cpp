@@ -25,7 +25,7 @@ std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
     for (const AxisStatus& axis : axes)
         out += fmt::format("{}{} {:.4f} {}{}", out.empty() ? "" : ", ", axis.letter, axis.commanded,
-                           axis.rotary ? "deg" : "mm", axis.position_valid ? "" : " (not trusted)");
+                           axis.rotary ? "deg" : "mm", axis.position_valid ? "" : " (not valid)");
     return out;
 }
 
@@ -51,7 +51,7 @@ void JournalWriter::see(const Status& status) {
         state_ = status.state;
         feed_ = status.feed_override;
         rapid_ = status.rapid_override;
-        for (const AxisStatus& axis : status.axes) trusted_.push_back(axis.position_valid);
+        for (const AxisStatus& axis : status.axes) positions_valid_.push_back(axis.position_valid);
         keep(status);
     }
     see_alarms(status);
@@ -155,13 +155,13 @@ void JournalWriter::see_settings(const Status& status) {
 }
 
 void JournalWriter::see_positions(const Status& status) {
-    for (std::size_t i = 0; i < status.axes.size() && i < trusted_.size(); ++i) {
+    for (std::size_t i = 0; i < status.axes.size() && i < positions_valid_.size(); ++i) {
         const AxisStatus& axis = status.axes[i];
-        if (axis.position_valid == trusted_[i]) continue;
-        trusted_[i] = axis.position_valid;
+        if (axis.position_valid == positions_valid_[i]) continue;
+        positions_valid_[i] = axis.position_valid;
         write(status.at, "position",
               fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded,
-                          axis.rotary ? "deg" : "mm", axis.position_valid ? "trusted" : "not trusted any more"),
+                          axis.rotary ? "deg" : "mm", axis.position_valid ? "valid" : "not valid any more"),
               json{{"axes", axes_json({axis})}}.dump());
         keep(status);
     }
@@ -207,7 +207,7 @@ std::string at_the_end(const json& kept, const std::string& where) {
                        where.empty() ? "" : fmt::format(", near {}", where));
 }
 
-std::vector<InitialAxisState> standings_of(const json& kept, const rack::RackConfig& config, bool trusted) {
+std::vector<InitialAxisState> standings_of(const json& kept, const rack::RackConfig& config, bool intact) {
     std::vector<InitialAxisState> out;
     if (!kept.contains("axes") || !kept["axes"].is_array()) return out;
     for (const json& one : kept["axes"]) {
@@ -219,7 +219,7 @@ std::vector<InitialAxisState> standings_of(const json& kept, const rack::RackCon
                    valid = one.value("position_valid", one.value("trusted", json())),
                    commanded = one.value("commanded", json());
         if (axis == nullptr || !place.is_number() || !commanded.is_number()) continue;
-        out.push_back({letter[0], place, commanded, trusted && valid == true});
+        out.push_back({letter[0], place, commanded, intact && valid == true});
     }
     return out;
 }
@@ -231,15 +231,15 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
     const json kept = kept_of(last);
     std::vector<std::string> doubts = last.doubts;
     if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it has no axis positions");
-    const bool trusted = last.clean && doubts.empty();
-    out.axes = standings_of(kept, config, trusted);
+    const bool intact = last.clean && doubts.empty();
+    out.axes = standings_of(kept, config, intact);
     std::string where;
     for (const InitialAxisState& one : out.axes)
         where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", one.letter, one.commanded);
     // An axis without a record may also have moved.
     for (const rack::RackAxis& axis : config.axes)
-        if (!trusted && std::none_of(out.axes.begin(), out.axes.end(),
-                                     [&](const InitialAxisState& one) { return one.letter == axis.letter; }))
+        if (!intact && std::none_of(out.axes.begin(), out.axes.end(),
+                                    [&](const InitialAxisState& one) { return one.letter == axis.letter; }))
             out.axes.push_back({axis.letter, axis.start_position, axis.start_position, false});
     const auto say = [&](const std::string& sentence) {
         out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);
@@ -248,7 +248,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
         say(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
                         fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
     for (const std::string& doubt : doubts) say(fmt::format("The journal is invalid: {}.", doubt));
-    if (!trusted) say("No position is trusted: home the machine, or declare its position.");
+    if (!intact) say("No position is valid: home the machine, or declare its position.");
     if (!last.damage.empty()) say(last.damage);
     return out;
 }

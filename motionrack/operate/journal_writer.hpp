@@ -49,7 +49,7 @@ class JournalWriter {
     MachineState state_ = MachineState::disabled;
     bool program_runs_ = false, single_block_ = false;
     double feed_ = 1, rapid_ = 1;
-    std::vector<bool> trusted_;
+    std::vector<bool> positions_valid_;
     std::int64_t last_alarm_ = 0;
     std::set<std::int64_t> active_, open_;  ///< alarms with an active cause; alarms that are not acknowledged
     Instant kept_{};

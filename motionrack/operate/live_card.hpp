@@ -75,7 +75,7 @@ class LiveCard final : public RegisterPort, public Interrupt {
     const LivePlace& place() const { return place_; }
     /// Reason for which accesses have ended: the computer refused one, or no card answers.
     const std::optional<Error>& lost() const { return lost_; }
-    /// Reason to distrust the result of an ended function; nothing: it is valid.
+    /// Reason why the result of an ended function may be wrong; nothing: it is valid.
     std::optional<Error> doubt() const;
     /// Writes the quick stop of all axes, and looks up to 100 times, a millisecond apart, until they are at standstill.
     /// A port that has refused an access is first opened once more.

@@ -75,7 +75,7 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
       desk_(rack_),
       tap_(rack_.kernel()),
       probe_(rack_.kernel()),
-      trust_(rack_),
+      validity_(rack_),
       door_(rack_),
       jogs_(
           settings_.jog_lease, settings_.wall ? settings_.wall : [this] { return now(); }) {
@@ -146,8 +146,8 @@ Result<void> Machine::ready_for_lines(const char* what) {
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!position_valid(axis))
             return not_now(fmt::format(
-                "{}: the position of axis {} is not trusted. Home it, or declare its position. Nothing was moved.",
-                what, axis.letter));
+                "{}: the position of axis {} is not valid. Home it, or declare its position. Nothing was moved.", what,
+                axis.letter));
     return {};
 }
 
@@ -356,7 +356,7 @@ Result<void> Machine::set_position(char axis, double position) {
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
     if (!std::isfinite(position))
         return fail(ErrorKind::invalid_input, "The position was not declared: it is not a number.");
-    positions_wanted_.push_back(trust_.declared(axis, position));
+    positions_wanted_.push_back(validity_.declared(axis, position));
     return {};
 }
 

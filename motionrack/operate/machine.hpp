@@ -22,9 +22,9 @@
 #include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
+#include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/service.hpp>
 #include <motionrack/operate/status.hpp>
-#include <motionrack/operate/trust.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/periodic_sampler.hpp>
@@ -145,7 +145,7 @@ class Machine {
     /// Returns true while a stop, a reset or a set position is pending.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
     /// Returns true if the position of this axis is valid.
-    bool position_valid(const rack::RackAxis& axis) const { return trust_.of(axis.letter); }
+    bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
     double feed_override() const { return feed_; }
     double rapid_override() const { return rapid_; }
     /// Result of the last homing, if any.
@@ -199,7 +199,7 @@ class Machine {
     std::unique_ptr<control::StreamExecutor> stream_;
     bool group_holds_ = false;  ///< true: the axis group drives; false: single axes
     bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless
-    Trust trust_;
+    PositionValidity validity_;
     Door door_;
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;

@@ -57,7 +57,7 @@ void Machine::access_bus() {
         card.bus_write(access.bits, access.address, *access.value);
         for (const rack::RunningAxis& axis : rack_.axes()) {
             if (axis.card != card.motion()) continue;
-            trust_.lose(axis.config.letter);
+            validity_.invalidate(axis.config.letter);
         }
         ready(*access.value);
     }

@@ -31,7 +31,8 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
         const InitialAxisState here = standing_of(axis.config, settings_.standing, known);
-        if (here.position_valid) MOTIONRACK_CHECK(trust_.take(*one, trust_.declared(here.letter, here.commanded)));
+        if (here.position_valid)
+            MOTIONRACK_CHECK(validity_.take(*one, validity_.declared(here.letter, here.commanded)));
     }
     MOTIONRACK_TRY(control::AxisGroup * group, rack_.path_axes_here());
     control::StreamExecutorSettings settings;
@@ -95,7 +96,8 @@ void Machine::slice() {
         take_stop();
         if (hands_over_) continue;
         if (!is_stationary(state_))  // a move may take long
-            for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+            for (Alarm& one : validity_.look(now(), state_))
+                raise(std::move(one.source), std::move(one.text), one.axis);
         publish_status();
     }
 }
@@ -134,7 +136,8 @@ void supersede(std::vector<Alarm>& alarms, std::string_view axes) {
 
 /// An axis left without a position by homing or by its own card reports that itself.
 bool says_lost(const std::string& text) {
-    return text.find("not trusted") != std::string::npos;
+    const std::size_t at = text.find(" not valid");
+    return at != std::string::npos && text.rfind("position", at) != std::string::npos;
 }
 
 /// Describes the cause or source of the stop, and the remedy.
@@ -149,16 +152,14 @@ void Machine::step() {
     if (service_.on()) return service_.step();
     if (!accesses_.empty()) return access_bus();
     if (jogs_.any()) return jog_all();
-    for (Alarm& one : trust_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+    for (Alarm& one : validity_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     if (program_flow_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running)
         return drive();
     if (stop_wanted_) return wait_for_standstill();
-    if (rack_.stop_latch().latched() && state_ != MachineState::error_stop) {
-        const rack::StopLatch& latch = rack_.stop_latch();
+    if (const rack::StopLatch& latch = rack_.stop_latch(); latch.latched() && state_ != MachineState::error_stop)
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
-    }
     host_of(rack_).pass(settings_.slice);
 }
 
@@ -171,13 +172,13 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     stop_taken_ = stop_taken_ || latch.latched();
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (latch.keeps_position(axis.index())) continue;
-        trust_.lose(axis.letter);
+        validity_.invalidate(axis.letter);
         lost += axis.letter;
     }
     if (!lost.empty() || (latch.latched() && !says_lost(text))) text += ' ' + latch.position_sentence();
-    const std::string unknown = trust_.lose_unknown();
+    const std::string unknown = validity_.invalidate_unknown();
     if (!unknown.empty() && !says_lost(text))
-        text += fmt::format(" The position of {} is not trusted any more; home again.", unknown);
+        text += fmt::format(" The position of {} is not valid any more; home again.", unknown);
     if (!source.empty()) supersede(status_.alarms, lost + unknown);
     tools_off();
     if (!source.empty()) raise(std::move(source), text);
@@ -265,8 +266,8 @@ void Machine::jog_all() {
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
         if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
         status_.reason = one.how.error().message;
-        if (one.position_valid || !trust_.of(one.letter)) continue;
-        trust_.lose(one.letter);  // it stopped without a ramp, or has lost its counts
+        if (one.position_valid || !validity_.of(one.letter)) continue;
+        validity_.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
         supersede(status_.alarms, {&one.letter, 1});
         jogs_.let_go();
         stop_wanted_ = true;
@@ -283,11 +284,11 @@ void Machine::home_all() {
     settings.stop = &home_stop_;
     settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
     settings.seen_indexes = &seen_indexes_;
-    settings.on_homed = [this](char letter, Instant since) { trust_.begin_at_home(letter, since); };
+    settings.on_homed = [this](char letter, Instant since) { validity_.begin_at_home(letter, since); };
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
-        if (axis.begun && !axis.outcome.homed) trust_.lose(axis.letter);
+        if (axis.begun && !axis.outcome.homed) validity_.invalidate(axis.letter);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
@@ -298,7 +299,7 @@ void Machine::change_positions() {
     for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
         const Declared declared = positions_wanted_[i];  // more may arrive meanwhile
         const Result<control::Axis*> axis = take_axis(declared.letter);
-        done = axis ? trust_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
+        done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
     }
     if (Result<void> taken = take_group(); done) done = taken;
     positions_wanted_.clear();

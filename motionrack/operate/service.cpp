@@ -120,12 +120,12 @@ void Service::take() {
     std::string lost;
     for (const rack::RunningAxis& axis : machine_.rack_.axes()) {
         if (axis.card != card.motion()) continue;
-        machine_.trust_.lose(axis.config.letter);
+        machine_.validity_.invalidate(axis.config.letter);
         lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
     }
     note_ = fmt::format(" The service of card {} has ended", card_);
-    note_ += lost.empty() ? "."
-                          : fmt::format("; the position of {} is not trusted: home it, or declare its position.", lost);
+    note_ +=
+        lost.empty() ? "." : fmt::format("; the position of {} is not valid: home it, or declare its position.", lost);
     machine_.rack_.set_stop_flag(&stop_);
     machine_.group_holds_ = machine_.group_holds_ && lost.empty();
     machine_.hands_over_ = true;
@@ -140,7 +140,7 @@ void Service::take() {
     if (const Told told = std::exchange(begun_, {}))
         told(begun ? Result<std::string>(fmt::format(
                          "Card {} is in service: it was reset, and only its functions drive it.{}", card_,
-                         lost.empty() ? "" : fmt::format(" The position of {} is not trusted any more.", lost)))
+                         lost.empty() ? "" : fmt::format(" The position of {} is not valid any more.", lost)))
                    : tl::unexpected<Error>(begun.error()));
 }
 

@@ -147,7 +147,7 @@ constexpr std::array command_rows = {
     OperationSpec{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
     OperationSpec{"jog_stop", Role::operate, true, jog_stop_fields, "Ends all jogs; a program continues."},
     OperationSpec{"set_position", Role::operate, true, set_position_fields,
-                  "Sets the position of an axis, which is trusted then."},
+                  "Sets the position of an axis, which is valid then."},
     OperationSpec{"touch_off", Role::operate, true, touch_off_fields,
                   "Touches off: moves the zero of the active work coordinates."},
     OperationSpec{"start_program", Role::operate, true, start_program_fields,
@@ -180,7 +180,7 @@ constexpr std::array command_rows = {
                   "value"},
     OperationSpec{"service", Role::maintain, true, service_fields,
                   "Takes a card from the controller, so that its library's functions can be called, or gives it back; "
-                  "its positions are not trusted then. Begins at standstill; its session must keep control.",
+                  "its positions are not valid then. Begins at standstill; its session must keep control.",
                   "text"},
     OperationSpec{
         "call", Role::maintain, true, call_fields,

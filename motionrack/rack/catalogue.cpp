@@ -99,8 +99,8 @@ class Mcx314Card final : public MotionCard {
         MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
         for (int c = 0; c < mcx314::channel_count && !position; ++c)
             MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
-        group_trusted_ = stand.position_valid;
-        if (position) group_trusted_.fill(true);
+        group_valid_ = stand.position_valid;
+        if (position) group_valid_.fill(true);
         return &*axes_;
     }
 
@@ -137,7 +137,7 @@ class Mcx314Card final : public MotionCard {
         for (auto& one : single_) one.reset();
         singles_ready_ = false;
         before_singles_ = {};
-        group_trusted_.fill(false);
+        group_valid_.fill(false);
         return library_over(port_, port_);
     }
     double accel_reserve() const override { return mcx314::ChipAxisGroup::accel_reserve; }
@@ -190,12 +190,12 @@ class Mcx314Card final : public MotionCard {
     Stand stand_now() {
         // Channels not used singly since the group lost the card are still where it left them.
         Stand out = before_singles_;
-        const auto read = [&](std::size_t c, bool trusted) {
+        const auto read = [&](std::size_t c, bool valid) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
             out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
-            out.position_valid[c] = trusted;
+            out.position_valid[c] = valid;
         };
-        for (std::size_t c = 0; axes_ && c < out.pulses.size(); ++c) read(c, group_trusted_[c]);
+        for (std::size_t c = 0; axes_ && c < out.pulses.size(); ++c) read(c, group_valid_[c]);
         for (const auto& one : single_)
             if (one) read(static_cast<std::size_t>(one->channel()), one->position_valid());
         return out;
@@ -237,7 +237,7 @@ class Mcx314Card final : public MotionCard {
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
     Stand before_singles_;  // state when the group lost the card
-    std::array<bool, mcx314::channel_count> group_trusted_ = {};
+    std::array<bool, mcx314::channel_count> group_valid_ = {};
 };
 
 Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {

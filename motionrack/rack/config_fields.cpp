@@ -120,7 +120,7 @@ constexpr std::array<Field, 8> homing_table = {
         "position of the switch edge; types 3 and 4: plus index_after, and one of both keys is required"),
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
                                                  "distance from the switch to the index (types 3 and 4); one that is "
-                                                 "off by more than a quarter of a motor turn is not trusted"),
+                                                 "off by more than a quarter of a motor turn is rejected"),
                  "the first index; in a served machine that of its first search"),
     formerly("clearance_{u}", field<&RackHoming::clearance>("backoff_{u}", 0, 1000, "{u}",
                                                             "distance moved after the switch is released")),

@@ -32,7 +32,7 @@ std::string head_line(const HomedAxis& axis) {
                                   axis.order.search_velocity, axis.unit, axis.order.latch_velocity, axis.unit);
     if (!axis.begun) return out + "  not begun\n";
     return out + fmt::format("  {} after {:.3f} s, {}\n", o.homed ? "homed" : "not homed", o.took_s,
-                             o.homed ? "the position is trusted" : "the position is not trusted");
+                             o.homed ? "the position is valid" : "the position is not valid");
 }
 
 std::string axis_text(const HomedAxis& axis) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/job.hpp>
-#include <motionrack/rack/trust.hpp>
+#include <motionrack/rack/validity_watch.hpp>
 #include <utility>
 
 namespace motionrack::rack {
@@ -193,8 +193,8 @@ JobOutcome Job::run() {
         return out;
     }
     note_before();
-    TrustWatch trust(rack_);
-    reference_.begin(trust);
+    ValidityWatch validity(rack_);
+    reference_.begin(validity);
     lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
@@ -217,7 +217,7 @@ JobOutcome Job::run() {
     collect_conditions(out);
     collect_breaches(out);
     tell(others, out);
-    judge_positions(trust, out);
+    judge_positions(validity, out);
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
         if (!axis.servo) continue;
@@ -229,9 +229,9 @@ JobOutcome Job::run() {
 }
 
 /// An axis with an invalid position prevents the next program from starting.
-void Job::judge_positions(TrustWatch& trust, JobOutcome& out) {
-    for (TrustFinding& found : trust.look(true)) {
-        if (found.axis == TrustFinding::no_axis) continue;  // reported with the conditions
+void Job::judge_positions(ValidityWatch& validity, JobOutcome& out) {
+    for (ValidityFinding& found : validity.look(true)) {
+        if (found.axis == ValidityFinding::no_axis) continue;  // reported with the conditions
         if (found.lost) {
             out.position_valid = false;
             reference_.lose(found.axis, std::move(found.text));
@@ -253,8 +253,8 @@ HomingOutcome Job::home(const HomingSettings& settings) {
         while (rack_.axes()[i].config.letter != letter) ++i;
         return i;
     };
-    std::vector<TrustWatch::Mark> found(rack_.axes().size());
-    const TrustWatch watch(rack_);
+    std::vector<ValidityWatch::Mark> found(rack_.axes().size());
+    const ValidityWatch watch(rack_);
     HomingSettings heard = settings;
     heard.on_homed = [&](char letter, Instant since) {
         found[number(letter)] = {since, watch.mark(number(letter)).lost_pulses};

@@ -132,7 +132,7 @@ class Job {
 
     void restart();
     void note_before();
-    void judge_positions(TrustWatch& trust, JobOutcome& out);
+    void judge_positions(ValidityWatch& validity, JobOutcome& out);
     Result<void> drive(control::AxisGroup& axes, JobOutcome& out);
     Result<void> drive_by_stream(control::AxisGroup& axes, const control::ExecutorSettings& settings, JobOutcome& out);
     void programmed(const control::Move& move, const control::Point& start, JobOutcome& out);

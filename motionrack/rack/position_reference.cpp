@@ -48,7 +48,7 @@ double PositionReference::real_origin(std::size_t axis) const {
            static_cast<double>(one.commanded - one.lost_pulses) / rack_.axes()[axis].config.pulses_per_unit();
 }
 
-void PositionReference::set(std::size_t axis, double position, const TrustWatch::Mark& from) {
+void PositionReference::set(std::size_t axis, double position, const ValidityWatch::Mark& from) {
     axes_[axis] = {true, position, commanded(axis), from.lost_pulses, from.at, {}, {}};
 }
 
@@ -58,7 +58,7 @@ void PositionReference::lose(std::size_t axis, std::string why) {
     axes_[axis].lost_at = rack_.kernel().now();
 }
 
-void PositionReference::begin(TrustWatch& watch) const {
+void PositionReference::begin(ValidityWatch& watch) const {
     for (std::size_t i = 0; i < axes_.size(); ++i)
         if (axes_[i].homed) watch.begin(i, {axes_[i].at, axes_[i].lost_pulses});
 }
@@ -67,11 +67,10 @@ Result<void> PositionReference::check() const {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const RunningAxis& axis = rack_.axes()[i];
         if (!axes_[i].lost.empty())
-            return fail(
-                ErrorKind::refused,
-                fmt::format("The position of axis {} is not trusted since {:.6f} s: {}. Nothing was moved; home "
-                            "it, or take another rack.",
-                            axis.config.letter, to_seconds(axes_[i].lost_at), axes_[i].lost));
+            return fail(ErrorKind::refused,
+                        fmt::format("The position of axis {} is not valid since {:.6f} s: {}. Nothing was moved; home "
+                                    "it, or take another rack.",
+                                    axis.config.letter, to_seconds(axes_[i].lost_at), axes_[i].lost));
         const double hz = std::fabs(axis.turned_by().rate(rack_.kernel().now()));
         if (hz > (axis.servo ? standing_servo_hz : 0))
             return fail(

@@ -13,7 +13,7 @@
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
 #include <motionrack/control/move.hpp>
-#include <motionrack/rack/trust.hpp>
+#include <motionrack/rack/validity_watch.hpp>
 #include <string>
 #include <vector>
 
@@ -33,11 +33,11 @@ class PositionReference {
     std::int64_t lost_before(std::size_t axis) const { return axes_[axis].lost_pulses; }
 
     /// Sets the reference of a homed axis; `from`: its step loss up to then.
-    void set(std::size_t axis, double position, const TrustWatch::Mark& from);
+    void set(std::size_t axis, double position, const ValidityWatch::Mark& from);
     /// Invalidates the position. `why`: reason without a full stop; the first one is kept.
     void lose(std::size_t axis, std::string why);
     /// Limits a watch that begins now to events after the references.
-    void begin(TrustWatch& watch) const;
+    void begin(ValidityWatch& watch) const;
     /// Errors: refused if an axis moves or its position is not valid; nothing may start then.
     Result<void> check() const;
     /// Copies the references of the same rack in another simulation.

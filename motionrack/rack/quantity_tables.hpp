@@ -98,7 +98,7 @@ inline constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
     {"lost_counts", "counts that its scale has lost",
      [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, amount},
     {"trusted", "1 while its scale has lost none, else 0",
-     [](RunningStage& stage, Instant) { return stage.scale->trusted() ? 1.0 : 0.0; }, yes_no},
+     [](RunningStage& stage, Instant) { return stage.scale->counts_valid() ? 1.0 : 0.0; }, yes_no},
     {"closed", "1 while its loop is closed, else 0",
      [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, yes_no, has_loop},
     {"following_nm", "following error at the last frame: commanded - measured",

@@ -200,7 +200,7 @@ std::string describe_loop(const sim::Condition& condition, const RackStage& stag
     if (static_cast<LoopCondition>(condition.code) == LoopCondition::stale)
         return fmt::format(
             "stage {}: at {:.6f} s card {} had no frame for two periods and opened its loop: 0 V, its position is not "
-            "trusted",
+            "valid",
             stage.name, at, stage.card);
     return fmt::format(
         "stage {}: at {:.6f} s its following error was {} nm, more than max_following_error_um = {}; card {} opened "

@@ -366,7 +366,7 @@ std::string StopLatch::position_sentence() const {
     std::string out;
     for (std::size_t i = 0; i < reasons.size(); ++i)
         if (!lost[i].empty())
-            out += fmt::format("{}The position of {} is not trusted any more: {}; home again.", out.empty() ? "" : " ",
+            out += fmt::format("{}The position of {} is not valid any more: {}; home again.", out.empty() ? "" : " ",
                                lost[i], reasons[i]);
     return out.empty() ? "The positions are kept." : out;
 }

@@ -35,7 +35,7 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
     {StopSource::following_error,
      "the encoder of an axis that counts less, or more, than its card has sent by more than its "
      "`following_error_alarm_mm` (`_deg`); checked each millisecond",
-     "at any time; the error restarts at 0, the position is not trusted"},
+     "at any time; the error restarts at 0, the position is not valid"},
 }};
 
 constexpr std::string_view begin = R"(# What a stop does
@@ -72,7 +72,7 @@ Closing it moves nothing: a resume does, and brings spindle and coolant back. A 
 A card in service is driven only by its library's functions, which the user calls by hand. Every source stops all
 of its axes at once, without a ramp, within 5 ms, and ends the service with the stop in force; so do, without one, the
 end of the service, lost control, a client that has gone, disabling, an open door and the end of the program. The
-controller then sets the card up again, and the positions of its axes are not trusted.
+controller then sets the card up again, and the positions of its axes are not valid.
 
 Of a real card in service (`motionrack serve --live`) the quick stop of all axes is written through its port, and its
 axes are looked at until they stand. Where the computer refuses the write, or an axis drives on, an alarm says so and
@@ -83,17 +83,19 @@ wired without any software.
 
 )";
 
-constexpr std::string_view trust = R"(
-## Where positions are trusted
-A position is kept where no step can have been lost, and dropped where one may have been:
+constexpr std::string_view validity = R"(
+## When positions are valid
+A position stays valid where no step can have been lost, and becomes invalid where one may have been:
 
 - a ramp loses nothing: the STOP command, limit switches, an alarm of another axis;
 - at a limit switch the chip of an MCX314 that follows a path brakes within the piece that it drives, and ends its
-  pulses where that ends: an axis whose velocity then changed at once by more than its velocity step is not trusted;
+  pulses where that ends: an axis whose velocity then changed at once by more than its velocity step has no valid
+  position;
 - without a ramp (the emergency stop) an axis keeps its position that was not faster than its velocity step,
   which it reaches and leaves at once; so do all axes in a dwell, a hold or at standstill;
-- an axis with a following error above its limit is not trusted: its motor does not follow, or its encoder is dead;
-- an axis whose drive reports an alarm while it moves is not trusted: its motor may not have followed;
+- an axis with a following error above its limit has no valid position: its motor does not follow, or its encoder is
+  dead;
+- an axis whose drive reports an alarm while it moves has no valid position: its motor may not have followed;
 - an axis that a DataBoard 4002 positions by its encoder is still counted, unless its watchdog has reset the card, or it
   does not follow.
 
@@ -152,7 +154,7 @@ std::string safety_reference() {
         out += fmt::format("| {} | {} | {} | {} | {} | {:g} ms{} |\n", reaction.part, sources_of(reaction),
                            category_of(reaction.category), reaction.happens, doer_of(reaction.by),
                            to_seconds(reaction.within) * 1e3, reaction.ramp ? ", then its ramp" : "");
-    out += trust;
+    out += validity;
     out +=
         "## States and sources\nEach cell is the end of a test's name, "
         "`EveryState/AStopInAState.HoldsUntilAReset/..` (`motionrack/operate/test/stop_states_test.cpp`): in that "

@@ -66,7 +66,7 @@ class Machine:
 
     Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; commands are taken between two slices,
     often in the middle of a drive. The same commands at the same times give the same event trace.
-    Axes with a home switch are not trusted before they are homed or declared.
+    Positions of axes with a home switch are not valid before these are homed or declared.
     """
 
     def __init__(self, rack: Rack) -> None:
@@ -160,7 +160,7 @@ class Machine:
 
     def start_program(self, program: str, name: str = "") -> None:
         """Checks the whole program, then starts it: InvalidInput with line and column,
-        Refused unless the machine stands enabled and trusted."""
+        Refused unless the machine stands enabled, with valid positions."""
         self._operated().start_program(program, name)
 
     def hold(self) -> None:

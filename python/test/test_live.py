@@ -254,7 +254,7 @@ class RegistersByHand(OnAFile):
         card = LiveCard(self.place)
         card.library.SetV(1, 1)
         self.path.write_bytes(b"\xff" * 16)
-        with self.assertRaisesRegex(FileError, "no card answers.*their positions are not trusted"):
+        with self.assertRaisesRegex(FileError, "no card answers.*their positions are not valid"):
             card.RR6.read()
         for act in (lambda: card.library.ReadLPS(1), lambda: card.library.moving(1), card.quick_stop, card.close):
             with self.assertRaisesRegex(FileError, "no card answers"):

@@ -96,7 +96,7 @@ class Operating(unittest.TestCase):
         machine.reset()
         machine.wait(lambda status: status.state in ("standstill", "disabled"), timeout=2)
 
-    def test_homing_makes_positions_trusted(self) -> None:
+    def test_homing_makes_positions_valid(self) -> None:
         with Machine.from_file(HOMING) as machine:
             self.assertFalse(all(axis.position_valid for axis in machine.status.axes.values()))
             machine.enable()

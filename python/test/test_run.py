@@ -151,7 +151,7 @@ class Mistakes(unittest.TestCase):
         rack.fault("X", "motor.lose_steps", 64)
         lost = rack.run(TEXT)
         self.assertFalse(lost.position_valid)
-        with self.assertRaisesRegex(Refused, "position of axis X is not trusted"):
+        with self.assertRaisesRegex(Refused, "position of axis X is not valid"):
             rack.run(TEXT)
         self.assertTrue(rack.new_instance().run(TEXT).ok)
 

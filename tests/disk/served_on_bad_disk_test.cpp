@@ -1,5 +1,5 @@
 // A served rack whose disk fails: an order that is not recorded is not acknowledged, the machine holds, and the next
-// start trusts no position. A pairing that is not written is not acknowledged either.
+// start has no valid position. A pairing that is not written is not acknowledged either.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -110,7 +110,7 @@ class AServedRackOnABadDisk : public InFolder {
         }
     }
     /// `before`: where the session before this one left the axis; this one went to `x`.
-    void check_trust(const Session& session, bool lies, double before, double x) const {
+    void check_positions(const Session& session, bool lies, double before, double x) const {
         Served next(arguments(), false);
         if (next.port() == 0) {
             EXPECT_TRUE(lies) << next.said;
@@ -127,7 +127,7 @@ class AServedRackOnABadDisk : public InFolder {
     }
 };
 
-TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndTrustsNoPlaceAfterwards) {
+TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndHasNoValidPositionAfterwards) {
     const BadDiskAhead disk(at("data"), "", at("full"), at("count"));
     {
         Served served(arguments());
@@ -167,7 +167,7 @@ TEST_F(AServedRackOnABadDisk, DoesNotStartWhereTheDiskIsFull) {
     EXPECT_EQ(served.end(SIGTERM), 5);
 }
 
-TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndTrustsNothingWrong) {
+TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsValid) {
     for (const bool first_run : {true, false}) {
         const double before = first_run ? 0 : 0.5, x = 1.5;
         const auto start_anew = [&] {
@@ -182,7 +182,7 @@ TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndTrustsNothingWrong) {
         ASSERT_TRUE(good.arrived);
         ASSERT_EQ(good.code, 0);
         const std::int64_t count = calls();
-        check_trust(good, false, before, x);
+        check_positions(good, false, before, x);
         const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12));
         for (std::int64_t i = 0; i < std::min(count, tried); ++i)
             for (const char* fault : {"fail", "tear", "drop"}) {
@@ -192,7 +192,7 @@ TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndTrustsNothingWrong) {
                 start_anew();
                 const Session session = short_session(plan, x);
                 const bool lies = fault[0] == 'd';
-                check_trust(session, lies, before, x);
+                check_positions(session, lies, before, x);
                 check(session, lies);
             }
     }

@@ -82,8 +82,8 @@ bool take(Fault& fault, const TomlNode& entry) {
         fault.shows = texts_in(entry);
     else if (entry.key == "keeps")
         fault.keeps = entry.text;
-    else if (entry.key == "trusted")
-        fault.trusted = entry.flag;
+    else if (entry.key == "positions_valid")
+        fault.positions_valid = entry.flag;
     else if (entry.key == "exit")
         fault.exit = static_cast<int>(entry.integer);
     else if (entry.key == "alarms")

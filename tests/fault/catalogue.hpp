@@ -41,11 +41,11 @@ struct Fault {
     std::vector<std::string> says;       ///< messages to the user
     std::vector<std::string> shows;      ///< values afterwards: "flex.2.POSITION = 4952", "line.encoder_counts stands"
     std::string keeps;                   ///< description of the data that is kept
-    std::optional<bool> trusted;         ///< for run: whether the positions are valid afterwards
-    int exit = 0;                        ///< exit code of the program
-    std::vector<std::string> alarms;     ///< words of the alarms of a served machine; empty: the first of `says`
-    std::string state;                   ///< state of a served machine afterwards; empty: see state_when_served()
-    Setup setup;                         ///< settings of the group, overridden by those of the fault
+    std::optional<bool> positions_valid;  ///< for run: whether the positions are valid afterwards
+    int exit = 0;                         ///< exit code of the program
+    std::vector<std::string> alarms;      ///< words of the alarms of a served machine; empty: the first of `says`
+    std::string state;                    ///< state of a served machine afterwards; empty: see state_when_served()
+    Setup setup;                          ///< settings of the group, overridden by those of the fault
 
     /// Returns true if the fault is also tested in a served machine. These are faults of parts, cards and wires in a
     /// program or a homing, and stage faults.

@@ -117,7 +117,8 @@ std::string coverage_page(const std::vector<CoverageSection>& sections, const st
                "words, or by the test that is named; {} cannot happen here, for the reason that stands beside them; "
                "missing: {}.\n\nA row is passed at two operating points. Where they stand under \"served at\", too, a "
                "machine that people operate is broken in the same way at both: it raises one alarm with the words of "
-               "the run, and trusts its positions exactly as the run does. The other rows are of files, of the process "
+               "the run, and its positions are valid exactly as in the run. The other rows are of files, of the "
+               "process "
                "and of the network, or of parts that no program drives.\n",
                all, tried, all - tried - missing, missing) +
            tables;

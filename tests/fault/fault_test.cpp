@@ -73,8 +73,8 @@ void AFault::run_program() const {
     std::string said = ran.out + summary["verdict"].get<std::string>();
     for (const json& warning : summary["warnings"]) said += "\n" + warning["text"].get<std::string>();
     expect_words(said);
-    if (fault().trusted) {
-        EXPECT_EQ(summary["position_valid"], *fault().trusted) << said;
+    if (fault().positions_valid) {
+        EXPECT_EQ(summary["position_valid"], *fault().positions_valid) << said;
     }
     if (!fault().within_ms) {
         EXPECT_FALSE(summary.contains("error")) << "it was to go on to its end: " << said;
@@ -137,8 +137,8 @@ void AFault::home() const {
     ASSERT_TRUE(found.is_object()) << ran.out;
     const json& axis = found["axes"][0];
     expect_words(ran.out + axis["sentence"].get<std::string>());
-    if (fault().trusted) {
-        EXPECT_EQ(axis["homed"], *fault().trusted);
+    if (fault().positions_valid) {
+        EXPECT_EQ(axis["homed"], *fault().positions_valid);
     }
     if (fault().within_ms) {
         EXPECT_LE(axis["duration_s"].get<double>(), to_seconds(last_motion()));

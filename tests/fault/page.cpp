@@ -40,8 +40,8 @@ std::string what_is_read(const Fault& fault) {
 }
 
 std::string what_is_kept(const Fault& fault) {
-    if (!fault.trusted) return fault.keeps;
-    return fault.keeps + (*fault.trusted ? "; positions are trusted" : "; positions are not trusted");
+    if (!fault.positions_valid) return fault.keeps;
+    return fault.keeps + (*fault.positions_valid ? "; positions are valid" : "; positions are not valid");
 }
 
 std::string points_text(const std::vector<Point>& points) {

@@ -136,21 +136,20 @@ TEST_P(AServedFault, EndsAsItDoesInARun) {
     const bool lost = lost_steps(served.machine->rack());
     std::vector<testing::Matcher<std::string>> expected;
     for (const std::string& words : fault.alarms_when_served()) expected.push_back(HasSubstr(GetParam().text(words)));
-    if (lost && fault.trusted && *fault.trusted)
-        expected.front() =
-            testing::AllOf(expected.front(), HasSubstr("not trusted any more: steps may have been lost"));
+    if (lost && fault.positions_valid && *fault.positions_valid)
+        expected.front() = testing::AllOf(expected.front(), HasSubstr("not valid any more: steps may have been lost"));
     if (fault.setup.by == "frames") {
         EXPECT_THAT(alarms, testing::AllOf(Not(testing::IsEmpty()), testing::Each(expected.front())))
             << "one of each stage";
     } else {
         EXPECT_THAT(alarms, testing::ElementsAreArray(expected)) << "one cause, one alarm";
     }
-    if (!fault.trusted || fault.setup.by == "frames") return;
-    const bool trusted =
+    if (!fault.positions_valid || fault.setup.by == "frames") return;
+    const bool valid =
         std::all_of(status.axes.begin(), status.axes.end(), [](const auto& axis) { return axis.position_valid; });
-    EXPECT_EQ(trusted, *fault.trusted && !lost);
-    if (!trusted) {
-        EXPECT_THAT(alarms, Contains(HasSubstr("trusted")));
+    EXPECT_EQ(valid, *fault.positions_valid && !lost);
+    if (!valid) {
+        EXPECT_THAT(alarms, Contains(HasSubstr("not valid")));
     }
 }
 

@@ -37,7 +37,7 @@ std::string_view name_of(Rule rule) {
                                                         "a stop stays",
                                                         "a stop is taken",
                                                         "a reset is needed",
-                                                        "a trusted position is true",
+                                                        "a valid position is true",
                                                         "counters are pulses",
                                                         "limits are kept",
                                                         "travel is kept",
@@ -168,14 +168,14 @@ void Invariants::see_positions(const Sight& now) {
         const double by_card = facts_[i].servo ? (axis.commanded - before.commanded) * facts_[i].pulses_per_unit
                                                : static_cast<std::int32_t>(axis.counter - before.counter);
         const bool counts_anew = std::fabs(by_card - by_pulses) > (facts_[i].servo ? 1.5 : 0);
-        const bool becomes_trusted = axis.position_valid && !before.position_valid;
-        const bool homed = (searches_ || searched_) && (counts_anew || becomes_trusted);
-        const bool declared = becomes_trusted && !homed;
+        const bool becomes_valid = axis.position_valid && !before.position_valid;
+        const bool homed = (searches_ || searched_) && (counts_anew || becomes_valid);
+        const bool declared = becomes_valid && !homed;
         const bool stood = operate::idle(now.state) || operate::idle(last_.state);
         const bool again = stood && (knows_orders_ ? may_declare_ : !moved(i, now)) && counts_anew;
         if (homed || declared || again || !axis.position_valid) own.offset = off;
-        if (becomes_trusted) alarm_texts_.clear();  // the same cause may invalidate it again
-        if (homed && becomes_trusted && !search_disturbed_ && std::fabs(off) > home_tolerance)
+        if (becomes_valid) alarm_texts_.clear();  // the same cause may invalidate it again
+        if (homed && becomes_valid && !search_disturbed_ && std::fabs(off) > home_tolerance)
             found(Rule::position_is_true, now.at,
                   fmt::format("axis {} was homed, says {:.5f}, and is at {:.5f}", facts_[i].letter, axis.commanded,
                               axis.true_position));
@@ -193,9 +193,9 @@ void Invariants::see_positions(const Sight& now) {
         if (moves(now.state) && !far) own.off_since = now.at;
         if (late && far)
             found(Rule::position_is_true, now.at,
-                  fmt::format("axis {} is trusted and says {:.5f}, and it is {:.5f} off, since {:.4f} s (state '{}')",
-                              facts_[i].letter, axis.commanded, error, to_seconds(own.off_since),
-                              operate::name_of(now.state)));
+                  fmt::format(
+                      "the position of axis {} is valid, {:.5f}, and it is {:.5f} off, since {:.4f} s (state '{}')",
+                      facts_[i].letter, axis.commanded, error, to_seconds(own.off_since), operate::name_of(now.state)));
     }
 }
 
@@ -367,7 +367,8 @@ void Invariants::see_jumps(const Sight& now) {
         if (own_[i].jumped.empty()) continue;
         const bool stopped = now.state == MachineState::error_stop;
         if (!stopped && (now.latched || now.at - own_[i].jumped_at <= fails_within)) continue;
-        found(Rule::limits_kept, now.at, std::exchange(own_[i].jumped, {}) + (stopped ? ", and it is trusted" : ""));
+        found(Rule::limits_kept, now.at,
+              std::exchange(own_[i].jumped, {}) + (stopped ? ", and its position is valid" : ""));
     }
 }
 

@@ -232,7 +232,7 @@ const Broken broken[] = {
          h.jump(80);
          h.pass(0.03);
      }},
-    {"a_stop_without_a_ramp_that_keeps_trust", Rule::limits_kept,
+    {"a_stop_without_a_ramp_that_keeps_position_valid", Rule::limits_kept,
      [](History& h) {
          h.begin();
          h.latch(true);
@@ -240,7 +240,7 @@ const Broken broken[] = {
          h.to(MachineState::error_stop);
          h.pass(0.1);
      }},
-    {"a_stop_by_a_card_without_a_ramp_that_keeps_trust", Rule::limits_kept,
+    {"a_stop_by_a_card_without_a_ramp_that_keeps_position_valid", Rule::limits_kept,
      [](History& h) {
          h.begin();
          h.jump(0);
@@ -315,7 +315,7 @@ TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayEndPulsesAtOnceIfThatTakesTheTrust) {
+TEST(AGoodHistory, MayEndPulsesAtOnceIfThatInvalidatesThePosition) {
     for (const bool by_card_alone : {false, true}) {
         History h;
         h.begin();

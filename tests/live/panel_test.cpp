@@ -234,8 +234,8 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     until("an alarm", [&] { return !alarm(*served).is_null(); });
     EXPECT_EQ(card.drives(), x_drives);
     EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
-                AllOf(HasSubstr("no card answers"), HasSubstr("positions are not trusted"),
-                      HasSubstr("was not written"), HasSubstr("press the emergency stop that cuts the motors' power")));
+                AllOf(HasSubstr("no card answers"), HasSubstr("positions are not valid"), HasSubstr("was not written"),
+                      HasSubstr("press the emergency stop that cuts the motors' power")));
     const json refused =
         served->post("call", {{"card", "bench"}, {"function", "ReadLPS"}, {"arguments", {{"axis", 1}}}});
     EXPECT_THAT(refused["error"]["message"].get<std::string>(), HasSubstr("no card answers"));

@@ -178,7 +178,8 @@ class Lives {
             if (cut_off_)
                 found({Rule::position_is_true,
                        {},
-                       fmt::format("axis {} is trusted after a run that did not end by itself", kept.letter)});
+                       fmt::format("the position of axis {} is valid after a run that did not end by itself",
+                                   kept.letter)});
             if (std::fabs(kept.true_position - real->true_position) > tolerance() && !lost_at_end_)
                 found({Rule::position_is_true,
                        {},

@@ -253,7 +253,7 @@ export function Functions({ card }: { card: CardInfo }): JSX.Element {
       : 'In service: the controller drives nothing. STOP and every switch stop all axes at once and end the service.'
     : card.axes.length > 0
       ? `The controller drives ${card.axes.map((axis) => axis.letter).join(', ')} with this card. The service takes the ` +
-        'card from it, resets the chip, and leaves positions that are not trusted: home afterwards.'
+        'card from it, resets the chip, and leaves positions that are not valid: home afterwards.'
       : `${card.live === null ? '' : 'A real card. '}No axis of the machine is on this card: the first call begins its service, and resets the chip.`;
   return (
     <Panel title="Functions of its library" class="wide functions" note={told} tools={<Service card={card} />}>

@@ -153,7 +153,7 @@ export function Dro(): JSX.Element {
               Touch off {axisLetter()}
             </ActionButton>
           </span>
-          <span title="In machine coordinates; the position is trusted then">
+          <span title="In machine coordinates; the position is valid then">
             <ActionButton action={actions.declare} icon="check">
               Set {axisLetter()}
             </ActionButton>

@@ -188,7 +188,7 @@ TEST(LivePort, ACardOfWhichEveryRegisterReadsAllOnesDoesNotAnswer) {
             ASSERT_TRUE((*port)->trouble());
             EXPECT_EQ((*port)->trouble()->kind, ErrorKind::io);
             EXPECT_THAT((*port)->trouble()->message,
-                        AllOf(HasSubstr("no card answers at " + path), HasSubstr("not trusted")));
+                        AllOf(HasSubstr("no card answers at " + path), HasSubstr("not valid")));
             (*port)->write(0, 0x2222);
             EXPECT_EQ(bytes_of(path), std::string(4, '\x11') + std::string(4, '\xFF')) << "nothing is written after it";
         }

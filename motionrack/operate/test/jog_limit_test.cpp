@@ -147,7 +147,7 @@ TEST(AJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
     EXPECT_LT(o.x(), 299);
 }
 
-TEST(AJog, WithoutATrustedPositionHasNoSoftLimit) {
+TEST(AJog, WithoutAValidPositionHasNoSoftLimit) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', -10)); });
     o.run(0.2);

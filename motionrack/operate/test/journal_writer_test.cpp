@@ -177,7 +177,7 @@ TEST_F(JournalWriterTest, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     EXPECT_TRUE(last.axes[0].position_valid);
 }
 
-TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
+TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndNoPositionIsValid) {
     open();
     // No entry of the program's end is written: as if it had been killed during the move.
     run(
@@ -189,7 +189,7 @@ TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
             const LastKnownPositions last = read_last(*journal_->before(), table());
             EXPECT_THAT(last.sentence, HasSubstr("was interrupted"));
             EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
-            EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
+            EXPECT_THAT(last.sentence, HasSubstr("No position is valid"));
             EXPECT_NEAR(last.axes[0].true_position, 50, 12);  // at most 0.1 s old
             EXPECT_FALSE(last.axes[0].position_valid);
             m.quit();
@@ -208,7 +208,7 @@ TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
 }
 
-TEST_F(JournalWriterTest, TellsAlarmsSettingsAndLostTrust) {
+TEST_F(JournalWriterTest, TellsAlarmsSettingsAndInvalidPositions) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },
@@ -223,7 +223,7 @@ TEST_F(JournalWriterTest, TellsAlarmsSettingsAndLostTrust) {
     open();
     EXPECT_THAT(texts("setting"), ElementsAre("Feed override 50 %.", "Single block on."));
     EXPECT_THAT(texts("alarm"), Contains(HasSubstr("emergency stop")));
-    EXPECT_THAT(texts("position"), Contains(HasSubstr("not trusted any more")));
+    EXPECT_THAT(texts("position"), Contains(HasSubstr("not valid any more")));
     EXPECT_THAT(texts("job"), Contains(HasSubstr("failed at line 1")));
 }
 
@@ -240,7 +240,7 @@ TEST_F(JournalWriterTest, MakesNothingOfWhatItCannotRead) {
     }
 }
 
-TEST_F(JournalWriterTest, TrustsNothingThatDoesNotFitItsChecksum) {
+TEST_F(JournalWriterTest, InvalidatesPositionsThatDoNotFitTheirChecksum) {
     const std::string kept =
         R"({"axes": [{"letter": "X", "true_position": 5, "commanded": 5, "position_valid": true}]})";
     EXPECT_TRUE(read_last({1, true, 0, {{"machine", kept}}, {}, {}}, table()).axes[0].position_valid);

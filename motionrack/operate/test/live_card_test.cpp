@@ -202,7 +202,7 @@ void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& functi
         ASSERT_EQ(o.alarms().size(), 1U);
         EXPECT_TRUE(o.alarms()[0].active && o.alarms()[0].stays);
         EXPECT_THAT(o.alarms()[0].text,
-                    AllOf(HasSubstr("no card answers"), HasSubstr("their positions are not trusted"),
+                    AllOf(HasSubstr("no card answers"), HasSubstr("their positions are not valid"),
                           HasSubstr("was not written, or had no effect"), HasSubstr("press the emergency stop")));
         file.memory('\xFF');
     });

@@ -209,11 +209,11 @@ TEST(AMachine, OverridesAndSingleStepsAProgram) {
     EXPECT_LT(o.peak_velocity, 10.1);
 }
 
-TEST(AMachine, WithHomeSwitchesTrustsNoPositionUntilItIsHomed) {
+TEST(AMachine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
-        EXPECT_THAT(m.begin_program("G0 X1\n", "p").error().message, HasSubstr("axis X is not trusted"));
-        EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("not trusted"));
+        EXPECT_THAT(m.begin_program("G0 X1\n", "p").error().message, HasSubstr("axis X is not valid"));
+        EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("not valid"));
         EXPECT_TRUE(m.home(""));
     });
     o.at(60, [](Machine& m) {
@@ -237,7 +237,7 @@ TEST(AMachine, StopsItsHoming) {
     EXPECT_FALSE(o.machine->status().axes[0].position_valid);
 }
 
-TEST(AMachine, TrustsADeclaredPosition) {
+TEST(AMachine, TakesADeclaredPositionAsValid) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);

@@ -18,7 +18,7 @@ TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
     EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
 }
 
-TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
+TEST(AMachine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
@@ -42,7 +42,7 @@ TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
         EXPECT_FALSE(m.status().alarms[0].active);
         EXPECT_TRUE(m.acknowledge_alarm(1));
         EXPECT_FALSE(m.acknowledge_alarm(7));
-        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
+        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not valid"));
     });
     o.run(5);
 }

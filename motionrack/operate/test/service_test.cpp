@@ -45,7 +45,7 @@ struct Served : Operated {
     std::vector<std::string> said;
 };
 
-TEST(AService, CallsFunctionsAndGivesTheCardBackUntrusted) {
+TEST(AService, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
     Served o;
     o.begin(0.05);
     o.call(0.1, "SetRange", {{"data", 800'000}});
@@ -60,7 +60,7 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackUntrusted) {
     o.at(0.7, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_EQ(m.status().service, "");
-        EXPECT_FALSE(m.line("G1 X20 F600", 1)) << "not trusted";
+        EXPECT_FALSE(m.line("G1 X20 F600", 1)) << "not valid";
         EXPECT_TRUE(m.set_position('X', 10));
         EXPECT_TRUE(m.set_position('Y', 1));
     });
@@ -69,9 +69,9 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackUntrusted) {
     EXPECT_EQ(o.said,
               (std::vector<std::string>{
                   "Card m is in service: it was reset, and only its functions drive it. The position of X, Y is not "
-                  "trusted any more.",
+                  "valid any more.",
                   "Written.", "Y drives.", "640 pulses",
-                  "The service of card m has ended; the position of X, Y is not trusted: home it, or declare its "
+                  "The service of card m has ended; the position of X, Y is not valid: home it, or declare its "
                   "position."}));
     EXPECT_NEAR(o.x(), 12, 1e-9);
     EXPECT_NEAR(o.y(), 3, 1e-9);
@@ -174,7 +174,7 @@ TEST(AService, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
         EXPECT_EQ(m.status().axes[0].true_position, x) << "it stands within 5 ms, whatever its ramp";
         EXPECT_EQ(m.state(), MachineState::error_stop);
         EXPECT_NE(m.status().reason.find("STOP by bert"), std::string::npos) << m.status().reason;
-        EXPECT_NE(m.status().reason.find("the position of X, Y is not trusted: home it"), std::string::npos)
+        EXPECT_NE(m.status().reason.find("the position of X, Y is not valid: home it"), std::string::npos)
             << m.status().reason;
         EXPECT_FALSE(m.service().on());
     });
@@ -204,7 +204,7 @@ TEST_P(AServiceWithAMovingAxis, StopsAtOnce) {
         EXPECT_FALSE(m.service().on());
         EXPECT_FALSE(m.status().axes[0].position_valid);
         if (m.state() != MachineState::disabled) {
-            EXPECT_NE(m.status().reason.find("not trusted"), std::string::npos) << m.status().reason;
+            EXPECT_NE(m.status().reason.find("not valid"), std::string::npos) << m.status().reason;
         }
     });
     o.run(0.8);

@@ -255,7 +255,7 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
 
 /// The chip ends the pulses of a path at the end of its segment where one of its axes has reached a switch. No edge
 /// sets the latch, because the switch was active before.
-TEST(AStopByACard, TakesTheTrustOfAnAxisWhosePulsesEndWithoutARamp) {
+TEST(AStopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         rack::RackConfig config = router();
         config.controller.profile = profile;
@@ -274,7 +274,7 @@ TEST(AStopByACard, TakesTheTrustOfAnAxisWhosePulsesEndWithoutARamp) {
             ASSERT_EQ(m.state(), MachineState::error_stop) << profile;
             EXPECT_TRUE(m.status().axes[0].position_valid) << profile << ": it was slow where it turned back";
             EXPECT_FALSE(m.status().axes[1].position_valid) << profile;
-            EXPECT_NE(m.status().reason.find("The position of Y is not trusted any more: steps may have been lost"),
+            EXPECT_NE(m.status().reason.find("The position of Y is not valid any more: steps may have been lost"),
                       std::string::npos)
                 << m.status().reason;
         });
@@ -282,7 +282,7 @@ TEST(AStopByACard, TakesTheTrustOfAnAxisWhosePulsesEndWithoutARamp) {
     }
 }
 
-TEST(TheStopLatch, TakesTheTrustAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
+TEST(TheStopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
     Operated o(router());
     o.at(0.05, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));

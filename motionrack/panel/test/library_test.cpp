@@ -70,7 +70,7 @@ TEST(ALibraryOnThePage, IsCalledAndWrittenDown) {
     a.good(0.1, "enable", {{"on", true}});
     a.at(0.2, anna, "service", {{"card", "m"}, {"on", true}}, [](const Answer& answer) {
         EXPECT_EQ(answer.status, 200) << answer.body;
-        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("The position of X is not trusted any more."));
+        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("The position of X is not valid any more."));
     });
     a.good(0.3, "call", call_of("SetRange", {{"data", 800'000}}));
     a.good(0.4, "call",

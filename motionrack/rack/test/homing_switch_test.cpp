@@ -54,7 +54,7 @@ void expect_refused(const HomingOutcome& out, const char* why) {
     EXPECT_EQ(out.ended.error().kind, ErrorKind::machine);
     EXPECT_THAT(out.ended.error().message, HasSubstr("is not sound: it acted"));
     EXPECT_THAT(out.ended.error().message, HasSubstr(why)) << homing_text(out);
-    EXPECT_THAT(out.ended.error().message, HasSubstr("not trusted"));
+    EXPECT_THAT(out.ended.error().message, HasSubstr("not valid"));
     EXPECT_FALSE(out.all_homed());
 }
 

@@ -223,7 +223,7 @@ TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
     EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
 }
 
-TEST(RackHomes, AnAxisThatTheGroupNeverHadIsNotTrusted) {
+TEST(RackHomes, AnAxisThatTheGroupNeverHadHasNoValidPosition) {
     Rack rack(config_of(two_axes));
     rack.start();
     control::Axis* y = *rack.axes()[1].card->axis(rack.config(), 'Y');

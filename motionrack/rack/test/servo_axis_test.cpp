@@ -51,7 +51,7 @@ TEST(ServoAxis, MovesToPlacesInMmAndSaysWhereItIs) {
     EXPECT_TRUE(m.axis->position_valid());
 }
 
-TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoTrust) {
+TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoValidPosition) {
     Machine m;
     EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(m.axis->move_by(50, 20));
@@ -68,7 +68,7 @@ TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
         EXPECT_EQ(done.error().kind, ErrorKind::refused);
         EXPECT_THAT(done.error().message, HasSubstr(why));
     };
-    refused(m.axis->move_to(200, 100), "not trusted");
+    refused(m.axis->move_to(200, 100), "not valid");
     m.here_is(100);
     refused(m.axis->move_to(2'901, 100), "outside its travel of -200 to 2900");
     refused(m.axis->move_by(-301, 100), "outside its travel");
@@ -194,7 +194,7 @@ TEST(ServoAxis, ABrokenWireIsAStop) {
     }
 }
 
-TEST(ServoAxis, TheWatchdogsResetTakesTheTrustAway) {
+TEST(ServoAxis, TheWatchdogsResetInvalidatesThePosition) {
     Machine m;
     m.here_is(100);
     ASSERT_TRUE(m.axis->move_to(2'500, 500));
@@ -273,11 +273,11 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
             if (type % 2 == 0) {
                 EXPECT_NEAR(out.axes[0].counter_position, called, 0.05) << "it stands there";
             }
-            EXPECT_THAT(homing_text(out), HasSubstr("the position is trusted"));
+            EXPECT_THAT(homing_text(out), HasSubstr("the position is valid"));
         }
 }
 
-TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndIsNotTrusted) {
+TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndItsPositionIsNotValid) {
     for (const char* wires : {"[wires]\n\"board.ref\" = \"open\"\n", "[wires]\n\"board.ref\" = \"X.limit_plus\"\n"}) {
         const RackReading reading = read_rack_text(carriage("", wires));
         ASSERT_TRUE(reading.config);

@@ -170,7 +170,7 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
         const StoppedRun pieces = run_stopped(jerk, fast, {switches});
         ASSERT_FALSE(pieces.outcome.ended) << switches;
         EXPECT_FALSE(pieces.outcome.position_valid) << switches << ": it went from 100 mm/s to 0 at once";
-        EXPECT_THAT(pieces.error(), HasSubstr("The position of X is not trusted any more: steps may have been lost"));
+        EXPECT_THAT(pieces.error(), HasSubstr("The position of X is not valid any more: steps may have been lost"));
     }
     const StoppedRun slow = run_stopped(jerk, "G21 G90\nG1 X200 F60\nM2\n", {"X.limit_plus=0@1s"});
     EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step";

@@ -181,7 +181,7 @@ void LinearScale::rate_changed(double before, double rate, Instant now) {
     const bool was = state_.too_fast != 0, fast = std::fabs(rate) * counts_per_place() > settings_.max_count_rate;
     if (fast && !was) {
         state_.frozen = count(now);
-        state_.too_fast = state_.untrusted = 1;
+        state_.too_fast = state_.counts_invalid = 1;
         const double counts = state_.direction * rate * counts_per_place();
         report(AxisCondition::scale_too_fast, nearest(counts), nearest(settings_.max_count_rate));
     } else if (was && !fast) {
@@ -253,7 +253,7 @@ bool LinearScale::fault(std::string_view name, double value, Instant now) {
         state_.frozen -= counts;
         state_.shown -= counts;
         state_.lost += counts < 0 ? -counts : counts;
-        state_.untrusted = 1;
+        state_.counts_invalid = 1;
         report(AxisCondition::scale_lost, counts, state_.lost);
     } else if (name == "scale.dirt" && value >= 0 && value <= 1e9) {
         state_.dirt = nearest(value / nm_per_count());

@@ -71,9 +71,9 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
         return static_cast<double>(count(t) * (settings_.reversed ? -1 : 1)) * nm_per_count();
     }
     /// False if counts were lost since the start or the last reference().
-    bool trusted() const { return state_.untrusted == 0; }
+    bool counts_valid() const { return state_.counts_invalid == 0; }
     /// Marks the scale as referenced: earlier losses no longer matter.
-    void reference() { state_.untrusted = 0; }
+    void reference() { state_.counts_invalid = 0; }
     /// Total of lost counts.
     std::int64_t lost() const { return state_.lost; }
     bool too_fast() const { return state_.too_fast != 0; }
@@ -107,7 +107,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
         std::int32_t direction = 1;
         std::int32_t swapped = 0;
         std::int32_t too_fast = 0;
-        std::int32_t untrusted = 0;
+        std::int32_t counts_invalid = 0;
         std::int32_t wanted = 0;  ///< bit i: wire i
         std::int32_t reserved = 0;
     };

@@ -124,7 +124,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     rig.run(10);
     EXPECT_NEAR(static_cast<double>(rig.count() - from), 200e6 * 0.999'999, 2);
     EXPECT_LT(rig.kernel.events() - events, 10u);
-    EXPECT_TRUE(rig.scale.trusted());
+    EXPECT_TRUE(rig.scale.counts_valid());
     // 2 m are more counts of a finer scale than 32 bits hold; a card that stores the low 32 bits finds the others from
     // its last reading.
     LinearScaleSettings fine;
@@ -223,7 +223,7 @@ TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
     rig.volts(1);  // 5 m/s2: too fast after 0.9766 ms
     rig.run(2e-3);
     EXPECT_TRUE(rig.scale.too_fast());
-    EXPECT_FALSE(rig.scale.trusted());
+    EXPECT_FALSE(rig.scale.counts_valid());
     const std::int64_t frozen = rig.count();
     EXPECT_NEAR(static_cast<double>(frozen), 0.5 * 1e6 * 0.9765625e-3, 2);
     EXPECT_EQ(rig.scale.rate(rig.kernel.now()), 0);
@@ -239,7 +239,7 @@ TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
     EXPECT_NE(describe(conditions[0], "s").find("above the 1000000 counts/s of its electronics"), std::string::npos);
     EXPECT_NE(describe(conditions[1], "s").find("it counts again and has lost"), std::string::npos);
     rig.scale.reference();
-    EXPECT_TRUE(rig.scale.trusted());
+    EXPECT_TRUE(rig.scale.counts_valid());
 }
 
 TEST(LinearScale, FaultsChangeTheMeasureAndNothingElse) {

@@ -23,7 +23,7 @@ tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
     const std::string where =
         state_ == State::idle ? "Nothing was moved" : fmt::format("It was stopped in {}", state_name());
     return fail(ErrorKind::machine,
-                fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
+                fmt::format("Homing of axis {}: {}. {}; the position is not valid.", frame_.name, why, where));
 }
 
 // ---- start and end
@@ -66,7 +66,7 @@ void HomeSearch::fail_with(const Error& error, Instant now) {
 
 void HomeSearch::stop() {
     if (!running()) return;
-    fail_with({ErrorKind::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.",
+    fail_with({ErrorKind::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not valid.",
                                                frame_.name, state_name())},
               host_.now());
 }

@@ -41,7 +41,7 @@ Result<void> PositionAxis::set_up() {
     MOTIONRACK_CHECK(driver_.set_slope(table_));
     MOTIONRACK_TRY(last_counts_, driver_.position());
     doing_ = Doing::nothing;
-    trusted_ = unanswered_ = false;
+    position_valid_ = unanswered_ = false;
     set_up_at_ = host_.now();
     error_.reset();
     return {};
@@ -95,7 +95,7 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
     MOTIONRACK_CHECK(driver_.set_target(target));
     MOTIONRACK_TRY(const Events old, driver_.enable_events(event::POSITION | event::STOP));
     if (old.was_reset()) {
-        trusted_ = false;
+        position_valid_ = false;
         return refuse(
             what,
             "the card was reset since it was set up; its table and position are lost. Home it, or declare its "
@@ -109,7 +109,8 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
 
 Result<void> PositionAxis::move_to(double position, double speed) {
     const control::AxisLimits& limits = settings_.limits;
-    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or set its position with set_position");
+    if (!position_valid_)
+        return refuse("Move", "its position is not valid; home it, or set its position with set_position");
     if (!(position >= limits.min_position && position <= limits.max_position))
         return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
                                           limits.min_position, limits.max_position));
@@ -128,7 +129,7 @@ Result<void> PositionAxis::move_by(double distance, double speed) {
             fmt::format("it leads to {:.0f} counts, but the card's positions are {} to {} and its moves up to {}",
                         target, map::min_24, map::max_24, max_move_counts));
     const double there = offset_ + target / settings_.counts_per_unit, rounding = 1 / settings_.counts_per_unit;
-    if (trusted_ &&
+    if (position_valid_ &&
         (there < settings_.limits.min_position - rounding || there > settings_.limits.max_position + rounding))
         return refuse("Move", fmt::format("{:.4f} {} is outside its travel of {} to {}", there, settings_.unit,
                                           settings_.limits.min_position, settings_.limits.max_position));
@@ -152,8 +153,9 @@ Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     const auto limit = static_cast<std::int64_t>(forward ? std::floor(counts_to_end + count_slack)
                                                          : std::ceil(counts_to_end - count_slack));
     const std::int64_t most = forward ? map::max_24 : map::min_24;
-    const std::int64_t target = std::clamp(trusted_ ? limit : most, std::max(map::min_24, here - max_move_counts),
-                                           std::min(map::max_24, here + max_move_counts));
+    const std::int64_t target =
+        std::clamp(position_valid_ ? limit : most, std::max(map::min_24, here - max_move_counts),
+                   std::min(map::max_24, here + max_move_counts));
     if (forward ? target <= here : target >= here) return refuse("Jog", "it stands at the end of its travel");
     MOTIONRACK_CHECK(begin("Jog", target, rate, forward));
     doing_ = Doing::jogging;
@@ -204,7 +206,7 @@ void PositionAxis::look_at_progress(Instant now) {
     if (gone >= min_progress) return;
     end_with({ErrorKind::machine,
               fmt::format("Axis {} does not follow: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was "
-                          "ended and the position is not trusted: the motor is held or has no voltage, or its encoder "
+                          "ended and the position is not valid: the motor is held or has no voltage, or its encoder "
                           "is not counted. Check both, then home it.",
                           settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
                           offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
@@ -261,7 +263,7 @@ void PositionAxis::rest(Instant now) {
 /// `counted`: the card answers and counts, so the position stays valid.
 void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
-    trusted_ = trusted_ && counted;
+    position_valid_ = position_valid_ && counted;
     unanswered_ = unanswered_ || !counted;
     hold_after_ = false, next_jog_ = 0;
     static_cast<void>(driver_.quit());
@@ -281,7 +283,7 @@ Result<void> PositionAxis::set_position(double position) {
     if (unanswered_ || driver_.met_reset()) MOTIONRACK_CHECK(set_up());
     MOTIONRACK_TRY(const std::int64_t here, counts());
     offset_ = position - static_cast<double>(here) / settings_.counts_per_unit;
-    trusted_ = true;
+    position_valid_ = true;
     return {};
 }
 
@@ -304,7 +306,7 @@ Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now
         std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(max_move_counts)));
     frame.offset = offset_;
     frame.settle = settings_.settle;
-    trusted_ = hold_after_ = false;
+    position_valid_ = hold_after_ = false;
     error_.reset();
     search_.begin(order, frame, now);
     if (!driver_.met_reset()) return {};

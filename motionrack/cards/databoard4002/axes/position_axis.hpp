@@ -53,7 +53,7 @@ class PositionAxis final : public control::Axis {
     Result<void> wait(Duration timeout) override;
 
     control::AxisState state() override;
-    bool position_valid() const override { return trusted_; }
+    bool position_valid() const override { return position_valid_; }
     double position() override;
     double measured_position() override { return position(); }
     /// The position where the card's counter is 0.
@@ -90,7 +90,7 @@ class PositionAxis final : public control::Axis {
     HomeSearch search_;
     double offset_ = 0;  // the position where the counter is 0
     std::int64_t last_counts_ = 0;
-    bool trusted_ = false;
+    bool position_valid_ = false;
     bool unanswered_ = false;  // the card may have been reset since set_up()
     Instant set_up_at_{};
     bool forward_ = true;

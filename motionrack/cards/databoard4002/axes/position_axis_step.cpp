@@ -24,7 +24,7 @@ void PositionAxis::look_at_events(Instant now) {
         return end_with(
             {ErrorKind::machine,
              fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
-                         "trusted. Home it, which initialises the card again.",
+                         "valid. Home it, which initialises the card again.",
                          settings_.name)});
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
     if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping))
@@ -57,7 +57,7 @@ void PositionAxis::settle(Instant now) {
     // It hung for less than its watchdog allows, and drives on by its last commands.
     const bool drives_on = here && driver_.quit_due();
     if (!here || (drives_on && !driver_.quit())) {
-        trusted_ = false, unanswered_ = true;
+        position_valid_ = false, unanswered_ = true;
         if (!here && !error_) error_ = here.error();
         if (now - still_since_ > watchdog_rest) doing_ = Doing::nothing;  // until then it may still drive
         return;
@@ -82,7 +82,7 @@ void PositionAxis::step(Instant now) {
         search_.step(now);
         if (search_.homed()) {
             offset_ = search_.home_position();
-            trusted_ = true;
+            position_valid_ = true;
         } else if (!search_.running()) {
             rest(now);
         }

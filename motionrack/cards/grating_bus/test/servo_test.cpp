@@ -162,7 +162,7 @@ TEST(ServoLoop, FollowsAScanWithinAFewTensOfNanometres) {
     EXPECT_LT(worst, 60);
     EXPECT_EQ(axis.loop.error().frames, 5'000u);
     EXPECT_EQ(axis.loop.unused(), 0u);
-    EXPECT_TRUE(axis.scale.trusted());
+    EXPECT_TRUE(axis.scale.counts_valid());
 }
 
 TEST(ServoLoop, SettlesAfterAStepAndHoldsAgainstFriction) {

@@ -29,16 +29,16 @@ Result<void> SingleAxis::prepare(Driver& driver) {
 }
 
 Result<void> SingleAxis::set_up() {
-    trust(false);
+    set_position_valid(false);
     MOTIONRACK_CHECK(driver_.LPS(mask(), 0));
     MOTIONRACK_CHECK(driver_.EPS(mask(), 0));
     return write_travel(driver_, settings_.channel, settings_.limits);
 }
 
-Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool trusted) {
+Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool valid) {
     MOTIONRACK_CHECK(driver_.LPS(mask(), pulses));
     MOTIONRACK_CHECK(driver_.EPS(mask(), counts));
-    trust(trusted);
+    set_position_valid(valid);
     return {};
 }
 
@@ -91,7 +91,8 @@ Result<void> SingleAxis::begin_move(double distance, double speed) {
 
 Result<void> SingleAxis::move_to(double position, double speed) {
     const control::AxisLimits& limits = settings_.limits;
-    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or set its position with set_position");
+    if (!position_valid_)
+        return refuse("Move", "its position is not valid; home it, or set its position with set_position");
     MOTIONRACK_CHECK(check_speed("Move", speed));
     if (!(position >= limits.min_position && position <= limits.max_position))
         return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit,
@@ -103,7 +104,7 @@ Result<void> SingleAxis::move_to(double position, double speed) {
 }
 
 Result<void> SingleAxis::move_by(double distance, double speed) {
-    if (trusted_) return move_to(real_.position() + distance, speed);
+    if (position_valid_) return move_to(real_.position() + distance, speed);
     MOTIONRACK_CHECK(check_speed("Move", speed));
     const double most = max_pulses / settings_.limits.pulses_per_unit;
     if (!(std::fabs(distance) <= most))
@@ -126,7 +127,7 @@ ManualTravel SingleAxis::travel() const {
 Result<void> SingleAxis::check_travel(double speed) {
     const bool negative = speed < 0;
     const std::int64_t at = driver_.ReadLPS(settings_.channel);
-    if (!trusted_ || (negative ? at > travel().min : at < travel().max)) return {};
+    if (!position_valid_ || (negative ? at > travel().min : at < travel().max)) return {};
     return refuse("Jog", fmt::format("it stands at the {} end of its travel, {} {}; move it in {} direction",
                                      negative ? "-" : "+",
                                      negative ? settings_.limits.min_position : settings_.limits.max_position,
@@ -145,7 +146,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
         manual.sv = setting.start_speed.value;
         manual.a = setting.acceleration.value;
         manual.hold = settings_.hold;
-        if (trusted_) manual.travel = travel();
+        if (position_valid_) manual.travel = travel();
         MOTIONRACK_CHECK(manual_.set(manual));
     }
     const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
@@ -220,7 +221,7 @@ Result<void> SingleAxis::home(const control::HomingRequest& order, Instant now) 
     MOTIONRACK_TRY(const HomeSettings settings, home_settings(order));
     MOTIONRACK_CHECK(check_free("Homing"));
     MOTIONRACK_CHECK(home_.start(settings, now));
-    trust(false);
+    set_position_valid(false);
     jogged_ = stopping_ = false;
     return {};
 }
@@ -265,8 +266,8 @@ control::HomingResult SingleAxis::home_outcome() const {
 // ---- position, stops
 
 /// The software limits are enabled exactly while the position is valid.
-void SingleAxis::trust(bool on) {
-    trusted_ = on;
+void SingleAxis::set_position_valid(bool on) {
+    position_valid_ = on;
     const unsigned rest = driver_.mode2(settings_.channel) & ~software_limits;
     driver_.WriteMode2(mask(), static_cast<std::uint16_t>(on ? rest | software_limits : rest));
 }
@@ -280,7 +281,7 @@ Result<void> SingleAxis::set_position(double position) {
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)
         MOTIONRACK_CHECK(driver_.EPS(mask(), nearest_pulse(position, settings_.counts_per_unit)));
-    trust(true);
+    set_position_valid(true);
     return {};
 }
 
@@ -297,7 +298,7 @@ void SingleAxis::stop_now() {
     driver_.QuickStop(mask());
     home_.stop();
     manual_.stop();
-    if (trusted_ && speed > settings_.limits.max_velocity_step) trust(false);
+    if (position_valid_ && speed > settings_.limits.max_velocity_step) set_position_valid(false);
     stopping_ = driver_.moving(mask());
 }
 
@@ -306,13 +307,13 @@ void SingleAxis::stop_now() {
 /// Handles the end of a drive: checks whether the cause was an immediate stop.
 void SingleAxis::note_end() {
     const DriveStatus status = driver_.axis_status(settings_.channel);
-    if (trusted_ && (status.alarm() || status.emergency())) trust(false);
+    if (position_valid_ && (status.alarm() || status.emergency())) set_position_valid(false);
 }
 
 void SingleAxis::step(Instant now) {
     if (home_.running()) {
         home_.step(now);
-        if (!home_.running() && home_.homed()) trust(true);
+        if (!home_.running() && home_.homed()) set_position_valid(true);
         return;
     }
     if (manual_.state() != ManualState::standing) {
@@ -352,9 +353,10 @@ Result<void> SingleAxis::wait(Duration timeout) {
                                                     settings_.name, position(), settings_.unit));
     const std::string why = jogged_ ? manual_.why_ended() : driver_.axis_status(settings_.channel).why_stopped();
     if (!homing && !why.empty())
-        return fail(ErrorKind::machine,
-                    fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
-                                why, trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
+        return fail(
+            ErrorKind::machine,
+            fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit, why,
+                        position_valid_ ? "Move it the other way." : "Its position is not valid; home it."));
     return {};
 }
 

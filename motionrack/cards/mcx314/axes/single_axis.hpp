@@ -32,7 +32,7 @@ class SingleAxis final : public control::Axis {
     /// Sets the counters to 0 and disables the software limits: the position is invalid.
     Result<void> set_up();
     /// Restores the counters to their values before the chip was reset; call after set_up().
-    Result<void> go_on(std::int64_t pulses, std::int64_t counts, bool trusted);
+    Result<void> go_on(std::int64_t pulses, std::int64_t counts, bool valid);
 
     Result<void> move_to(double position, double speed) override;
     Result<void> move_by(double distance, double speed) override;
@@ -44,7 +44,7 @@ class SingleAxis final : public control::Axis {
     void step(Instant now) override;
     Result<void> wait(Duration timeout) override;
     control::AxisState state() override;
-    bool position_valid() const override { return trusted_; }
+    bool position_valid() const override { return position_valid_; }
     double position() override { return real_.position(); }
     double measured_position() override { return real_.encoder_position(); }
     std::string_view home_state() const override { return home_.state(); }
@@ -63,7 +63,7 @@ class SingleAxis final : public control::Axis {
     Result<void> begin_move(double distance, double speed);
     ManualTravel travel() const;
     Result<void> check_travel(double speed);
-    void trust(bool on);
+    void set_position_valid(bool on);
     void note_end();
     RealDrive drive_at(double speed, bool with_jerk) const;
     bool busy() { return driver_.moving(mask()) || home_.running() || manual_.state() != ManualState::standing; }
@@ -73,7 +73,7 @@ class SingleAxis final : public control::Axis {
     RealAxis real_;
     Home home_;
     Manual manual_;
-    bool trusted_ = false;
+    bool position_valid_ = false;
     bool moving_ = false;  ///< own move whose end has not been evaluated
     bool jogged_ = false;  ///< the last motion was a jog
     bool stopping_ = false;

@@ -70,8 +70,8 @@ constexpr HomeState zero_start = {
     "ZERO_START", "LP and EP are given the home position", HomingAction::zero, {{{done, "HOMED"}}}};
 constexpr HomeState stopping_wait = {
     "STOPPING_WAIT", "decelerates after a failure or stop()", HomingAction::wait_stop, {{{done, "FAILED"}}}};
-constexpr HomeState homed = {"HOMED", "stands at home, the position is trusted", HomingAction::end};
-constexpr HomeState failed = {"FAILED", "stands, the position is not trusted", HomingAction::end};
+constexpr HomeState homed = {"HOMED", "stands at home, the position is valid", HomingAction::end};
+constexpr HomeState failed = {"FAILED", "stands, the position is not valid", HomingAction::end};
 
 // ---- the types
 

@@ -226,7 +226,7 @@ std::string Home::why_failed(const PollData& look) const {
             what = "it was stopped on request", next = "";
             break;
     }
-    return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not trusted. {} again.", axis, what,
+    return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not valid. {} again.", axis, what,
                        look.driving ? "still moves after a stop command, at" : "was stopped and stands at",
                        place(look.lp), next.empty() ? "Home it" : fmt::format("{}, then home", next));
 }

@@ -23,7 +23,7 @@ void run_out(HomeRig& rig, Home& one) {
     step_until(rig, one, [] { return false; });
 }
 
-TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotTrusted) {
+TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotValid) {
     for (int type = 1; type <= 5; ++type) {
         for (const HomeState& state : home_table(type).states) {
             const bool waits = state.does == HomingAction::wait_end || state.does == HomingAction::wait_steady;
@@ -58,7 +58,7 @@ TEST(HomingStops, AfterTheEndAStopDoesNothing) {
     EXPECT_TRUE(one.homed());
 }
 
-TEST(HomingStops, ANewStartTakesTheTrustAwayAndARefusedOneDoesNot) {
+TEST(HomingStops, ANewStartInvalidatesThePositionAndARefusedOneDoesNot) {
     HomeRig rig;
     rig.start();
     Home one(rig.driver, 0);

@@ -95,7 +95,7 @@ TEST(Homing, ThePlaceOfHomeIsGivenToBothCounters) {
     EXPECT_DOUBLE_EQ(rig.position(), 1.0);
 }
 
-TEST(Homing, TheModesAreAsBeforeAndTheSoftwareLimitsReturnWithTheTrust) {
+TEST(Homing, TheModesAreAsBeforeAndTheSoftwareLimitsReturnWithAValidPosition) {
     HomeRig rig;
     rig.start();
     rig.driver.WriteMode1(1, 0x8000);
@@ -172,7 +172,7 @@ TEST_P(EachType, ReportsASwitchThatIsMissing) {
     EXPECT_EQ(done.error().kind, ErrorKind::machine);
     EXPECT_THAT(done.error().message, HasSubstr("the home switch (IN0, active Low) was not found"));
     EXPECT_THAT(done.error().message, HasSubstr("a limit switch ended the search in - direction"));
-    EXPECT_THAT(done.error().message, HasSubstr("not trusted"));
+    EXPECT_THAT(done.error().message, HasSubstr("not valid"));
     EXPECT_FALSE(rig.driver.moving(1));
 }
 
@@ -226,7 +226,7 @@ TEST(Homing, ReportsAnIndexThatIsNeverSeen) {
     }
 }
 
-TEST(Homing, TrustsNoIndexThatIsNotWhereItShouldBe) {
+TEST(Homing, AcceptsNoIndexThatIsNotWhereItShouldBe) {
     for (const int type : {3, 4}) {
         HomeRig found({RigAxis{}});
         found.start();
@@ -249,7 +249,7 @@ TEST(Homing, TrustsNoIndexThatIsNotWhereItShouldBe) {
     }
 }
 
-TEST(Homing, RefusesToTrustAnIndexAtTheSwitchItself) {
+TEST(Homing, RefusesAnIndexAtTheSwitchItself) {
     HomeRig rig({RigAxis{.start_mm = 21}});  // the index is at 1 mm, where the switch acts
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(4));

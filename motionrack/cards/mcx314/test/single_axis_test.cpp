@@ -45,12 +45,12 @@ struct AxisRig : HomeRig {
     SingleAxis x;
 };
 
-TEST(SingleAxis, IsNotTrustedUntilItIsHomedAndThenCountsAsTheMachineStands) {
+TEST(SingleAxis, HasNoValidPositionUntilItIsHomedAndThenCountsAsTheMachineStands) {
     AxisRig rig;
     EXPECT_FALSE(rig.x.position_valid());
     const Result<void> refused = rig.x.move_to(10, 20);
     ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr("not trusted; home it"));
+    EXPECT_THAT(refused.error().message, HasSubstr("not valid; home it"));
     rig.home();
     EXPECT_TRUE(rig.x.position_valid());
     EXPECT_DOUBLE_EQ(rig.x.position(), 1.0);
@@ -82,7 +82,7 @@ TEST(SingleAxis, TellsWhatTheHomingFoundInMillimetres) {
     EXPECT_NEAR(out.moved_by, 1.0 + 20.0, 1e-9) << "the counter said -20 mm at the place that is 1 mm";
 }
 
-TEST(SingleAxis, SoftwareLimitsAreInForceExactlyWhileItIsTrusted) {
+TEST(SingleAxis, SoftwareLimitsAreInForceExactlyWhileThePositionIsValid) {
     AxisRig rig;
     EXPECT_EQ(rig.driver.mode2(0) & 3, 0);
     rig.home();
@@ -146,7 +146,7 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
     EXPECT_THAT(message(rig.x.set_position(0)), HasSubstr("it moves"));
 }
 
-TEST(SingleAxis, ADeceleratingStopKeepsTheTrustAndAnImmediateOneAtSpeedTakesIt) {
+TEST(SingleAxis, ADeceleratingStopKeepsThePositionValidAndAnImmediateOneAtSpeedDoesNot) {
     AxisRig rig;
     rig.home();
     ASSERT_TRUE(rig.x.move_to(200, 50));
@@ -165,7 +165,7 @@ TEST(SingleAxis, ADeceleratingStopKeepsTheTrustAndAnImmediateOneAtSpeedTakesIt) 
     EXPECT_NE(rig.machines[0]->lost_steps(), 0) << "and rightly so";
 }
 
-TEST(SingleAxis, AnEmergencyStopTakesTheTrust) {
+TEST(SingleAxis, AnEmergencyStopInvalidatesThePosition) {
     AxisRig rig;
     rig.home();
     ASSERT_TRUE(rig.x.move_to(200, 50));
@@ -173,7 +173,7 @@ TEST(SingleAxis, AnEmergencyStopTakesTheTrust) {
     rig.hold_wire("c.emgn", 0);
     const Result<void> ended = rig.x.wait(whole_seconds(5));
     ASSERT_FALSE(ended);
-    EXPECT_THAT(ended.error().message, HasSubstr("Its position is not trusted; home it."));
+    EXPECT_THAT(ended.error().message, HasSubstr("Its position is not valid; home it."));
     EXPECT_EQ(rig.x.state(), AxisState::error);
     EXPECT_FALSE(rig.x.position_valid());
 }
@@ -190,7 +190,7 @@ TEST(SingleAxis, JogsInMillimetresAndOnlyWhileItIsRenewed) {
     ASSERT_TRUE(rig.x.wait(whole_seconds(5)));
     EXPECT_EQ(rig.x.state(), AxisState::standstill);
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
-    ASSERT_TRUE(rig.x.move_by(-1.5, 10)) << "a step, without trust";
+    ASSERT_TRUE(rig.x.move_by(-1.5, 10)) << "a step, without a valid position";
     const double before = rig.position();
     ASSERT_TRUE(rig.x.wait(whole_seconds(5)));
     EXPECT_NEAR(rig.position(), before - 1.5, 1e-9);

@@ -202,7 +202,7 @@ TEST(CHome, FindsTheSwitchesAndReportsAsTheCommandLine) {
     World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     EXPECT_THAT(mr_report(world), HasSubstr("axis X  method 2"));
-    EXPECT_THAT(mr_report(world), HasSubstr("the position is trusted"));
+    EXPECT_THAT(mr_report(world), HasSubstr("the position is valid"));
     EXPECT_THAT(mr_report(world), HasSubstr("all homed in"));
     EXPECT_NEAR(world.part("X.position_mm"), 1, 0.01);
     EXPECT_GT(mr_now_ns(world), 100'000'000u);

@@ -162,7 +162,7 @@ TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
     EXPECT_THAT(mr_last_error(), HasSubstr("64 pulses"));
     const std::uint64_t hash = world.hash();
     run(world, to_20_0, MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not trusted since"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not valid since"));
     EXPECT_THAT(mr_last_error(), HasSubstr("home it"));
     EXPECT_EQ(world.hash(), hash);
     {
@@ -199,7 +199,7 @@ TEST(CPrograms, AfterAnEmergencyStopAxesAreHomedAndProgramsRunAgain) {
                                  world.rack};
     run(world, to_15_10, MR_MACHINE, &options);
     run(world, to_15_10, MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not trusted"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("The position of axis X is not valid"));
     world.set("estop", 1);
     ASSERT_EQ(mr_home(world, "X"), MR_OK) << mr_last_error();
     EXPECT_EQ(run(world, to_15_10).ok, 1);

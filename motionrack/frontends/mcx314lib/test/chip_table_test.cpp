@@ -112,7 +112,7 @@ TEST(Mcx314libChips, ARealCardThatAnswersNoMoreIsAnErrorOfEachCall) {
     EXPECT_EQ(mcx314_moving(x), -1);
     const std::string gone = mcx314_last_error();
     EXPECT_THAT(gone, HasSubstr("no card answers at "));
-    EXPECT_THAT(gone, HasSubstr("their positions are not trusted"));
+    EXPECT_THAT(gone, HasSubstr("their positions are not valid"));
     mcx314_clear_error();
     EXPECT_EQ(ReadLPS(x), 0u) << "not the -1 of an empty slot";
     EXPECT_THAT(mcx314_last_error(), HasSubstr("ReadLPS: Every register reads FFFFh"));

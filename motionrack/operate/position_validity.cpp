@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <motionrack/operate/trust.hpp>
+#include <motionrack/operate/position_validity.hpp>
 #include <utility>
 
 namespace motionrack::operate {
@@ -16,24 +16,24 @@ constexpr int max_takes = 3;
 
 }  // namespace
 
-std::size_t Trust::index(char letter) const {
+std::size_t PositionValidity::index(char letter) const {
     return static_cast<std::size_t>(rack_.config().axis(letter)->index());
 }
 
-std::size_t Trust::number(char letter) const {
+std::size_t PositionValidity::number(char letter) const {
     const auto& axes = rack_.axes();
     const auto found =
         std::find_if(axes.begin(), axes.end(), [letter](const auto& axis) { return axis.config.letter == letter; });
     return static_cast<std::size_t>(found - axes.begin());
 }
 
-void Trust::begin(char letter, const rack::TrustWatch::Mark& from) {
-    trusted_[index(letter)] = true;
+void PositionValidity::begin(char letter, const rack::ValidityWatch::Mark& from) {
+    valid_[index(letter)] = true;
     watch_.begin(number(letter), from);
 }
 
 /// A servo may be pushed before its card has taken the position over, which takes it some milliseconds.
-Result<void> Trust::take(control::Axis& axis, const Declared& declared) {
+Result<void> PositionValidity::take(control::Axis& axis, const Declared& declared) {
     const auto moved = [&] { return watch_.moved_since(number(declared.letter), declared.stood); };
     for (int i = 0; i < max_takes; ++i) {
         const double before = moved();
@@ -44,39 +44,38 @@ Result<void> Trust::take(control::Axis& axis, const Declared& declared) {
     return {};
 }
 
-void Trust::begin_at_home(char letter, Instant since) {
+void PositionValidity::begin_at_home(char letter, Instant since) {
     begin(letter, {since, watch_.mark(number(letter)).lost_pulses});
 }
 
 /// The counters of a reset card are meaningless immediately. During a stop, the stop's own alarm reports this.
-void Trust::lose_reset(bool comes_to_rest, std::vector<Alarm>& out) {
+void PositionValidity::invalidate_reset(bool comes_to_rest, std::vector<Alarm>& out) {
     const rack::StopLatch& latch = rack_.stop_latch();
     if (std::exchange(trips_, latch.trips()) == latch.trips() || !latch.tripped_by(rack::StopSource::watchdog)) return;
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (latch.keeps_position(axis.index()) || !of(axis.letter)) continue;
-        lose(axis.letter);
+        invalidate(axis.letter);
         if (comes_to_rest) continue;
         Alarm& alarm = out.emplace_back();
         alarm.source = "position";
         alarm.axis = axis.letter;
-        alarm.text =
-            fmt::format("The watchdog of card {} restarted it. The position of axis {} is not trusted any more.",
-                        axis.card, axis.letter);
+        alarm.text = fmt::format("The watchdog of card {} restarted it. The position of axis {} is not valid any more.",
+                                 axis.card, axis.letter);
     }
 }
 
 /// During homing positions are not known yet; during a stop, the stop's own alarm reports the losses.
-std::vector<Alarm> Trust::look(Instant now, MachineState state) {
+std::vector<Alarm> PositionValidity::look(Instant now, MachineState state) {
     std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;
     rack_.stop_latch().following().look(now);
     const bool comes_to_rest = rack_.stop_latch().latched() && state != MachineState::error_stop;
-    lose_reset(comes_to_rest, out);
+    invalidate_reset(comes_to_rest, out);
     if (comes_to_rest) return out;
     due_ = now + look_every;
     const bool stand = is_stationary(state), stood = std::exchange(stood_, stand);
-    for (const rack::TrustFinding& found : watch_.look(stand && stood)) {
-        if (found.axis == rack::TrustFinding::no_axis) {
+    for (const rack::ValidityFinding& found : watch_.look(stand && stood)) {
+        if (found.axis == rack::ValidityFinding::no_axis) {
             Alarm& alarm = out.emplace_back();
             alarm.source = "stage";
             alarm.text = fmt::format("{}.", found.text);
@@ -84,23 +83,22 @@ std::vector<Alarm> Trust::look(Instant now, MachineState state) {
         }
         const char letter = rack_.axes()[found.axis].config.letter;
         if (!of(letter)) continue;  // invalid already, and its counters are meaningless
-        if (found.lost) lose(letter);
+        if (found.lost) invalidate(letter);
         Alarm& alarm = out.emplace_back();
         alarm.source = found.follows_badly ? "following error" : "position";
-        alarm.text = found.lost
-                         ? fmt::format("{}. The position of axis {} is not trusted any more.", found.text, letter)
-                         : fmt::format("{}.", found.text);
+        alarm.text = found.lost ? fmt::format("{}. The position of axis {} is not valid any more.", found.text, letter)
+                                : fmt::format("{}.", found.text);
         if (found.lost || found.follows_badly) alarm.axis = letter;
     }
     return out;
 }
 
-std::string Trust::lose_unknown() {
+std::string PositionValidity::invalidate_unknown() {
     std::string out;
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
         const char letter = rack_.axes()[i].config.letter;
         if (!of(letter) || watch_.knows_itself(i)) continue;
-        lose(letter);
+        invalidate(letter);
         out += fmt::format("{}{}", out.empty() ? "" : ", ", letter);
     }
     return out;

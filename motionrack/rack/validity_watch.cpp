@@ -4,31 +4,31 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <motionrack/rack/trust.hpp>
+#include <motionrack/rack/validity_watch.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <utility>
 
 namespace motionrack::rack {
 
-TrustWatch::TrustWatch(Rack& rack) : rack_(rack), watched_(rack.axes().size()) {
+ValidityWatch::ValidityWatch(Rack& rack) : rack_(rack), watched_(rack.axes().size()) {
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         watched_[i].counted = is_counted(i);
         watched_[i].counted_wrongly = counted_wrongly(i);
     }
 }
 
-void TrustWatch::begin(std::size_t axis, const Mark& from) {
-    TrustMark& one = watched_[axis];
+void ValidityWatch::begin(std::size_t axis, const Mark& from) {
+    AxisWatch& one = watched_[axis];
     one.from = from;
     one.counted_wrongly = counted_wrongly(axis);
     one.lost = one.told_counts = false;
     rack_.stop_latch().following().begin(axis);
-    std::erase_if(early_, [&](const TrustFinding& found) { return found.axis == axis; });
+    std::erase_if(early_, [&](const ValidityFinding& found) { return found.axis == axis; });
     for (const sim::Condition& condition : rack_.kernel().conditions()) look_for_lost(axis, condition, early_);
 }
 
-std::vector<TrustFinding> TrustWatch::look(bool standing) {
-    std::vector<TrustFinding> out = std::exchange(early_, {});
+std::vector<ValidityFinding> ValidityWatch::look(bool standing) {
+    std::vector<ValidityFinding> out = std::exchange(early_, {});
     look_at_conditions(out);
     for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())
         out.push_back({warning.axis, warning.at, std::move(warning.text), false, true});
@@ -36,13 +36,13 @@ std::vector<TrustFinding> TrustWatch::look(bool standing) {
     return out;
 }
 
-void TrustWatch::lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out) {
+void ValidityWatch::lose(std::size_t axis, Instant at, std::string text, std::vector<ValidityFinding>& out) {
     if (std::exchange(watched_[axis].lost, true)) return;
     out.push_back({axis, at, std::move(text), true});
 }
 
 /// Steps that were lost and regained by chance count as lost.
-void TrustWatch::look_at_conditions(std::vector<TrustFinding>& out) {
+void ValidityWatch::look_at_conditions(std::vector<ValidityFinding>& out) {
     const std::vector<sim::Condition> all = rack_.kernel().conditions();
     const std::uint64_t first = rack_.kernel().dropped_conditions();
     for (std::uint64_t i = std::max(seen_, first); i < first + all.size(); ++i)
@@ -50,22 +50,23 @@ void TrustWatch::look_at_conditions(std::vector<TrustFinding>& out) {
     seen_ = first + all.size();
 }
 
-void TrustWatch::look_at(const sim::Condition& condition, std::vector<TrustFinding>& out) {
+void ValidityWatch::look_at(const sim::Condition& condition, std::vector<ValidityFinding>& out) {
     for (const RunningStage& stage : rack_.stages())
         if (stage.processor != nullptr && stage.processor->id() == condition.device &&
             stage.config.output == condition.a)
-            out.push_back({TrustFinding::no_axis, condition.at, rack_.describe(condition)});
+            out.push_back({ValidityFinding::no_axis, condition.at, rack_.describe(condition)});
     for (std::size_t k = 0; k < watched_.size(); ++k) look_for_lost(k, condition, out);
 }
 
-void TrustWatch::look_for_lost(std::size_t axis, const sim::Condition& condition, std::vector<TrustFinding>& out) {
+void ValidityWatch::look_for_lost(std::size_t axis, const sim::Condition& condition,
+                                  std::vector<ValidityFinding>& out) {
     if (condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps) &&
         condition.device == rack_.axes()[axis].machine->id() && condition.at > watched_[axis].from.at)
         lose(axis, condition.at, rack_.describe(condition), out);
 }
 
-void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
-    TrustMark& one = watched_[axis];
+void ValidityWatch::compare(std::size_t axis, std::vector<ValidityFinding>& out) {
+    AxisWatch& one = watched_[axis];
     const Instant now = rack_.kernel().now();
     const char letter = rack_.axes()[axis].config.letter;
     if (!knows_itself(axis))
@@ -90,7 +91,7 @@ void TrustWatch::compare(std::size_t axis, std::vector<TrustFinding>& out) {
 
 /// Returns true if the axis' own card counts its encoder beside the pulses. Axes that position by themselves use these
 /// counts.
-bool TrustWatch::is_counted(std::size_t axis) const {
+bool ValidityWatch::is_counted(std::size_t axis) const {
     const RackConfig& config = rack_.config();
     const RunningAxis& running = rack_.axes()[axis];
     if (config.positions_alone(running.config)) return false;
@@ -100,7 +101,7 @@ bool TrustWatch::is_counted(std::size_t axis) const {
     });
 }
 
-bool TrustWatch::knows_itself(std::size_t axis) {
+bool ValidityWatch::knows_itself(std::size_t axis) {
     RunningAxis& running = rack_.axes()[axis];
     if (!rack_.config().positions_alone(running.config)) return true;
     const Result<control::Axis*> one = running.card->axis(rack_.config(), running.config.letter);
@@ -108,24 +109,24 @@ bool TrustWatch::knows_itself(std::size_t axis) {
 }
 
 /// A servo has no pulses to lose.
-std::int64_t TrustWatch::lost_pulses(std::size_t axis) const {
+std::int64_t ValidityWatch::lost_pulses(std::size_t axis) const {
     const RunningAxis& running = rack_.axes()[axis];
     const Instant now = rack_.kernel().now();
     return running.turned_by().count(now) - running.machine->rotor().count(now);
 }
 
-std::int64_t TrustWatch::turned(std::size_t axis) const {
+std::int64_t ValidityWatch::turned(std::size_t axis) const {
     const RunningAxis& running = rack_.axes()[axis];
     return running.servo ? running.machine->encoder().count(rack_.kernel().now()) : 0;
 }
 
-double TrustWatch::moved_since(std::size_t axis, const Mark& mark) const {
+double ValidityWatch::moved_since(std::size_t axis, const Mark& mark) const {
     const RunningAxis& running = rack_.axes()[axis];
     return running.servo ? static_cast<double>(turned(axis) - mark.turned) / running.config.counts_per_unit() : 0;
 }
 
 /// Counts of the card minus rotation of the motor.
-std::int64_t TrustWatch::counted_wrongly(std::size_t axis) const {
+std::int64_t ValidityWatch::counted_wrongly(std::size_t axis) const {
     if (!watched_[axis].counted) return 0;
     const RunningAxis& running = rack_.axes()[axis];
     const double counts_per_pulse = static_cast<double>(running.config.encoder_counts_per_rev) /

@@ -17,7 +17,7 @@
 namespace motionrack::rack {
 
 /// A problem with the position of an axis, or with a stage.
-struct TrustFinding {
+struct ValidityFinding {
     static constexpr std::size_t no_axis = ~std::size_t{0};
     std::size_t axis = 0;  ///< index in Rack::axes(); no_axis: a stage whose loop was opened
     Instant at{};
@@ -26,10 +26,10 @@ struct TrustFinding {
     bool follows_badly = false;  ///< a following error above its warning limit
 };
 
-class TrustWatch {
+class ValidityWatch {
   public:
     /// Call at the start of a rack; encoder counts are correct at that instant.
-    explicit TrustWatch(Rack& rack);
+    explicit ValidityWatch(Rack& rack);
     /// Step loss of an axis up to an instant.
     struct Mark {
         Instant at{};  ///< earlier events are ignored
@@ -44,13 +44,13 @@ class TrustWatch {
     void begin(std::size_t axis, const Mark& from);
     /// Returns the findings since the last look, each once until begin(). `standing`: nothing moves, so that counters
     /// and rotors can be compared and axes queried.
-    std::vector<TrustFinding> look(bool standing);
+    std::vector<ValidityFinding> look(bool standing);
     /// Returns false if an axis that positions by itself has lost its position; sets the position of other axes. Call
     /// at standstill.
     bool knows_itself(std::size_t axis);
 
   private:
-    struct TrustMark {
+    struct AxisWatch {
         Mark from{Instant{-1}};
         std::int64_t counted_wrongly = 0;  ///< count error at the start
         bool counted = false;              ///< the card counts the encoder separately from the pulses
@@ -60,16 +60,16 @@ class TrustWatch {
     std::int64_t lost_pulses(std::size_t axis) const;
     std::int64_t turned(std::size_t axis) const;
     std::int64_t counted_wrongly(std::size_t axis) const;
-    void lose(std::size_t axis, Instant at, std::string text, std::vector<TrustFinding>& out);
-    void look_at_conditions(std::vector<TrustFinding>& out);
-    void look_at(const sim::Condition& condition, std::vector<TrustFinding>& out);
-    void look_for_lost(std::size_t axis, const sim::Condition& condition, std::vector<TrustFinding>& out);
-    void compare(std::size_t axis, std::vector<TrustFinding>& out);
+    void lose(std::size_t axis, Instant at, std::string text, std::vector<ValidityFinding>& out);
+    void look_at_conditions(std::vector<ValidityFinding>& out);
+    void look_at(const sim::Condition& condition, std::vector<ValidityFinding>& out);
+    void look_for_lost(std::size_t axis, const sim::Condition& condition, std::vector<ValidityFinding>& out);
+    void compare(std::size_t axis, std::vector<ValidityFinding>& out);
 
     Rack& rack_;
-    std::vector<TrustMark> watched_;
-    std::uint64_t seen_ = 0;           ///< conditions evaluated
-    std::vector<TrustFinding> early_;  ///< findings for the next look
+    std::vector<AxisWatch> watched_;
+    std::uint64_t seen_ = 0;              ///< conditions evaluated
+    std::vector<ValidityFinding> early_;  ///< findings for the next look
 };
 
 }  // namespace motionrack::rack

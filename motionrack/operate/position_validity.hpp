@@ -5,7 +5,7 @@
 #include <motionrack/control/axis.hpp>
 #include <motionrack/control/move.hpp>
 #include <motionrack/operate/status.hpp>
-#include <motionrack/rack/trust.hpp>
+#include <motionrack/rack/validity_watch.hpp>
 #include <string>
 #include <vector>
 
@@ -15,17 +15,17 @@ namespace motionrack::operate {
 struct Declared {
     char letter = 'X';
     double position = 0;
-    rack::TrustWatch::Mark stood;  ///< state at the command
+    rack::ValidityWatch::Mark stood;  ///< state at the command
 };
 
 /// Identifies axes of the rack by letter.
-class Trust {
+class PositionValidity {
   public:
     /// All positions start as invalid. The rack must outlive this.
-    explicit Trust(rack::Rack& rack) : rack_(rack), watch_(rack) {}
+    explicit PositionValidity(rack::Rack& rack) : rack_(rack), watch_(rack) {}
 
-    bool of(char letter) const { return trusted_[index(letter)]; }
-    void lose(char letter) { trusted_[index(letter)] = false; }
+    bool of(char letter) const { return valid_[index(letter)]; }
+    void invalidate(char letter) { valid_[index(letter)] = false; }
     Declared declared(char letter, double position) const { return {letter, position, watch_.mark(number(letter))}; }
     /// Makes a set position valid, less any loss since the command, plus the motion of a pushed servo. Errors: as
     /// Axis::set_position.
@@ -36,18 +36,18 @@ class Trust {
     /// Call regularly between motions.
     std::vector<Alarm> look(Instant now, MachineState state);
     /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "X, Y".
-    std::string lose_unknown();
+    std::string invalidate_unknown();
 
   private:
     std::size_t index(char letter) const;
     std::size_t number(char letter) const;  ///< index in Rack::axes()
-    void begin(char letter, const rack::TrustWatch::Mark& from);
-    void lose_reset(bool comes_to_rest, std::vector<Alarm>& out);
+    void begin(char letter, const rack::ValidityWatch::Mark& from);
+    void invalidate_reset(bool comes_to_rest, std::vector<Alarm>& out);
 
     rack::Rack& rack_;
     std::uint64_t trips_ = 0;  ///< evaluated trips of the stop latch
-    rack::TrustWatch watch_;
-    std::array<bool, control::axis_count> trusted_ = {};
+    rack::ValidityWatch watch_;
+    std::array<bool, control::axis_count> valid_ = {};
     Instant due_{};
     bool stood_ = false;
 };

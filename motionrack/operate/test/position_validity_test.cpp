@@ -25,13 +25,13 @@ std::ostream& operator<<(std::ostream& out, const BrokenJog& one) {
     return out << one.name;
 }
 
-constexpr const char* lost = "The position of axis X is not trusted any more.";
+constexpr const char* lost = "The position of axis X is not valid any more.";
 constexpr const char* behind = "The following error of X was";
 
 constexpr BrokenJog broken_jogs[] = {
-    {"estop_slow", false, 20, "estop", true, false, "position of X is not trusted any more"},
-    {"estop_fast", false, 100, "estop", true, false, "position of X is not trusted any more"},
-    {"estop_of_the_card_alone", false, 100, "m.emgn", true, false, "Its position is not trusted"},
+    {"estop_slow", false, 20, "estop", true, false, "position of X is not valid any more"},
+    {"estop_fast", false, 100, "estop", true, false, "position of X is not valid any more"},
+    {"estop_of_the_card_alone", false, 100, "m.emgn", true, false, "Its position is not valid"},
     {"stall", false, 50, "motor.stall", false, false, behind},
     {"lost_steps", false, 50, "motor.lose_steps=64", false, false, lost},
     {"push", false, 50, "motor.push=64", false, false, lost},
@@ -49,7 +49,7 @@ constexpr BrokenJog broken_jogs[] = {
 
 class AJogThatBreaks : public testing::TestWithParam<BrokenJog> {};
 
-TEST_P(AJogThatBreaks, IsTrustedAsAProgramIsAndAnAlarmSaysSo) {
+TEST_P(AJogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
     const BrokenJog& one = GetParam();
     Operated o(one.servo ? carriage() : two_axes());
     o.at(0.05, [&](Machine& m) {
@@ -84,13 +84,13 @@ TEST_P(AJogThatBreaks, IsTrustedAsAProgramIsAndAnAlarmSaysSo) {
 INSTANTIATE_TEST_SUITE_P(Faults, AJogThatBreaks, testing::ValuesIn(broken_jogs),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
+TEST(AMachine, HasAValidPositionAgainThatIsDeclaredAfterLostSteps) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 50)); });
     o.at(0.3, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.lose_steps=64", "X")); });
     o.at(2, [](Machine& m) {
         EXPECT_FALSE(m.status().axes[0].position_valid);
-        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
+        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not valid"));
         EXPECT_TRUE(m.set_position('X', 12));
     });
     o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.line("G1 X15 F600", 1)); });
@@ -100,7 +100,7 @@ TEST(AMachine, TrustsAnAxisAgainThatIsDeclaredAfterItLostSteps) {
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "what was lost before it was declared is told once";
 }
 
-TEST(AMachine, DoesNotTrustAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
+TEST(AMachine, InvalidatesAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
     Operated o(two_axes("[controller]\nprofile = \"jerk_limited\"\n[axis.X.switches]\nlimit_plus_mm = 302\n"));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
@@ -110,10 +110,10 @@ TEST(AMachine, DoesNotTrustAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
     EXPECT_FALSE(status.axes[0].position_valid);
     EXPECT_TRUE(status.axes[1].position_valid) << "it did not move";
     ASSERT_THAT(status.alarms, testing::SizeIs(1)) << "one cause, one alarm";
-    EXPECT_THAT(status.alarms[0].text, HasSubstr("The position of X is not trusted any more"));
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("The position of X is not valid any more"));
 }
 
-TEST(AMachine, DoesNotTrustAnAxisThatWasResetWhileItStillStopped) {
+TEST(AMachine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
     Operated o(two_axes());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.stall", "X")); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
@@ -148,7 +148,7 @@ TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     EXPECT_NEAR(o.y(), 7, 1e-3);
 }
 
-TEST(AMachine, DoesNotTrustAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
+TEST(AMachine, InvalidatesAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 5));
@@ -181,17 +181,17 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     EXPECT_FALSE(status.axes[3].position_valid);
     std::vector<std::string> alarms;
     for (const Alarm& alarm : status.alarms) alarms.push_back(alarm.text);
-    EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not trusted any more.")));
+    EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not valid any more.")));
 }
 
-TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileOthersStillSearchHome) {
+TEST(AMachine, InvalidatesAnAxisThatIsPushedWhileOthersStillSearchHome) {
     Operated o(router());
     push_what_is_home(o, [](Machine&) {});
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].position_valid);
 }
 
-TEST(AMachine, DoesNotTrustAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
+TEST(AMachine, InvalidatesAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
     Operated o(router());
     push_what_is_home(o, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
     EXPECT_EQ(o.machine->state(), MachineState::error_stop);
