@@ -50,8 +50,8 @@ Move sub_move(const Move& move, const Geometry& path, double from, double to) {
     return part;
 }
 
-Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
-    Nearest out;
+NearestPoint nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    NearestPoint out;
     if (path.shape == PathShape::arc)
         out.length = length_on_arc(path, place);
     else if (path.shape != PathShape::nothing)

@@ -16,11 +16,11 @@ using PulsesPerUnit = Point;
 inline constexpr PulsesPerUnit units_alone = {1, 1, 1, 1, 1, 1};
 
 /// The point of a path that is nearest to a given position. An arc may have less than a full turn.
-struct Nearest {
+struct NearestPoint {
     double length = 0;    ///< along the path
     double distance = 0;  ///< largest difference over the six axes, in pulses
 };
-Nearest nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
+NearestPoint nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
 
 /// Returns the remaining part of a move that was interrupted at `place`, at most a few pulses off its path. The short
 /// remainder of an arc may become a straight line.
