@@ -104,7 +104,7 @@ int GrblSession::store(std::string_view text) {
     if (!take_number(text, value)) return error_bad_number;
     if (!text.empty() || number != std::floor(number) || number < 0 || number > 255) return error_unknown;
     if (!control()) return error_locked;
-    const Changed changed =
+    const SettingResult changed =
         change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
     if (changed.note.empty()) return changed.error;
     if (changed.error != error_none)

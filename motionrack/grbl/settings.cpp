@@ -114,7 +114,7 @@ double axis_value(const RackConfig& config, const AxisSetting& setting, int axis
     return found == nullptr ? 0 : setting.get(*found);
 }
 
-Changed of_the_rack(int number, double value, double there, int decimals) {
+SettingResult of_the_rack(int number, double value, double there, int decimals) {
     const double half = std::pow(10.0, -decimals) / 2;
     if (std::fabs(value - there) <= half) return {};
     return {error_unknown, fmt::format("${} is {:.{}f} in the rack file. It was not changed; change the rack file",
@@ -142,7 +142,8 @@ std::string settings_text(const rack::RackConfig& config, const SessionSettingVa
     return out;
 }
 
-Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number, double value) {
+SettingResult change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number,
+                             double value) {
     if (value < 0) return {error_negative, {}};
     if (number == 0 && value < 3) return {error_short_pulse, {}};
     for (const AxisSetting& setting : axis_table)

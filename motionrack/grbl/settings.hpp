@@ -41,10 +41,11 @@ std::span<const AxisSetting> axis_settings();
 std::string settings_text(const rack::RackConfig& config, const SessionSettingValues& own, int axes);
 
 /// Result of a change of a setting: Grbl's error number, 0 on success, and the message.
-struct Changed {
+struct SettingResult {
     int error = 0;
     std::string note;
 };
-Changed change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number, double value);
+SettingResult change_setting(const rack::RackConfig& config, SessionSettingValues& own, int axes, int number,
+                             double value);
 
 }  // namespace motionrack::grbl
