@@ -208,7 +208,7 @@ void Client::refuse(const json& id, int status, std::string_view trouble, std::s
     answer(id, panel::refused_answer(status, trouble, std::move(sentence)));
 }
 
-void Client::send(Outgoing message) {
+void Client::send(OutgoingMessage message) {
     if (leaving_ || wire_ == nullptr) return;
     const Limits& limits = service_.settings().limits;
     if (!message.picture &&

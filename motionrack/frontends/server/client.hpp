@@ -18,7 +18,7 @@
 namespace motionrack::server {
 
 /// A text message in two parts: one for this client, and one that many clients share.
-struct Outgoing {
+struct OutgoingMessage {
     std::string own;
     std::shared_ptr<const std::string> shared;
     bool picture = false;
@@ -29,7 +29,7 @@ class MessageSink {
   public:
     virtual ~MessageSink() = default;
     /// Sends one message. The message must not change until Client::written().
-    virtual void write(const Outgoing& message) = 0;
+    virtual void write(const OutgoingMessage& message) = 0;
     /// Sets the maximum size of incoming messages from now on.
     virtual void allow(std::size_t bytes) = 0;
     /// Closes the WebSocket with a status code (RFC 6455) and a reason.
@@ -73,7 +73,7 @@ class Client : public std::enable_shared_from_this<Client> {
     void ask(const Request& request, const std::string& name, bool query);
     void answer(const nlohmann::json& id, panel::Answer answer);
     void refuse(const nlohmann::json& id, int status, std::string_view trouble, std::string sentence);
-    void send(Outgoing message);
+    void send(OutgoingMessage message);
 
     PanelService& service_;
     Peer peer_;
@@ -88,7 +88,7 @@ class Client : public std::enable_shared_from_this<Client> {
     Time next_, opened_at_, looked_after_;
     std::int64_t periods_ = 0, lost_ = 0;
     // send queue
-    std::deque<Outgoing> queue_;
+    std::deque<OutgoingMessage> queue_;
     std::size_t pictures_ = 0;
     bool leaving_ = false;
     bool seen_ = false;  ///< the client has had a role

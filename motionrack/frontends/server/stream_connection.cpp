@@ -45,7 +45,7 @@ class StreamConnection final : public OpenConnection,
     }
 
     // ---- MessageSink
-    void write(const Outgoing& message) override {
+    void write(const OutgoingMessage& message) override {
         writes_ = true;
         std::array<asio::const_buffer, 2> pieces = {asio::buffer(message.own), {}};
         if (message.shared) pieces[1] = asio::buffer(*message.shared);
