@@ -57,18 +57,18 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     return acceptor;
 }
 
-Reserve::~Reserve() {
+DescriptorReserve::~DescriptorReserve() {
     while (give()) continue;
 }
 
-bool Reserve::give() {
+bool DescriptorReserve::give() {
     if (files_.empty()) return false;
     ::close(files_.back());
     files_.pop_back();
     return true;
 }
 
-void Reserve::refill() {
+void DescriptorReserve::refill() {
     while (files_.size() < size) {
         const int file = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
         if (file < 0) return;

@@ -13,13 +13,13 @@ namespace motionrack::server {
 
 /// Reserved descriptors. If the process or the computer has none left, a connection that may request STOP gets one of
 /// these.
-class Reserve {
+class DescriptorReserve {
   public:
     static constexpr std::size_t size = 16;
-    Reserve() { refill(); }
-    ~Reserve();
-    Reserve(const Reserve&) = delete;
-    Reserve& operator=(const Reserve&) = delete;
+    DescriptorReserve() { refill(); }
+    ~DescriptorReserve();
+    DescriptorReserve(const DescriptorReserve&) = delete;
+    DescriptorReserve& operator=(const DescriptorReserve&) = delete;
     /// Frees one. Returns false if none is left.
     bool give();
     /// Reserves free descriptors again.
@@ -55,7 +55,7 @@ class PortListener {
     std::unique_ptr<boost::asio::ssl::context> tls_;
     boost::asio::steady_timer pause_, timer_;
     std::shared_ptr<ConnectionPool> pool_;
-    Reserve reserve_;
+    DescriptorReserve reserve_;
     bool ended_ = false;
 };
 
