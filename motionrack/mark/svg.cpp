@@ -51,7 +51,7 @@ class SvgReader {
         MOTIONRACK_TRY(const Affine to_mm, size_of(root));
         MOTIONRACK_CHECK(drawable(root));
         MOTIONRACK_CHECK(sheets(root, 0));
-        const Showing seen = showing(root, true);
+        const Visibility seen = visibility_of(root, true);
         for (const pugi::xml_node child : root.children())
             if (seen.displayed) MOTIONRACK_CHECK(element(child, {to_mm, seen.visible, 1}));
         return {};
@@ -189,7 +189,7 @@ class SvgReader {
             std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end())
             return {};
         if (around.depth > deepest) return wrong(offset(node), fmt::format("more than {} nested groups", deepest));
-        const Showing seen = showing(node, around.visible);
+        const Visibility seen = visibility_of(node, around.visible);
         if (!seen.displayed) return {};
         MOTIONRACK_CHECK(drawable(node));
         Affine to_mm = around.to_mm;

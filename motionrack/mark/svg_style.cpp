@@ -81,8 +81,8 @@ std::string_view deciding_property(std::string_view sheet) {
     return out;
 }
 
-Showing showing(const pugi::xml_node& node, bool inherited) {
-    Showing out;
+Visibility visibility_of(const pugi::xml_node& node, bool inherited) {
+    Visibility out;
     out.displayed = property(node, "display") != "none";
     const std::string_view visibility = property(node, "visibility");
     out.visible = visibility.empty() || visibility == "inherit" ? inherited : visibility == "visible";

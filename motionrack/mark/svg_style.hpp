@@ -22,11 +22,11 @@ std::optional<Unsupported> unsupported(const pugi::xml_node& node);
 std::string_view deciding_property(std::string_view sheet);
 
 /// Visibility of an element whose parent has the visibility `inherited`.
-struct Showing {
+struct Visibility {
     bool displayed = true;  ///< the element with its content
     bool visible = true;
 };
-Showing showing(const pugi::xml_node& node, bool inherited);
+Visibility visibility_of(const pugi::xml_node& node, bool inherited);
 
 /// Returns the element's name if it is in the SVG namespace, with any prefix; empty: another namespace.
 std::string_view svg_name(const pugi::xml_node& node);
