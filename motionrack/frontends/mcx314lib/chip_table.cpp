@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(World::max_ns));
+constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(VirtualRack::max_ns));
 
 /// Returns true for the address of a real card ("uio:..", "memory:..", "port:.."), as opposed to the text or path of a
 /// rack file.
@@ -67,10 +67,10 @@ bool ChipTable::is_open(const VirtualCard& card) const {
 }
 
 Result<int> ChipTable::open(const char* rack, const char* card) {
-    std::shared_ptr<World> world;
+    std::shared_ptr<VirtualRack> found;
     if (rack != nullptr) {
         if (names_real_card(rack)) return open_live(rack, card);
-        MOTIONRACK_TRY(world, World::open(rack));
+        MOTIONRACK_TRY(found, VirtualRack::open(rack));
     } else if (chips_.empty()) {
         const std::string path = environment_variable(variable);
         if (path.empty())
@@ -82,19 +82,19 @@ Result<int> ChipTable::open(const char* rack, const char* card) {
                     "first.",
                     variable, live::port_spec_form()));
         if (names_real_card(path)) return open_live(path.c_str(), card);
-        MOTIONRACK_TRY(world, World::open(path));
+        MOTIONRACK_TRY(found, VirtualRack::open(path));
     } else {
         MOTIONRACK_TRY(OpenChip * chip, selected());
-        if (!chip->world)
+        if (!chip->rack)
             return fail(ErrorKind::invalid_input,
                         "The selected chip is a real card outside a rack. Nothing was opened. Name a rack.");
-        world = chip->world;
+        found = chip->rack;
     }
     std::string known;
-    for (VirtualCard* const each : world->cards()) {
+    for (VirtualCard* const each : found->cards()) {
         known += (known.empty() ? "" : ", ") + each->name() + (is_open(*each) ? " (open already)" : "");
         if (is_open(*each) || (card != nullptr && each->name() != card)) continue;
-        return keep(std::make_unique<OpenChip>(world, *each));
+        return keep(std::make_unique<OpenChip>(found, *each));
     }
     return fail(ErrorKind::invalid_input,
                 fmt::format("{}; its mcx314 cards are: {}. Nothing was opened.",
@@ -148,14 +148,14 @@ Result<OpenChip*> ChipTable::selected() {
 bool ChipTable::step_all_beside(OpenChip& chip) {
     bool going_on = false;
     for (auto& [handle, other] : chips_)
-        if (other->world == chip.world) going_on = other->step() || going_on;
+        if (other->rack == chip.rack) going_on = other->step() || going_on;
     return going_on;
 }
 
 Result<void> ChipTable::pass(OpenChip& chip, Duration duration) {
     MOTIONRACK_CHECK(chip.check_live());
     const auto advance = [&](Duration time) -> Result<void> {
-        if (chip.world) return chip.world->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
+        if (chip.rack) return chip.rack->advance(static_cast<std::uint64_t>(time / nanoseconds(1)));
         chip.live->pass(time);
         return {};
     };

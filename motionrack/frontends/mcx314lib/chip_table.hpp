@@ -2,7 +2,7 @@
 //
 //   MOTIONRACK_RACK ─┐
 //   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
-//                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one World (a rack and its time), or one each
+//                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one VirtualRack (a rack and its time), or one each
 //                        Chip 3 ─ Driver ─ Manual x4 ───► live::CardPort: a real card and the computer's time
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <memory>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
-#include <motionrack/frontends/mcx314lib/world.hpp>
+#include <motionrack/frontends/mcx314lib/virtual_rack.hpp>
 #include <motionrack/live/card_port.hpp>
 
 namespace motionrack::mcx314lib {
@@ -19,8 +19,8 @@ namespace motionrack::mcx314lib {
 /// An open card with its driver.
 class OpenChip {
   public:
-    OpenChip(std::shared_ptr<World> in, VirtualCard& on)
-        : world(std::move(in)), card(&on), driver(on.registers(), on.interrupt()) {}
+    OpenChip(std::shared_ptr<VirtualRack> in, VirtualCard& on)
+        : rack(std::move(in)), card(&on), driver(on.registers(), on.interrupt()) {}
     explicit OpenChip(std::unique_ptr<live::CardPort> port) : live(std::move(port)), driver(*live, *live) {}
 
     Instant now() { return driver.interrupt().now(); }
@@ -33,7 +33,7 @@ class OpenChip {
     bool step();
 
     std::unique_ptr<live::CardPort> live;  ///< real card only
-    std::shared_ptr<World> world;          ///< virtual card only, with `card`
+    std::shared_ptr<VirtualRack> rack;     ///< virtual card only, with `card`
     VirtualCard* card = nullptr;
     mcx314::Driver driver;
     std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};
@@ -48,7 +48,7 @@ class ChipTable {
     Result<void> close(int handle);
     /// Returns the selected chip. If no chip is open, opens the rack of the environment variable MOTIONRACK_RACK.
     Result<OpenChip*> selected();
-    /// Advances the world of `chip`; polls the manual operations of all its chips every millisecond.
+    /// Advances the rack of `chip`; polls the manual operations of all its chips every millisecond.
     Result<void> pass(OpenChip& chip, Duration duration);
 
   private:
@@ -57,7 +57,7 @@ class ChipTable {
     bool is_open(const VirtualCard& card) const;
     Result<int> open_live(const char* text, const char* card);
     int keep(std::unique_ptr<OpenChip> chip);
-    /// Polls the manual operations of all chips in the world of `chip`; returns true if one is running.
+    /// Polls the manual operations of all chips in the rack of `chip`; returns true if one is running.
     bool step_all_beside(OpenChip& chip);
 
     std::map<int, std::unique_ptr<OpenChip>> chips_;

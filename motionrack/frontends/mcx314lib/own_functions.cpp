@@ -333,6 +333,6 @@ int mcx314_set_wire(const char* wire, double value) {
     return done(__func__, [&](OpenChip& chip) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(wire, "The wire"));
         MOTIONRACK_CHECK(chip.virtual_card("wires that a program could set"));
-        return chip.world->set_wire(wire, value);
+        return chip.rack->set_wire(wire, value);
     });
 }

@@ -1,8 +1,8 @@
-// World of the library's virtual chips: cards that share one simulated time. On Linux it is a complete rack from a rack
-// file; on Windows (windows/world.cpp) it has chips only.
+// Rack of the library's virtual chips: cards that share one simulated time. On Linux it is a complete rack from a rack
+// file; on Windows (windows/virtual_rack.cpp) it has chips only.
 //
-//   ChipTable ──► World::open ──► World ──► VirtualCard ──► registers, interrupt ◄── Driver
-//                              └──► time and wires, shared by its cards
+//   ChipTable ──► VirtualRack::open ──► VirtualRack ──► VirtualCard ──► registers, interrupt ◄── Driver
+//                                    └──► time and wires, shared by its cards
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ class VirtualCard {
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
 };
 
-class World {
+class VirtualRack {
   public:
     /// `path_or_text`: path or text of a rack file. Errors: invalid_input with the problem; io.
-    static Result<std::shared_ptr<World>> open(std::string_view path_or_text);
-    virtual ~World() = default;
+    static Result<std::shared_ptr<VirtualRack>> open(std::string_view path_or_text);
+    virtual ~VirtualRack() = default;
 
     /// Returns its mcx314 cards in the order of the rack file.
     virtual std::vector<VirtualCard*> cards() = 0;

@@ -1,5 +1,5 @@
-// World of the library as a rack.
-#include <motionrack/frontends/mcx314lib/world.hpp>
+// The virtual rack of the library on Linux: a session with a complete rack.
+#include <motionrack/frontends/mcx314lib/virtual_rack.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -19,9 +19,9 @@ class CardOfRack final : public VirtualCard {
     rack::Card& card_;
 };
 
-class RackWorld final : public World {
+class SessionRack final : public VirtualRack {
   public:
-    explicit RackWorld(std::unique_ptr<rack::Session> session) : session_(std::move(session)) {
+    explicit SessionRack(std::unique_ptr<rack::Session> session) : session_(std::move(session)) {
         for (const rack::RackCard& each : session_->rack().config().cards)
             if (each.type == "mcx314")
                 cards_.push_back(std::make_unique<CardOfRack>(*session_->rack().card(each.name)));
@@ -39,13 +39,13 @@ class RackWorld final : public World {
     std::vector<std::unique_ptr<CardOfRack>> cards_;
 };
 
-static_assert(World::max_ns == rack::Session::max_ns);
+static_assert(VirtualRack::max_ns == rack::Session::max_ns);
 
 }  // namespace
 
-Result<std::shared_ptr<World>> World::open(std::string_view path_or_text) {
+Result<std::shared_ptr<VirtualRack>> VirtualRack::open(std::string_view path_or_text) {
     MOTIONRACK_TRY(auto session, rack::Session::open(path_or_text));
-    return std::make_shared<RackWorld>(std::move(session));
+    return std::make_shared<SessionRack>(std::move(session));
 }
 
 std::string in_quotes(std::string_view text) {

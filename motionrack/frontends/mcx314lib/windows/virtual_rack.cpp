@@ -1,6 +1,6 @@
-// World of the library with chips only. From a rack file it reads the cards, "card.NAME = "mcx314"", one per line.
-// Inputs are inactive until set_wire forces them. With a single card, its pulses are counted in its EP; with several,
-// pulses have no effect.
+// Virtual rack of the library with chips only. From a rack file it reads the cards, "card.NAME = "mcx314"", one per
+// line. Inputs are inactive until set_wire forces them. With a single card, its pulses are counted in its EP; with
+// several, pulses have no effect.
 //
 //  text ──► names ──► Chip and VirtualPort each, with the timing of a rack's card ──► one Kernel
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 #include <motionrack/cards/mcx314/chip/by_name.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
-#include <motionrack/frontends/mcx314lib/world.hpp>
+#include <motionrack/frontends/mcx314lib/virtual_rack.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 
 namespace motionrack::mcx314lib {
@@ -124,7 +124,7 @@ Result<std::int64_t> LoneCard::inspect(std::string_view name) const {
     return mcx314::value_by_name(chip_, mcx314::card_map(), name_, name, in_quotes(name));
 }
 
-class ChipsAlone final : public World {
+class ChipsAlone final : public VirtualRack {
   public:
     explicit ChipsAlone(const std::vector<std::string>& names) {
         for (const std::string& name : names)
@@ -188,7 +188,7 @@ Result<void> ChipsAlone::set_wire(std::string_view name, double value) {
 
 }  // namespace
 
-Result<std::shared_ptr<World>> World::open(std::string_view path_or_text) {
+Result<std::shared_ptr<VirtualRack>> VirtualRack::open(std::string_view path_or_text) {
     if (path_or_text.find_first_of("\n=") != std::string_view::npos) {
         MOTIONRACK_TRY(const auto names, read_cards(path_or_text, {}));
         return std::make_shared<ChipsAlone>(names);
