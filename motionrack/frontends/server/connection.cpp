@@ -33,7 +33,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void begin() {
         expire(limits().header);
-        stream_.handshake(Done([self = shared_from_this()](error_code error) {
+        stream_.handshake(CompletionHandler([self = shared_from_this()](error_code error) {
             if (!error) self->read_head(self->limits().header);
         }));
     }
@@ -163,7 +163,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     /// Shuts down sending and discards further input, so that the answer is not lost on close.
     void close_with_reason() {
         expire(limits().spare_time);
-        stream_.shut_down(Done([self = shared_from_this()](error_code) { self->shut(); }));
+        stream_.shut_down(CompletionHandler([self = shared_from_this()](error_code) { self->shut(); }));
     }
     void shut() {
         error_code error;

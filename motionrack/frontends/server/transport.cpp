@@ -30,28 +30,28 @@ beast::tcp_stream& Transport::tcp() {
     return plain_ ? *plain_ : tls_->stream.next_layer();
 }
 
-void Transport::handshake(Done done) {
+void Transport::handshake(CompletionHandler done) {
     if (plain_) return done({});
     tls_->stream.async_handshake(asio::ssl::stream_base::server,
                                  [done = std::move(done)](error_code error) mutable { done(error); });
 }
 
-void Transport::shut_down(Done done) {
+void Transport::shut_down(CompletionHandler done) {
     if (plain_) return done({});
     tls_->stream.async_shutdown([done = std::move(done)](error_code error) mutable { done(error); });
 }
 
-void Transport::read_some(const FirstBuffers<asio::mutable_buffer>& into, Done done) {
+void Transport::read_some(const FirstBuffers<asio::mutable_buffer>& into, CompletionHandler done) {
     if (plain_) return plain_->async_read_some(into, std::move(done));
     tls_->stream.async_read_some(into, std::move(done));
 }
 
-void Transport::write_some(const FirstBuffers<asio::const_buffer>& from, Done done) {
+void Transport::write_some(const FirstBuffers<asio::const_buffer>& from, CompletionHandler done) {
     if (plain_) return plain_->async_write_some(from, std::move(done));
     tls_->stream.async_write_some(from, std::move(done));
 }
 
-void Transport::tear_down(beast::role_type role, Done done) {
+void Transport::tear_down(beast::role_type role, CompletionHandler done) {
     using beast::websocket::async_teardown;
     auto end = [done = std::move(done)](error_code error) mutable { done(error); };
     if (plain_) return async_teardown(role, *plain_, std::move(end));

@@ -19,10 +19,10 @@ namespace beast = boost::beast;
 using boost::system::error_code;
 
 /// Handler of one operation, called once at its end.
-class Done {
+class CompletionHandler {
   public:
     template <class Handler>
-    explicit Done(Handler handler) : held_(std::make_unique<Held<Handler>>(std::move(handler))) {}
+    explicit CompletionHandler(Handler handler) : held_(std::make_unique<Held<Handler>>(std::move(handler))) {}
     void operator()(error_code error, std::size_t bytes = 0) {
         HandlerHolder& held = *held_;
         held.call(std::move(held_), error, bytes);
@@ -89,20 +89,20 @@ class Transport {
     executor_type get_executor() { return tcp().get_executor(); }
 
     /// Performs the TLS handshake; completes at once without TLS.
-    void handshake(Done done);
-    void shut_down(Done done);
+    void handshake(CompletionHandler done);
+    void shut_down(CompletionHandler done);
 
-    void read_some(const FirstBuffers<asio::mutable_buffer>& into, Done done);
-    void write_some(const FirstBuffers<asio::const_buffer>& from, Done done);
+    void read_some(const FirstBuffers<asio::mutable_buffer>& into, CompletionHandler done);
+    void write_some(const FirstBuffers<asio::const_buffer>& from, CompletionHandler done);
     /// Closes a WebSocket.
-    void tear_down(beast::role_type role, Done done);
+    void tear_down(beast::role_type role, CompletionHandler done);
 
     // ---- the requirements of Beast
     template <class Sequence, class Handler>
     auto async_read_some(const Sequence& into, Handler&& handler) {
         return asio::async_initiate<Handler, void(error_code, std::size_t)>(
             [this](auto own, const FirstBuffers<asio::mutable_buffer>& buffers) {
-                read_some(buffers, Done(std::move(own)));
+                read_some(buffers, CompletionHandler(std::move(own)));
             },
             handler, FirstBuffers<asio::mutable_buffer>(into));
     }
@@ -110,14 +110,14 @@ class Transport {
     auto async_write_some(const Sequence& from, Handler&& handler) {
         return asio::async_initiate<Handler, void(error_code, std::size_t)>(
             [this](auto own, const FirstBuffers<asio::const_buffer>& buffers) {
-                write_some(buffers, Done(std::move(own)));
+                write_some(buffers, CompletionHandler(std::move(own)));
             },
             handler, FirstBuffers<asio::const_buffer>(from));
     }
     friend void beast_close_socket(Transport& transport) { transport.tcp().close(); }
     template <class Handler>
     friend void async_teardown(beast::role_type role, Transport& transport, Handler&& handler) {
-        transport.tear_down(role, Done(std::forward<Handler>(handler)));
+        transport.tear_down(role, CompletionHandler(std::forward<Handler>(handler)));
     }
 
   private:
