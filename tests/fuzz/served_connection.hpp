@@ -47,7 +47,7 @@ class ServedConnection {
         panel::PanelSettings panel;
         panel.external = server::door_orders(*door_);
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(panel));
-        post_ = std::make_shared<server::Post>(
+        post_ = std::make_shared<server::NetworkExecutor>(
             [this](std::function<void()> work) { boost::asio::post(*io_, std::move(work)); });
         pool_ = std::make_shared<server::ConnectionPool>(
             std::make_shared<server::PanelService>(server_settings(), *panel_, *door_, lease_, server::Page(), post_));
@@ -163,7 +163,7 @@ class ServedConnection {
     std::unique_ptr<auth::Authenticator> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<boost::asio::io_context> io_ = std::make_unique<boost::asio::io_context>(1);
-    std::shared_ptr<server::Post> post_;
+    std::shared_ptr<server::NetworkExecutor> post_;
     std::shared_ptr<server::ConnectionPool> pool_;
     std::function<bool()> step_;
     std::chrono::steady_clock::time_point until_;

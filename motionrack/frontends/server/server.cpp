@@ -52,7 +52,8 @@ class Server::Inside {
   public:
     Inside(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
            Page page)
-        : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
+        : post_(std::make_shared<NetworkExecutor>(
+              [this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
           pool_(std::make_shared<ConnectionPool>(
               std::make_shared<PanelService>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
     ~Inside() { stop(); }
@@ -111,7 +112,7 @@ class Server::Inside {
     }
 
     asio::io_context io_{1};
-    std::shared_ptr<Post> post_;
+    std::shared_ptr<NetworkExecutor> post_;
     std::shared_ptr<ConnectionPool> pool_;
     std::unique_ptr<PortListener> listener_;
     asio::steady_timer goodbye_{io_};

@@ -58,7 +58,7 @@ bool is_query(const panel::OperationSpec& row) {
 }
 
 PanelService::PanelService(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,
-                           auth::ControlLease& lease, Page page, std::shared_ptr<Post> post)
+                           auth::ControlLease& lease, Page page, std::shared_ptr<NetworkExecutor> post)
     : settings_(std::move(settings)),
       panel_(panel),
       door_(door),

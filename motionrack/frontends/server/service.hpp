@@ -26,9 +26,9 @@
 namespace motionrack::server {
 
 /// Posts work to the network thread from any thread; ignored after the network has ended.
-class Post {
+class NetworkExecutor {
   public:
-    explicit Post(std::function<void(std::function<void()>)> post) : post_(std::move(post)) {}
+    explicit NetworkExecutor(std::function<void(std::function<void()>)> post) : post_(std::move(post)) {}
     void operator()(std::function<void()> work) const {
         const std::lock_guard<std::mutex> alone(lock_);
         if (post_) post_(std::move(work));
@@ -56,7 +56,7 @@ bool is_query(const panel::OperationSpec& row);
 class PanelService {
   public:
     PanelService(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door, auth::ControlLease& lease,
-                 Page page, std::shared_ptr<Post> post);
+                 Page page, std::shared_ptr<NetworkExecutor> post);
 
     // ---- HTTP
     Admission admit(const RequestHead& head);
@@ -90,7 +90,7 @@ class PanelService {
     panel::Panel& panel() { return panel_; }
     auth::Authenticator& door() { return door_; }
     auth::ControlLease& lease() { return lease_; }
-    const std::shared_ptr<Post>& post() const { return post_; }
+    const std::shared_ptr<NetworkExecutor>& post() const { return post_; }
 
   private:
     std::optional<HttpAnswer> refuse(const RequestHead& head);
@@ -104,7 +104,7 @@ class PanelService {
     auth::ControlLease& lease_;
     Page page_;
     OriginPolicy guard_;
-    std::shared_ptr<Post> post_;
+    std::shared_ptr<NetworkExecutor> post_;
     auth::RateLimit requests_, told_;
     UnknownSenderLog unknown_senders_;
     std::string openapi_;

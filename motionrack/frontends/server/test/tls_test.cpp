@@ -124,7 +124,7 @@ TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
 TEST_F(ATlsServer, GivesNothingButThePageAndStopToUnauthenticatedClients) {
     Running running(tls());
     PanelService service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
-                         std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
+                         std::make_shared<NetworkExecutor>([](const std::function<void()>& work) { work(); }));
     RequestHead head;
     head.peer = {"192.0.2.7", "192.0.2.1", false, true, false};
     head.host = "192.0.2.1";
