@@ -77,7 +77,7 @@ void ChannelDecoder::planes(const std::uint64_t* a, const std::uint64_t* b, cons
 /// Decodes whole words, of which `size` samples are new.
 void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words,
                            std::size_t size) {
-    const Sums sums = kernels_->tally(a, b, words, last_);
+    const QuadratureCounts sums = kernels_->tally(a, b, words, last_);
     if (sums.illegal != 0) find_illegal(a, b, words);
     if (z && index_in(z, words)) find_indexes(a, b, z, words);
     sums_ += sums;
@@ -112,7 +112,7 @@ void ChannelDecoder::find_indexes(const std::uint64_t* a, const std::uint64_t* b
         const std::uint64_t earlier = z[w] << 1 | (w == 0 ? last_z_ : z[w - 1] >> 63);
         const std::uint64_t edges = settings_.index_low ? ~z[w] & earlier : z[w] & ~earlier;
         if (edges == 0) continue;
-        const Sums sums = kernels_->tally(a + counted, b + counted, w - counted, before(counted));
+        const QuadratureCounts sums = kernels_->tally(a + counted, b + counted, w - counted, before(counted));
         count += static_cast<std::int64_t>(sums.up - sums.down);
         counted = w;
         keep_indexes(edges, masks_of(a[w], b[w], before(w)), count, samples_ + 64 * w);

@@ -74,7 +74,7 @@ class ChannelDecoder {
     bool begun_ = false;
     Levels last_;
     std::uint64_t last_z_ = 0;
-    Sums sums_;
+    QuadratureCounts sums_;
     std::uint64_t indexes_ = 0;
     std::uint64_t samples_ = 0;
     std::vector<std::uint64_t> illegal_samples_;
@@ -94,14 +94,14 @@ class FourChannelDecoder {
     std::int64_t count(std::size_t channel) const {
         return static_cast<std::int64_t>(sums_[channel].up - sums_[channel].down);
     }
-    const Sums& sums(std::size_t channel) const { return sums_[channel]; }
+    const QuadratureCounts& sums(std::size_t channel) const { return sums_[channel]; }
 
   private:
     std::array<Bits, 4> bits_;
     const Kernels* kernels_;
     bool begun_ = false;
     std::uint8_t last_ = 0;
-    std::array<Sums, 4> sums_{};
+    std::array<QuadratureCounts, 4> sums_{};
 };
 
 }  // namespace motionrack::decode

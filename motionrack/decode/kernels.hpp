@@ -17,11 +17,11 @@
 namespace motionrack::decode {
 
 /// Counts of a sequence of samples.
-struct Sums {
+struct QuadratureCounts {
     std::uint64_t up = 0;
     std::uint64_t down = 0;
     std::uint64_t illegal = 0;
-    void operator+=(const Sums& other) { up += other.up, down += other.down, illegal += other.illegal; }
+    void operator+=(const QuadratureCounts& other) { up += other.up, down += other.down, illegal += other.illegal; }
 };
 
 /// Levels (0 or 1) of a channel's lines in the sample before a sequence.
@@ -39,7 +39,7 @@ struct Bits {
 struct Kernels {
     const char* name;
     /// Counts `words` whole words of the planes a and b.
-    Sums (*tally)(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before);
+    QuadratureCounts (*tally)(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before);
     /// Extracts `words` words of a plane from bit `bit` of 64 * `words` bytes.
     void (*split)(const std::uint8_t* bytes, std::size_t words, int bit, std::uint64_t* plane);
     /// The same for two bits together.
@@ -48,7 +48,7 @@ struct Kernels {
     bool (*steady)(const std::uint8_t* bytes, std::size_t words, std::uint8_t mask, std::uint8_t level);
     /// Adds the counts of four channels in 64 * `words` bytes; `before` is the byte before the first.
     void (*four)(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
-                 std::array<Sums, 4>& sums);
+                 std::array<QuadratureCounts, 4>& sums);
 };
 
 /// 64 samples; `before`: the previous sample. One bit for each sample that counted up, down, or was illegal.

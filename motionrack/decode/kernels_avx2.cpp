@@ -32,7 +32,7 @@ namespace {
 }
 
 [[gnu::target("avx2,popcnt")]] inline void add_words(const std::uint64_t* a, const std::uint64_t* b, std::size_t words,
-                                                     Levels before, Sums& sums) {
+                                                     Levels before, QuadratureCounts& sums) {
     for (std::size_t w = 0; w < words; ++w) {
         const WordMasks masks = masks_of(a[w], b[w], before);
         sums.up += static_cast<std::uint64_t>(_mm_popcnt_u64(masks.up));
@@ -42,9 +42,9 @@ namespace {
     }
 }
 
-[[gnu::target("avx2,popcnt")]] Sums tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words,
-                                          Levels before) {
-    Sums sums;
+[[gnu::target("avx2,popcnt")]] QuadratureCounts tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words,
+                                                      Levels before) {
+    QuadratureCounts sums;
     if (words == 0) return sums;
     add_words(a, b, 1, before, sums);
     std::size_t w = 1;
@@ -101,7 +101,7 @@ namespace {
 }
 
 [[gnu::target("avx2,popcnt")]] void four(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits,
-                                         std::uint8_t before, std::array<Sums, 4>& sums) {
+                                         std::uint8_t before, std::array<QuadratureCounts, 4>& sums) {
     static constexpr std::size_t piece = 64;
     alignas(32) std::array<std::array<std::uint64_t, piece>, 8> planes;
     for (std::size_t done = 0; done < words; done += piece) {

@@ -39,7 +39,7 @@ sum_of(__m512i words) {
     return static_cast<std::uint64_t>(_mm512_reduce_add_epi64(words));
 }
 
-[[gnu::target("avx512f,avx512bw,avx512vl,avx512vpopcntdq,avx512vbmi,avx512vbmi2,gfni,popcnt")]] Sums tally(
+[[gnu::target("avx512f,avx512bw,avx512vl,avx512vpopcntdq,avx512vbmi,avx512vbmi2,gfni,popcnt")]] QuadratureCounts tally(
     const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before) {
     if (words == 0) return {};
     Counters sums{_mm512_setzero_si512(), _mm512_setzero_si512(), _mm512_setzero_si512()};
@@ -123,7 +123,7 @@ struct Turn {
 /// down in lane B.
 [[gnu::target("avx512f,avx512bw,avx512vl,avx512vpopcntdq,avx512vbmi,avx512vbmi2,gfni,popcnt")]] void four(
     const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
-    std::array<Sums, 4>& sums) {
+    std::array<QuadratureCounts, 4>& sums) {
     const Turn turn = turn_of(bits);
     __m512i last = turned(turn, _mm512_set1_epi8(static_cast<char>(before)));
     __m512i counts = _mm512_setzero_si512(), illegal = counts;

@@ -7,8 +7,8 @@ namespace motionrack::decode {
 
 namespace {
 
-Sums tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before) {
-    Sums sums;
+QuadratureCounts tally(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before) {
+    QuadratureCounts sums;
     for (std::size_t w = 0; w < words; ++w) {
         const WordMasks masks = masks_of(a[w], b[w], before);
         sums.up += static_cast<std::uint64_t>(std::popcount(masks.up));
@@ -97,7 +97,8 @@ class PairSums {
 constexpr std::uint64_t lines_a = 0x5555555555555555U;
 
 /// Channels in bits 0 1, 2 3, 4 5, 6 7 need no planes: the neighbouring byte is the previous sample.
-void four_in_order(const std::uint8_t* bytes, std::size_t words, std::uint8_t before, std::array<Sums, 4>& sums) {
+void four_in_order(const std::uint8_t* bytes, std::size_t words, std::uint8_t before,
+                   std::array<QuadratureCounts, 4>& sums) {
     PairSums ups, ones, illegals;
     std::uint64_t last = before;
     for (std::size_t i = 0; i < 8 * words; ++i) {
@@ -115,7 +116,7 @@ void four_in_order(const std::uint8_t* bytes, std::size_t words, std::uint8_t be
 }
 
 void four(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
-          std::array<Sums, 4>& sums) {
+          std::array<QuadratureCounts, 4>& sums) {
     bool in_order = true;
     for (int channel = 0; channel < 4; ++channel) {
         const Bits& at = bits[static_cast<std::size_t>(channel)];
