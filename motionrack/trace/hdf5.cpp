@@ -133,7 +133,8 @@ Writer Hdf5File::make_column(const std::string& path, const ColumnSettings& sett
     out.set_ = Handle(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), links.get(), create.get(), access.get()),
                       H5Dclose);
     if (!good(out.set_.get(), "make a column")) return out;
-    out.written_ = columns_[path] = std::make_shared<Written>(Written{settings.type, 0, settings.text_bytes, 0});
+    out.written_ = columns_[path] =
+        std::make_shared<ExpectedData>(ExpectedData{settings.type, 0, settings.text_bytes, 0});
     if (settings.unit.empty()) return out;
     set(path, "unit", settings.unit);
     set(path, "scale", settings.scale);
@@ -199,7 +200,7 @@ void Hdf5File::write_text(const std::string& path, std::string_view text) {
     std::string bytes(text);
     if (bytes.empty()) bytes.push_back('\0');
     good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), "write a text");
-    columns_[path] = std::make_shared<Written>(Written{Type::text, 1, bytes.size(), 0});
+    columns_[path] = std::make_shared<ExpectedData>(ExpectedData{Type::text, 1, bytes.size(), 0});
     columns_[path]->add(bytes.data(), bytes.size());
 }
 
@@ -210,7 +211,7 @@ void Hdf5File::put_attribute(const std::string& object, const char* name, std::i
         H5Aclose);
     if (!good(made.get(), "make an attribute")) return;
     good(H5Awrite(made.get(), type, value), "write an attribute");
-    Written& written = attributes_[{object, name}] = Written();
+    ExpectedData& written = attributes_[{object, name}] = ExpectedData();
     written.size = H5Tget_size(type);
     written.add(value, written.size);
 }

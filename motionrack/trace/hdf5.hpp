@@ -73,7 +73,7 @@ struct ColumnSettings {
 };
 
 /// Expected state of a column or an attribute when the file is read back.
-struct Written {
+struct ExpectedData {
     Type type = Type::int64;
     std::uint64_t size = 0;      ///< elements; bytes of an attribute
     std::size_t text_bytes = 0;  ///< bytes per element of text
@@ -96,7 +96,7 @@ class Writer {
     Type type_ = Type::int64;
     std::size_t text_bytes_ = 0;
     std::uint64_t size_ = 0;
-    std::shared_ptr<Written> written_;
+    std::shared_ptr<ExpectedData> written_;
 };
 
 /// Dataset that is read in pieces.
@@ -179,8 +179,8 @@ class Hdf5File {
     Handle file_;         ///< library handle; closed first
     bool unfinished_ = false;
     std::string trouble_;
-    std::map<std::string, std::shared_ptr<Written>> columns_;            ///< by path
-    std::map<std::pair<std::string, std::string>, Written> attributes_;  ///< by object and name
+    std::map<std::string, std::shared_ptr<ExpectedData>> columns_;            ///< by path
+    std::map<std::pair<std::string, std::string>, ExpectedData> attributes_;  ///< by object and name
 };
 
 }  // namespace motionrack::trace::hdf5

@@ -8,7 +8,7 @@
 
 namespace motionrack::trace::hdf5 {
 
-void Written::add(const void* data, std::size_t bytes) {
+void ExpectedData::add(const void* data, std::size_t bytes) {
     checksum = ::crc32_z(checksum, static_cast<const unsigned char*>(data), bytes);
 }
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t block_bytes = 1 << 20;
 
-bool is_column_as(const Written& written, std::int64_t set) {
+bool is_column_as(const ExpectedData& written, std::int64_t set) {
     const Handle space(H5Dget_space(set), H5Sclose), text = text_type(written.text_bytes);
     hsize_t size = 0;
     if (!space || H5Sget_simple_extent_dims(space.get(), &size, nullptr) != 1 || size != written.size) return false;
@@ -24,7 +24,7 @@ bool is_column_as(const Written& written, std::int64_t set) {
     const std::size_t each = std::max<std::size_t>(H5Tget_size(type), 1);
     const hsize_t block = std::max<std::size_t>(block_bytes / each, 1);
     std::vector<char> bytes(each * std::min(block, size));
-    Written found;
+    ExpectedData found;
     for (hsize_t at = 0; at < size; at += block) {
         const hsize_t count = std::min(block, size - at);
         const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
@@ -36,11 +36,11 @@ bool is_column_as(const Written& written, std::int64_t set) {
     return found.checksum == written.checksum;
 }
 
-bool is_attribute_as(const Written& written, std::int64_t attribute) {
+bool is_attribute_as(const ExpectedData& written, std::int64_t attribute) {
     const Handle type(H5Aget_type(attribute), H5Tclose);
     if (!type || H5Tget_size(type.get()) != written.size) return false;
     std::vector<char> bytes(written.size);
-    Written found;
+    ExpectedData found;
     if (H5Aread(attribute, type.get(), bytes.data()) < 0) return false;
     found.add(bytes.data(), bytes.size());
     return found.checksum == written.checksum;
