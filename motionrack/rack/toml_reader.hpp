@@ -122,12 +122,12 @@ struct Member<T Object::*> {
 };
 
 template <class T>
-struct Inner {
+struct OptionalTraits {
     using type = T;
     static constexpr bool optional = false;
 };
 template <class T>
-struct Inner<std::optional<T>> {
+struct OptionalTraits<std::optional<T>> {
     using type = T;
     static constexpr bool optional = true;
 };
@@ -149,7 +149,7 @@ template <auto member>
 FieldValue get_member(const void* object, const Field& field) {
     using M = Member<decltype(member)>;
     const auto& value = static_cast<const typename M::object*>(object)->*member;
-    if constexpr (Inner<typename M::type>::optional) {
+    if constexpr (OptionalTraits<typename M::type>::optional) {
         return value ? to_value(*value, field) : FieldValue{};
     } else {
         return to_value(value, field);
@@ -159,7 +159,7 @@ FieldValue get_member(const void* object, const Field& field) {
 template <auto member>
 void set_member(void* object, const FieldValue& value, const Field& field) {
     using M = Member<decltype(member)>;
-    using T = typename Inner<typename M::type>::type;
+    using T = typename OptionalTraits<typename M::type>::type;
     auto& target = static_cast<typename M::object*>(object)->*member;
     if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, double> || std::is_same_v<T, std::string>) {
         target = std::get<T>(value);
@@ -184,15 +184,15 @@ constexpr FieldType field_type() {
 /// of those). Enums need `choices` in the order of their values, from 0; texts may have choices.
 template <auto member>
 constexpr Field field(std::string_view key, double min, double max, std::string_view unit, std::string_view doc) {
-    using Inner = detail::Inner<typename detail::Member<decltype(member)>::type>;
+    using Traits = detail::OptionalTraits<typename detail::Member<decltype(member)>::type>;
     Field out;
     out.key = key;
-    out.type = detail::field_type<typename Inner::type>();
+    out.type = detail::field_type<typename Traits::type>();
     out.min = min;
     out.max = max;
     out.unit = unit;
     out.doc = doc;
-    out.optional = Inner::optional;
+    out.optional = Traits::optional;
     out.get = &detail::get_member<member>;
     out.set = &detail::set_member<member>;
     return out;
