@@ -34,7 +34,7 @@ TEST(Journey, AWrongFirstLineMovesNothing) {
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
-    EXPECT_EQ(outcome.ended.error().place, (Place{2, 1}));
+    EXPECT_EQ(outcome.ended.error().place, (TextPosition{2, 1}));
     for (const AxisOutcome& axis : outcome.axes) EXPECT_EQ(axis.pulses_sent, 0) << axis.index;
 }
 

@@ -17,11 +17,11 @@ enum class ErrorKind {
     stopped         ///< the user requested a stop; recorded data are kept
 };
 
-/// A place in a text file; line and column count from 1, 0: unknown.
-struct Place {
+/// A position in a text file; line and column count from 1, 0: unknown.
+struct TextPosition {
     int line = 0;
     int column = 0;
-    friend constexpr bool operator==(const Place&, const Place&) = default;
+    friend constexpr bool operator==(const TextPosition&, const TextPosition&) = default;
 };
 
 /// A failure as a sentence: the value found, the limit, the consequence and the remedy.
@@ -29,7 +29,7 @@ struct Error {
     ErrorKind kind = ErrorKind::invalid_input;
     std::string message;
     std::string file = {};
-    Place place = {};
+    TextPosition place = {};
 
     /// "file:line:column: message" without unknown parts.
     std::string text() const {
@@ -47,7 +47,7 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Shorthand for returning an error.
-inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, Place place = {}, std::string file = {}) {
+inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, TextPosition place = {}, std::string file = {}) {
     return tl::unexpected<Error>(Error{kind, std::move(message), std::move(file), place});
 }
 

@@ -78,7 +78,7 @@ class CsvCapture final : public Capture {
   private:
     struct Row {
         std::string text;
-        Place place;
+        TextPosition place;
         bool cut = false;
     };
 
@@ -88,7 +88,7 @@ class CsvCapture final : public Capture {
     Result<void> take_head();
     bool looks_timed(const std::vector<Row>& rows);
     Result<void> take(const Row& row);
-    Result<std::int64_t> time_of(std::string_view cell, Place place) const;
+    Result<std::int64_t> time_of(std::string_view cell, TextPosition place) const;
 
     TextReader text_;
     Sampler sampler_;
@@ -218,7 +218,7 @@ void CsvCapture::choose(const std::vector<std::size_t>& signals) {
     sampler_.begin(signals.size());
 }
 
-Result<std::int64_t> CsvCapture::time_of(std::string_view cell, Place place) const {
+Result<std::int64_t> CsvCapture::time_of(std::string_view cell, TextPosition place) const {
     std::string text(cell);
     if (separator_ != ',') std::replace(text.begin(), text.end(), ',', '.');
     double time = 0;

@@ -36,8 +36,8 @@ class TextReader {
     /// The next byte that is not white space, without taking it; 0 at the end.
     char peek();
 
-    /// Place of the line or word, counted from 1.
-    Place place() const { return {static_cast<int>(line_), column_}; }
+    /// Position of the line or word, counted from 1.
+    TextPosition place() const { return {static_cast<int>(line_), column_}; }
     /// True if the file ends directly after it, without a line end: it may be truncated.
     bool cut() const { return cut_; }
     /// Error that ended the reading, if any.

@@ -98,7 +98,7 @@ Result<void> VcdCapture::skip(const char* what) {
 Result<void> VcdCapture::read_head() {
     std::vector<std::string> words;
     for (std::string_view word; text_.word(word);) {
-        const Place place = text_.place();
+        const TextPosition place = text_.place();
         const std::string keyword(word);
         if (keyword.empty() || keyword[0] != '$')
             return refuse(

@@ -25,7 +25,7 @@ void check_steps(const TomlNode& root, std::string_view section, std::string_vie
 void check_drawings(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     const TomlNode* node = root.find("drawing");
     if (job.drawings.empty())
-        return problems.error(node != nullptr ? node->key_place : Place{1, 1}, "A job needs a [drawing].");
+        return problems.error(node != nullptr ? node->key_place : TextPosition{1, 1}, "A job needs a [drawing].");
     for (std::size_t i = 0; i < job.drawings.size(); ++i) {
         const TomlNode& table = node->type == rack::TomlType::array ? node->children[i] : *node;
         const DrawingSource& d = job.drawings[i];

@@ -42,7 +42,7 @@ void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& pro
 void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
     const TomlNode* at = table.find(key);
     if (at == nullptr) return;
-    const auto wrong = [&](Place place) {
+    const auto wrong = [&](TextPosition place) {
         problems.error(place,
                        fmt::format("'{}' must be an array of 1 to 10000 numbers that rise, from 0 to 1e6.", key));
     };

@@ -14,7 +14,7 @@ bool AxisSource::sound(std::initializer_list<std::string_view> keys) const {
     });
 }
 
-Place AxisSource::place(std::string_view key, std::string_view sub) const {
+TextPosition AxisSource::place(std::string_view key, std::string_view sub) const {
     if (table == nullptr) return {};
     const TomlNode* in = sub.empty() ? table : table->find(sub);
     return in != nullptr ? in->place_of(key) : table->key_place;

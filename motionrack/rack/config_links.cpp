@@ -25,7 +25,8 @@ std::string_view pin_for(const CardType& type, std::string_view end) {
 
 class LinkResolver {
   public:
-    LinkResolver(RackConfig& config, const std::function<Place(const std::string&)>& place_of, Problems& problems)
+    LinkResolver(RackConfig& config, const std::function<TextPosition(const std::string&)>& place_of,
+                 Problems& problems)
         : config_(config), place_of_(place_of), problems_(problems) {}
 
     void run() {
@@ -177,21 +178,21 @@ class LinkResolver {
     /// Reports an error at the first of these inputs that the file names.
     void error(std::initializer_list<std::string> inputs, std::string message) {
         for (const std::string& input : inputs) {
-            const Place place = place_of_(input);
-            if (place != Place{}) return problems_.error(place, std::move(message));
+            const TextPosition place = place_of_(input);
+            if (place != TextPosition{}) return problems_.error(place, std::move(message));
         }
         // Only wires of the default rule: two axes on one channel, already reported.
         if (!problems_.any_errors()) problems_.error({}, std::move(message));
     }
 
     RackConfig& config_;
-    const std::function<Place(const std::string&)>& place_of_;
+    const std::function<TextPosition(const std::string&)>& place_of_;
     Problems& problems_;
 };
 
 }  // namespace
 
-void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
+void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& place_of,
                    Problems& problems) {
     LinkResolver(config, place_of, problems).run();
 }

@@ -167,7 +167,7 @@ class MarkingReader {
         const auto is_number = [](const TomlNode& node) {
             return node.type == TomlType::number || node.type == TomlType::integer;
         };
-        const auto bad = [&](Place place, std::string text) {
+        const auto bad = [&](TextPosition place, std::string text) {
             problems_.error(place, fmt::format("{}: {}", what_, text));
             return false;
         };

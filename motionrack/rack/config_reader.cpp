@@ -64,7 +64,7 @@ class RackReader {
     void read_cards() {
         const TomlNode* cards = root_.find("card");
         if (cards == nullptr || (cards->type == TomlType::table && cards->children.empty())) {
-            problems_.error(cards != nullptr ? cards->key_place : Place{1, 1},
+            problems_.error(cards != nullptr ? cards->key_place : TextPosition{1, 1},
                             "The rack has no card; add a section [card.motion] with type = \"mcx314\".");
             return;
         }

@@ -88,9 +88,9 @@ class WireResolver {
     bool sound() const { return sound_; }
 
     /// Location at which the file names that input; an empty place if it does not.
-    Place place_of(const std::string& input) const {
+    TextPosition place_of(const std::string& input) const {
         const auto found = named_.find(input);
-        return found != named_.end() ? found->second->key_place : Place{};
+        return found != named_.end() ? found->second->key_place : TextPosition{};
     }
 
   private:
@@ -150,7 +150,7 @@ class WireResolver {
     }
 
     /// Returns the end of that name, or nullptr after an error (no error for cards whose own type is already in error).
-    const KnownEnd* find_end(const std::string& name, Place place) {
+    const KnownEnd* find_end(const std::string& name, TextPosition place) {
         const auto found = known_.find(name);
         if (found != known_.end()) {
             if (found->second.missing.empty()) return &found->second;
@@ -263,13 +263,13 @@ class WireResolver {
                 const auto its = wires_.find(each.first);
                 return its != wires_.end() && its->second.from == output;
             });
-            error(named != named_.end() ? named->second->key_place : Place{},
+            error(named != named_.end() ? named->second->key_place : TextPosition{},
                   fmt::format("{} drives more than {} inputs, the limit of an output; leave some open.", from,
                               max_inputs));
         }
     }
 
-    void error(Place place, std::string message) {
+    void error(TextPosition place, std::string message) {
         sound_ = false;
         problems_.error(place, std::move(message));
     }

@@ -166,7 +166,7 @@ class Scanner {
     std::string open_;    ///< open brackets, outermost first
 };
 
-Place to_place(const toml::source_position& position) {
+TextPosition to_place(const toml::source_position& position) {
     return {static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
@@ -183,7 +183,7 @@ void convert_table(const toml::table& table, TomlNode& to) {
         to.children.push_back(std::move(child));
     }
     std::stable_sort(to.children.begin(), to.children.end(), [](const TomlNode& a, const TomlNode& b) {
-        const Place &p = a.key_place, &q = b.key_place;
+        const TextPosition &p = a.key_place, &q = b.key_place;
         return p.line != q.line ? p.line < q.line : p.column < q.column;
     });
 }

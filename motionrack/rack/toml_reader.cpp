@@ -16,7 +16,7 @@ const TomlNode* TomlNode::find(std::string_view name) const {
     return nullptr;
 }
 
-Place TomlNode::place_of(std::string_view name) const {
+TextPosition TomlNode::place_of(std::string_view name) const {
     const TomlNode* child = find(name);
     return child != nullptr ? child->value_place : key_place;
 }
@@ -27,7 +27,7 @@ std::string_view type_name(TomlType type) {
     return names[static_cast<std::size_t>(type)];
 }
 
-void Problems::add(std::vector<Error>& list, Place place, std::string message) {
+void Problems::add(std::vector<Error>& list, TextPosition place, std::string message) {
     list.push_back(Error{ErrorKind::invalid_input, std::move(message), file_, place});
 }
 
@@ -38,7 +38,7 @@ std::vector<Error> Problems::take(std::vector<Error>& list) {
     if (list.size() > max_listed) {
         const std::size_t more = list.size() - max_listed;
         list.resize(max_listed);
-        const Place last = list.back().place;
+        const TextPosition last = list.back().place;
         list.push_back(Error{ErrorKind::invalid_input,
                              fmt::format("and {} more; correct the first ones and try again.", more), file_, last});
     }

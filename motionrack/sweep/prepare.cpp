@@ -132,7 +132,7 @@ class Preparation {
         const auto at = static_cast<std::size_t>(error.place.line - 1);
         const std::string name = at < lines.size() ? lines[at].name : std::string();
         std::string with;
-        Place place;
+        TextPosition place;
         for (std::size_t p = 0; p < values.size(); ++p) {
             const VariedParameter& parameter = parameters()[p];
             if (parameter.kind != ParameterKind::rack) continue;
@@ -148,7 +148,7 @@ class Preparation {
         tell(place, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
     }
 
-    void tell(Place place, const std::string& message) {
+    void tell(TextPosition place, const std::string& message) {
         if (told_.insert({place.line, place.column, message}).second) problems_.error(place, message);
     }
 

@@ -136,7 +136,7 @@ class Reader {
     }
 
     bool read_values(const TomlNode& node, VariedParameter& parameter) {
-        const auto wrong = [&](Place place, std::string_view what) {
+        const auto wrong = [&](TextPosition place, std::string_view what) {
             problems_.error(place, fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.",
                                                parameter.name, what));
             return false;
@@ -188,7 +188,7 @@ class Reader {
         table.key_place = node.value_place;
         if (!rack::read_fields(table, range_fields, &settings, {parameter.name, "", "", {}}, problems_).empty())
             return false;
-        const auto refuse = [&](Place place, const std::string& what) {
+        const auto refuse = [&](TextPosition place, const std::string& what) {
             problems_.error(place, what);
             return false;
         };

@@ -22,7 +22,7 @@ constexpr std::int64_t max_prepared = 12;  ///< points: each reads a rack
 
 void check_errors(const std::vector<Error>& errors, std::string_view text) {
     const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
-    Place before;
+    TextPosition before;
     for (const Error& error : errors) {
         require(!error.message.empty() && error.file == "fuzz", "an error has a sentence and the file", error.text());
         require(error.place.line >= 0 && error.place.line <= lines && error.place.column >= 0,
@@ -34,7 +34,7 @@ void check_errors(const std::vector<Error>& errors, std::string_view text) {
 }
 
 /// Returns the node of the file whose key is at that position.
-const TomlNode* node_at(const TomlNode& table, Place key) {
+const TomlNode* node_at(const TomlNode& table, TextPosition key) {
     if (table.type != TomlType::table) return nullptr;
     for (const TomlNode& child : table.children) {
         if (child.key_place == key && (child.type != TomlType::table || child.find("from") != nullptr)) return &child;

@@ -278,7 +278,7 @@ TEST(GcodeCutter, RefusesWithPlaceAndSentence) {
 TEST(GcodeCutter, AMoveThatTheProgramsEndFindsTooShortIsNamed) {
     const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nY60\nX10\nY57.5\n");
     ASSERT_EQ(program.problems.size(), 1u);
-    EXPECT_EQ(program.problems[0].place, (Place{7, 1}));
+    EXPECT_EQ(program.problems[0].place, (TextPosition{7, 1}));
     EXPECT_THAT(program.problems[0].message, HasSubstr("line 7"));
 }
 

@@ -11,8 +11,8 @@ namespace {
 constexpr int deepest = 16;
 
 /// Returns the position of byte `at` of the text.
-Place place_of(std::string_view text, std::size_t at) {
-    Place place{1, 1};
+TextPosition place_of(std::string_view text, std::size_t at) {
+    TextPosition place{1, 1};
     for (const char c : text.substr(0, at)) {
         ++place.column;
         if (c == '\n') ++place.line, place.column = 1;
@@ -96,7 +96,7 @@ Result<nlohmann::json> read_object(std::string_view text, std::string_view what)
                         {1, 1});
         return value;
     } catch (const nlohmann::json::parse_error& error) {
-        const Place place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
+        const TextPosition place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} is not valid JSON: see line {}, column {}. Nothing was done.", what, place.line,
                                 place.column),

@@ -35,7 +35,7 @@ std::string driver_of(const RackConfig& config, const std::string& to) {
 
 struct BadFile {
     std::string text;
-    Place place;
+    TextPosition place;
     std::vector<std::string> words;  ///< the error there contains all of them
 };
 
@@ -204,7 +204,7 @@ TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
     // With the default (300), initial_position_mm would be outside; but the intended max_limit_mm is unknown.
     const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (Place{6, 16}));
+    EXPECT_EQ(reading.errors[0].place, (TextPosition{6, 16}));
 }
 
 TEST(RackFile, ACardOfUnknownTypeGivesNoErrorsAboutItsPins) {

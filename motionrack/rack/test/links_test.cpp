@@ -40,7 +40,7 @@ TEST(Links, FollowTheFile) {
 
 struct BadWires {
     std::string wires;
-    Place place;
+    TextPosition place;
     std::vector<std::string> words;
 };
 
@@ -81,7 +81,7 @@ TEST(Links, OneChannelTurnsOneMotor) {
     const RackReading reading =
         read_rack_text(rack_with(second_axis + "[wires]\nX.step = \"m.upp\"\nX.dir = \"m.upm\"\n"));
     ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (Place{10, 3}));
+    EXPECT_EQ(reading.errors[0].place, (TextPosition{10, 3}));
     EXPECT_THAT(reading.errors[0].message, HasSubstr("m.upp drives X.step and A.step"));
 }
 

@@ -46,7 +46,7 @@ std::string_view card_in(std::string_view line) {
 }
 
 tl::unexpected<Error> wrong(std::string message, std::string_view file, int line) {
-    return fail(ErrorKind::invalid_input, std::move(message), Place{line, 1}, std::string(file));
+    return fail(ErrorKind::invalid_input, std::move(message), TextPosition{line, 1}, std::string(file));
 }
 
 Result<std::vector<std::string>> read_cards(std::string_view text, std::string_view file) {
