@@ -15,15 +15,44 @@ double share_of_time(const Move& move, double whole, double part) {
     return move.feed_mode == FeedMode::inverse_time && part > 0 ? move.feed * (whole / part) : move.feed;
 }
 
-double length_on_arc(const Geometry& path, const Point& place) {
+/// A part of a move's length as some of its axes have it, and how much they count: the squared way, pulses^2.
+struct WeighedPart {
+    double part = 0;
+    double weight = 0;
+};
+
+/// By the axes beside the plane of an arc.
+WeighedPart part_beside_plane(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+    WeighedPart out;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        if (i == path.first || i == path.second) continue;
+        const double way = (path.end[i] - path.start[i]) * pulses[i];
+        out.part += (place[i] - path.start[i]) * pulses[i] * way;
+        out.weight += way * way;
+    }
+    if (out.weight > 0) out.part /= out.weight;
+    return out;
+}
+
+/// By the angle in the plane, and in proportion to the pulses by the other axes: where a helix is steep its angle tells
+/// little.
+double length_on_arc(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     const double x0 = path.start[path.first] - path.centre_first, y0 = path.start[path.second] - path.centre_second;
     const double x = place[path.first] - path.centre_first, y = place[path.second] - path.centre_second;
     const double whole = std::fabs(path.sweep);
     double angle = motionrack::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
     if (path.sweep < 0) angle = -angle;
     if (angle < 0) angle += 2 * pi;
-    if (angle > whole) angle = angle - whole < 2 * pi - angle ? whole : 0;
-    return path.length * (angle / whole);
+    const WeighedPart beside = part_beside_plane(path, place, pulses);
+    const double along = path.radius * whole * std::max(pulses[path.first], pulses[path.second]);
+    const double in_plane = along * along;
+    if (!(beside.weight > 0)) {
+        if (angle > whole) angle = angle - whole < 2 * pi - angle ? whole : 0;
+    } else if (std::fabs(angle - 2 * pi - beside.part * whole) < std::fabs(angle - beside.part * whole)) {
+        angle -= 2 * pi;
+    }
+    const double part = (angle / whole * in_plane + beside.part * beside.weight) / (in_plane + beside.weight);
+    return path.length * std::clamp(part, 0.0, 1.0);
 }
 
 double length_on_straight(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
@@ -53,7 +82,7 @@ Move sub_move(const Move& move, const Geometry& path, double from, double to) {
 NearestPoint nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
     NearestPoint out;
     if (path.shape == PathShape::arc)
-        out.length = length_on_arc(path, place);
+        out.length = length_on_arc(path, place, pulses);
     else if (path.shape != PathShape::nothing)
         out.length = length_on_straight(path, place, pulses);
     const Point nearest = position_at(path, out.length);

@@ -74,6 +74,27 @@ TEST(TheRestOfAMove, GoesOnFromAPlaceBesideThePath) {
     }
 }
 
+TEST(TheRestOfAMove, OfASteepHelixIsFoundByItsHeight) {
+    const PulsesPerUnit pulses = {2560, 2560, 2560, 0, 0, 0};
+    for (const double turn : {0.00001, 0.001, 0.99}) {
+        const Move whole = helix(turn, 1);
+        const Geometry path = geometry_of(whole, at_ten);
+        for (const double part : {0.0, 0.001, 0.078, 0.5, 0.99, 1.0}) {
+            SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);
+            Point place = position_at(path, part * path.length);
+            for (const double off : {-0.0004, 0.0004}) {  // a pulse
+                place[1] += off;
+                const NearestPoint nearest = nearest_point(path, place, pulses);
+                EXPECT_NEAR(nearest.length, part * path.length, 0.001);
+                EXPECT_LT(nearest.distance, 2.1);
+                const Geometry rest = geometry_of(remaining_move(whole, path, place, pulses), place);
+                EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.001);
+                place[1] -= off;
+            }
+        }
+    }
+}
+
 TEST(TheRestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
     const Move whole = helix(0.25, 0);
     const Geometry path = geometry_of(whole, at_ten);
