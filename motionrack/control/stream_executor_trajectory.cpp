@@ -8,8 +8,6 @@ namespace motionrack::control {
 
 namespace {
 
-/// s of motion submitted at a time: the delay of a hold or an override
-constexpr double max_line_seconds = 0.03;
 /// s before braking at which an unfinished path is flushed. The interpolator returns nothing of the last moves until it
 /// knows what follows. It is flushed if no line has come and deceleration for the end of its plan is this near.
 constexpr double ends_before = 0.2;
@@ -19,7 +17,6 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
     InterpolatorSettings settings;
-    settings.max_seconds = max_line_seconds;
     settings.cut_dwells = true;
     return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
 }

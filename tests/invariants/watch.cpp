@@ -22,15 +22,15 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
     return out;
 }
 
-/// Sections of a jerk-limited path are submitted to the card two at a time, each of at most 30 ms. The deceleration
-/// changes within the jerk limit.
+/// Up to four sections of a jerk-limited path, each of at most 10 ms, are ahead of the axes. The deceleration changes
+/// within the jerk limit.
 Invariants::Settings settings_of(const rack::RackConfig& config, Duration slice) {
     Invariants::Settings out;
     for (const rack::RackAxis& axis : config.axes)
         if (config.jerk_limited() && axis.max_jerk > 0)
             out.jerk_time_s = std::max(out.jerk_time_s, axis.max_accel / axis.max_jerk);
     out.obeyed = slice + milliseconds(10);
-    if (config.jerk_limited()) out.obeyed += milliseconds(60) + from_seconds(out.jerk_time_s);
+    if (config.jerk_limited()) out.obeyed += milliseconds(40) + from_seconds(out.jerk_time_s);
     return out;
 }
 

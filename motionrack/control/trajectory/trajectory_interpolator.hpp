@@ -13,8 +13,9 @@ namespace motionrack::control {
 
 struct InterpolatorSettings {
     TrajectoryGeneratorSettings generator;
-    double max_seconds =
-        0.1;  ///< maximum duration of a move, which bounds the delay of a hold or an override; above 0, at most 0.1
+    /// Maximum duration of a move, above 0 and at most 0.1. Up to four moves are ahead of the axes, which is the delay
+    /// of a stop, a hold or an override.
+    double max_seconds = 0.01;
     bool cut_dwells = false;                  ///< divides dwells, too
     const DriveConstraints* drive = nullptr;  ///< may be null; must outlive the planner
 };
