@@ -11,7 +11,8 @@ namespace motionrack::rack {
 
 namespace {
 
-// A window is long enough for some pulses at the velocity step limit.
+// A window is long enough for some pulses at the velocity step limit, and for the whole pulses to hide as little of a
+// step as the acceleration does.
 constexpr double min_window = 1e-3, pulses_of_start = 2;
 constexpr Duration max_period = milliseconds(2);
 // Common error of the counts at three instants, in pulses: counts and segment ends are whole.
@@ -77,7 +78,10 @@ std::string sentence_of(const Breach& breach) {
 
 JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
     if (period <= Duration{} || period > max_period || start_hz <= 0) return;
-    const double window = std::clamp(pulses_of_start / start_hz, min_window, to_seconds(max_window));
+    start_hz_ = start_hz, accel_hz_ = accel_hz, period_s_ = to_seconds(period);
+    const double balanced = accel_hz > 0 ? std::sqrt(1.5 * count_rounding / accel_hz) : 0;
+    const double window =
+        std::clamp(std::max(pulses_of_start / start_hz, balanced), min_window, to_seconds(max_window));
     looks = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
     seconds = static_cast<double>(looks) * to_seconds(period);
     explained_ = accel_hz * seconds * seconds;
@@ -87,6 +91,19 @@ JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
 double JumpLaw::jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const {
     const auto change = std::fabs(static_cast<double>(last - 2 * middle + first));
     return change > allowed_ ? (change - count_rounding - explained_) / seconds : 0;
+}
+
+bool JumpLaw::ends_abruptly(std::span<const std::int64_t> counts) const {
+    constexpr std::size_t most = 6;  // periods
+    const std::size_t last = counts.size() - 1;
+    if (looks == 0 || counts.size() < 3 || counts[last] != counts[last - 1] || counts[last - 1] == counts[last - 2])
+        return false;
+    for (std::size_t k = 2; k <= std::min(most, last - 1); ++k) {
+        const double window = static_cast<double>(k) * period_s_;
+        const double ramp = start_reserve * start_hz_ * window + 0.5 * accel_hz_ * window * window;
+        if (std::fabs(static_cast<double>(counts[last] - counts[last - 1 - k])) > ramp + count_rounding) return true;
+    }
+    return false;
 }
 
 JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period)

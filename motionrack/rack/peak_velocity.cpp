@@ -7,7 +7,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr double min_window = 1e-3;
+constexpr double min_peak_window = 1e-3;
 constexpr std::size_t max_looks = 1 << 10;
 /// Pulses by which a count over some time may exceed the velocity: counts and segment ends are whole.
 constexpr double count_excess = 2;
@@ -18,7 +18,7 @@ constexpr double many_pulses = 1000;
 
 PeakVelocity::PeakVelocity(double jump_hz, Duration period)
     : jump_hz_(jump_hz), period_s_(to_seconds(period)), counts_(max_looks) {
-    while (static_cast<double>(min_looks_) * period_s_ < min_window && min_looks_ < max_looks / 2) min_looks_ *= 2;
+    while (static_cast<double>(min_looks_) * period_s_ < min_peak_window && min_looks_ < max_looks / 2) min_looks_ *= 2;
 }
 
 void PeakVelocity::pass(double rate, Instant now) {

@@ -43,7 +43,8 @@ void RampWatch::keep(std::size_t i, std::int64_t count) {
 void RampWatch::judge(std::size_t i, Instant now) {
     const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
-    if (watched_[i].law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0)
+    const JumpLaw& law = watched_[i].law;
+    if (law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0 || law.ends_abruptly(counts))
         state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
 }
 
