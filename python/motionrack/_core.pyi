@@ -692,7 +692,7 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
     def HomeType1(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """Decelerates at the home switch. The axes are those of home_axes. Source: 4.7 Home.
 
-WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's if IN2 alone is enabled; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
@@ -701,7 +701,7 @@ Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end wel
     def HomeType2(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType1, then back at SV and slowly to the switch again. Source: 4.7 Home.
 
-WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's if IN2 alone is enabled; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
@@ -710,7 +710,7 @@ Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end wel
     def HomeType3(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType1, then on at SV to the encoder's index Z. Source: 4.7 Home.
 
-WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's if IN2 alone is enabled; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
@@ -719,7 +719,7 @@ Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end wel
     def HomeType4(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType3 slowly, then HomeType2. Source: 4.7 Home.
 
-WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
+WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's if IN2 alone is enabled; 1 (IN0 at High), 2 (IN0 stops), 4 (IN1 at High), 8 (IN1 stops), 16 (IN2 (Z) at High), 32 (IN2 stops), 64 (IN3 at High), 128 (IN3 stops) or a sum of these.
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.

@@ -186,10 +186,10 @@ MCX314_API void InPosSig(int n, int axis);
 /* ---- Home ---- */
 
 /* Search the home switch in - direction and wait until that has ended; LP and EP are 0 at home. WR1Reg is WR1 with the
- * home switch enabled at its level: IN0 .. IN3 in types 1 and 2; IN0, IN1 or IN3 in types 3 and 4, where IN2 is the
- * encoder's index Z at its level. 1 decelerates at the switch; 2 then goes back at SV and again, at half of SV, to the
- * switch; 3 decelerates at the switch and goes on to Z at SV; 4 decelerates, goes on to Z at half of SV, and then does
- * as 2. The axes, which the source leaves open, are those of mcx314_home_axes(). */
+ * home switch enabled at its level: IN0 .. IN3. In types 3 and 4 the encoder's index Z is at IN2, at its level; where
+ * IN2 alone is enabled, it is the home switch, and Z is at IN3. 1 decelerates at the switch; 2 then goes back at SV and
+ * again, at half of SV, to the switch; 3 decelerates at the switch and goes on to Z at SV; 4 decelerates, goes on to Z
+ * at half of SV, and then does as 2. The axes, which the source leaves open, are those of mcx314_home_axes(). */
 MCX314_API void HomeType1(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType2(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType3(int WR1Reg, int SV, int V, int A);

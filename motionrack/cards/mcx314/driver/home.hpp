@@ -48,8 +48,9 @@ struct HomeSettings {
     double pulses_per_unit = 1;  ///< not 0
 };
 
-/// Settings from the arguments of the source's HomeType functions: WR1Reg is WR1 with the home input and its level, and
-/// IN2 with its level for the index. Errors: refused, no input enabled.
+/// Settings from the arguments of the source's HomeType functions: WR1Reg is WR1 with the home input and its level. In
+/// types 3 and 4 the index is at IN2, at its level; if IN2 is the only enabled input, the home switch is at IN2 and the
+/// index at IN3. Errors: refused, no input enabled.
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A);
 
 class Home {

@@ -55,16 +55,21 @@ Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, s
     out.v = V;
     out.a = A;
     if (type == 3) out.slow_v = SV;
+    constexpr int in2 = 2, in3 = 3;
+    const auto enabled = [&](int input) { return (WR1Reg >> 2 * input & 2) != 0; };
     out.input = -1;
-    for (int i = 3; i >= 0; --i)
-        if ((WR1Reg >> 2 * i & 2) != 0 && !(to_index && i == out.index_input)) out.input = i;
+    for (int i = in3; i >= 0; --i)
+        if (enabled(i) && !(to_index && i == in2)) out.input = i;
+    if (out.input < 0 && enabled(in2)) {
+        out.input = in2;
+        out.index_input = in3;
+    }
     if (out.input < 0)
         return motionrack::fail(
             ErrorKind::refused,
-            fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of {} as home switch (bits {}). Nothing was "
-                        "moved; enable one, with its level in the bit below.",
-                        type, WR1Reg, to_index ? "IN0, IN1 and IN3" : "IN0 to IN3",
-                        to_index ? "1, 3, 7" : "1, 3, 5, 7"));
+            fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of IN0 to IN3 as home switch (bits 1, 3, 5, "
+                        "7). Nothing was moved; enable one, with its level in the bit below.",
+                        type, WR1Reg));
     out.active_high = (WR1Reg >> 2 * out.input & 1) != 0;
     out.index_high = (WR1Reg >> 2 * out.index_input & 1) != 0;
     return out;

@@ -62,8 +62,14 @@ constexpr std::array wr1_bits = {ValueInfo{0x01, "IN0 at High"},     ValueInfo{0
                                  ValueInfo{0x10, "IN2 (Z) at High"}, ValueInfo{0x20, "IN2 stops"},
                                  ValueInfo{0x40, "IN3 at High"},     ValueInfo{0x80, "IN3 stops"}};
 constexpr std::array home_data = {
-    ArgumentInfo{
-        "WR1Reg", 1, 255, {}, "WR1: the home switch enabled, at its level; IN2's level for Z", 2, wr1_bits, true},
+    ArgumentInfo{"WR1Reg",
+                 1,
+                 255,
+                 {},
+                 "WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's if IN2 alone is enabled",
+                 2,
+                 wr1_bits,
+                 true},
     sv_of("SV"), v_of("V"), a_of("A")};
 
 constexpr std::array read_axis = {one_axis};

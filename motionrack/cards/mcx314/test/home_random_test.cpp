@@ -46,9 +46,11 @@ struct Homing {
     Index index = Index::wired;
     std::int64_t sv = 50, v = 1000, a = 100;
 
+    /// Number of the index's input IN0 .. IN3.
+    int index_input() const { return input == 2 ? 3 : 2; }
     unsigned wr1() const {
         const unsigned origin = (high ? 3u : 2u) << 2 * input;
-        return type >= 3 ? origin | 0x10 : origin;
+        return type >= 3 ? origin | 1u << 2 * index_input() : origin;
     }
     /// From V to SV, pulses; the multiple is 10.
     std::int64_t braking() const {
@@ -79,8 +81,7 @@ Homing drawn(std::uint64_t seed) {
     const auto below = [&](std::uint64_t end) { return static_cast<int>(random() % end); };
     Homing out;
     out.type = 1 + below(4);
-    constexpr std::array with_index = {0, 1, 3};
-    out.input = out.type >= 3 ? with_index[static_cast<std::size_t>(below(3))] : below(4);
+    out.input = below(4);
     out.high = below(2) != 0;
     out.brakes_at_limits = below(2) != 0;
     out.index = below(3) != 0 ? Index::wired : below(2) != 0 ? Index::never : Index::always;
@@ -96,8 +97,7 @@ Homing drawn(std::uint64_t seed) {
                                axis.limit_plus_mm}[static_cast<std::size_t>(below(5))];
     axis.hysteresis_mm = std::array{0.0, 0.05, 0.4}[static_cast<std::size_t>(below(3))];
     axis.bounce = std::array{Duration{0}, Duration{microseconds(300)}, Duration{milliseconds(2)}}[below(3) % 3];
-    axis.wired_home = false;
-    axis.wired_index = out.type >= 3 && out.index == Index::wired;
+    axis.wired_home = axis.wired_index = false;
     axis.home_level = out.high ? 1 : 0;
     axis.start_stop_hz = 1e6;
     return out;
@@ -106,14 +106,16 @@ Homing drawn(std::uint64_t seed) {
 void expect_an_end(const Homing& homing) {
     SCOPED_TRACE(homing.text());
     HomeRig rig({homing.axis});
-    rig.join(rig.machines[0]->home_wire(), "c.xin" + std::to_string(homing.input));
+    const std::string pin = "c.xin", index_pin = pin + std::to_string(homing.index_input());
+    rig.join(rig.machines[0]->home_wire(), pin + std::to_string(homing.input));
+    if (homing.type >= 3 && homing.index == Index::wired) rig.join(rig.machines[0]->index_wire(), index_pin);
     const auto limit = [&](double mm) { return homing.pulses_to(mm); };
     Beyond beyond(rig.machines[0]->rotor(), std::min<std::int64_t>(0, limit(homing.axis.limit_minus_mm)),
                   std::max<std::int64_t>(0, limit(homing.axis.limit_plus_mm)));
     rig.start();
     beyond.begin();
     rig.driver.WriteMode2(xyzu, homing.brakes_at_limits ? 0x0044 : 0x0040);
-    if (homing.type >= 3 && homing.index != Index::wired) rig.hold_wire("c.xin2", homing.index == Index::always);
+    if (homing.type >= 3 && homing.index != Index::wired) rig.hold_wire(index_pin, homing.index == Index::always);
     constexpr std::array functions = {&HomeType1, &HomeType2, &HomeType3, &HomeType4};
     const auto done = functions[static_cast<std::size_t>(homing.type - 1)](rig.driver, axis_x, homing.wr1(), homing.sv,
                                                                            homing.v, homing.a);

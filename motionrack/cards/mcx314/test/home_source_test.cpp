@@ -87,15 +87,16 @@ TEST(HomingBySource, Type4TakesAnIndexAtWhichItStandsAlready) {
 TEST(HomingBySource, AnyInputMayBeTheOriginAtEitherLevel) {
     for (const int input : {0, 1, 2, 3}) {
         for (const bool high : {false, true}) {
-            for (const auto function : {&HomeType2, &HomeType4}) {
-                if (input == 2 && function == &HomeType4) continue;  // the index
+            for (const auto function : {&HomeType2, &HomeType3, &HomeType4}) {
                 SCOPED_TRACE("IN" + std::to_string(input) + (high ? " High" : " Low"));
-                const RigAxis axis{.wired_home = false, .wired_index = input != 2, .home_level = high ? 1 : 0};
+                const int index = input == 2 ? 3 : 2;
+                const RigAxis axis{.wired_home = false, .wired_index = false, .home_level = high ? 1 : 0};
                 HomeRig rig({axis});
                 rig.join(rig.machines[0]->home_wire(), "c.xin" + std::to_string(input));
+                rig.join(rig.machines[0]->index_wire(), "c.xin" + std::to_string(index));
                 rig.start();
-                homed_by(rig, function, (high ? 3u : 2u) << 2 * input | (input == 2 ? 0u : 0x10u));
-                EXPECT_EQ(rig.rotor(), origin);
+                homed_by(rig, function, (high ? 3u : 2u) << 2 * input | 1u << 2 * index);
+                EXPECT_EQ(rig.rotor(), function == &HomeType3 ? -4 * pulses_per_turn : origin);
             }
         }
     }
@@ -136,17 +137,26 @@ TEST(HomingBySource, Type4EndsNowhereWithoutAnIndexBeforeTheLimit) {
     EXPECT_FALSE(rig.driver.moving(axis_x));
 }
 
-TEST(HomingBySource, TypesWithAnIndexRefuseItsInputAsTheOrigin) {
+TEST(HomingBySource, TypesWithAnIndexKeepItAtIn2WhereAnotherInputIsEnabled) {
+    const HomeSettings both = *home_settings(3, 0x0032, 50, 1000, 100);
+    EXPECT_EQ(both.input, 0);
+    EXPECT_EQ(both.index_input, 2);
+    EXPECT_TRUE(both.index_high);
+    const HomeSettings in2_alone = *home_settings(4, 0x0060, 50, 1000, 100);
+    EXPECT_EQ(in2_alone.input, 2);
+    EXPECT_FALSE(in2_alone.active_high);
+    EXPECT_EQ(in2_alone.index_input, 3);
+    EXPECT_TRUE(in2_alone.index_high);
+}
+
+TEST(HomingBySource, EachTypeRefusesAWordThatEnablesNoOrigin) {
     HomeRig rig;
     rig.start();
-    for (const auto function : {&HomeType3, &HomeType4}) {
-        const auto refused = function(rig.driver, axis_x, 0x0030, 50, 1000, 100);
-        ASSERT_FALSE(refused);
-        EXPECT_THAT(refused.error().message, HasSubstr("none of IN0, IN1 and IN3"));
+    for (const auto function : {&HomeType1, &HomeType2, &HomeType3, &HomeType4}) {
+        const auto none = function(rig.driver, axis_x, 0x0055, 50, 1000, 100);
+        ASSERT_FALSE(none);
+        EXPECT_THAT(none.error().message, HasSubstr("WR1Reg is 0055h, which enables none of IN0 to IN3"));
     }
-    const auto none = HomeType1(rig.driver, axis_x, 0x0055, 50, 1000, 100);
-    ASSERT_FALSE(none);
-    EXPECT_THAT(none.error().message, HasSubstr("none of IN0 to IN3"));
     EXPECT_EQ(rig.rotor(), 0);
 }
 
