@@ -230,7 +230,8 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
     LastKnownPositions out;
     const json kept = kept_of(last);
     std::vector<std::string> doubts = last.doubts;
-    if (last.clean && doubts.empty() && kept.empty()) doubts.push_back("it has no axis positions");
+    if (last.clean && doubts.empty() && kept.empty() && !config.axes.empty())
+        doubts.push_back("it has no axis positions");
     const bool intact = last.clean && doubts.empty();
     out.axes = standings_of(kept, config, intact);
     std::string where;
@@ -248,7 +249,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
         say(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
                         fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
     for (const std::string& doubt : doubts) say(fmt::format("The journal is invalid: {}.", doubt));
-    if (!intact) say("No position is valid: home the machine, or declare its position.");
+    if (!intact && !config.axes.empty()) say("No position is valid: home the machine, or declare its position.");
     if (!last.damage.empty()) say(last.damage);
     return out;
 }

@@ -38,6 +38,7 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
                 fmt::format("Card {} is of type {}: a real one cannot be driven. Nothing was opened. A real mcx314 "
                             "can.",
                             name, card->type));
+        MOTIONRACK_CHECK(live::CardPort::check(places[i].spec));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)
             if (axis.card == name) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", axis.letter);

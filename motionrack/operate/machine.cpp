@@ -8,30 +8,6 @@
 
 namespace motionrack::operate {
 
-std::string_view name_of(MachineState state) {
-    switch (state) {
-        case MachineState::disabled:
-            return "disabled";
-        case MachineState::standstill:
-            return "standstill";
-        case MachineState::homing:
-            return "homing";
-        case MachineState::moving:
-            return "moving";
-        case MachineState::jogging:
-            return "jogging";
-        case MachineState::hold:
-            return "hold";
-        case MachineState::stopping:
-            return "stopping";
-        case MachineState::error_stop:
-            return "error stop";
-        case MachineState::service:
-            return "service";
-    }
-    return "";
-}
-
 namespace {
 
 StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, const std::string& at_work) {
@@ -58,6 +34,12 @@ tl::unexpected<Error> not_now(std::string text) {
 Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
     if (!latch.latched()) return {};
     return not_now(fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+}
+
+Result<void> has_axes(const rack::RackConfig& config, const char* what) {
+    if (!config.axes.empty()) return {};
+    return not_now(
+        fmt::format("{}: the rack has no axes. Nothing was moved; add an [axis.X] section to the rack file.", what));
 }
 
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
@@ -140,6 +122,7 @@ Result<void> Machine::axes_may_move(const char* what, std::string_view axes) con
 
 /// Also requires that every axis is enabled and has a valid position.
 Result<void> Machine::ready_for_lines(const char* what) {
+    MOTIONRACK_CHECK(has_axes(rack_.config(), what));
     MOTIONRACK_CHECK(ready(what));
     MOTIONRACK_CHECK(door_.check_closed(what));
     MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
@@ -341,6 +324,7 @@ Result<void> Machine::home(std::string axes) {
     if (axes.empty())
         for (const rack::RackAxis& axis : rack_.config().axes)
             if (rack_.config().can_home(axis)) homed += axis.letter;
+    MOTIONRACK_CHECK(has_axes(rack_.config(), "Not homed"));
     MOTIONRACK_CHECK(may_start("Not homed"));
     MOTIONRACK_CHECK(ready("Not homed"));
     MOTIONRACK_CHECK(door_.check_closed("Not homed"));

@@ -19,6 +19,7 @@
 #include <functional>
 #include <memory>
 #include <motionrack/control/gcode/program_reader.hpp>
+#include <motionrack/control/no_axes.hpp>
 #include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
@@ -58,7 +59,8 @@ struct MachineSettings {
 class Machine {
   public:
     /// Builds and starts the rack. In a rack without home switches the axes start at the rack file's positions.
-    /// Otherwise their positions are not valid, except those in `standing`. Errors: as Rack::path_axes.
+    /// Otherwise their positions are not valid, except those in `standing`. A rack may have no axes: programs, lines
+    /// and jogs are refused then. Errors: as Rack::path_axes.
     static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
     ~Machine();
 
@@ -196,6 +198,7 @@ class Machine {
     rack::WireTap tap_;
     rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;
+    control::NoAxes no_axes_;
     std::unique_ptr<control::StreamExecutor> stream_;
     bool group_holds_ = false;  ///< true: the axis group drives; false: single axes
     bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless

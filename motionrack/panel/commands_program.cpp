@@ -16,7 +16,7 @@ struct Reading {
     double accel_reserve = 0;
 };
 Reading reading_of(PanelContext& desk) {
-    return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->accel_reserve()};
+    return {desk.machine.stream().fresh_settings(), rack::accel_reserve_of(desk.machine.rack())};
 }
 
 /// The plan is ready slightly after the start of motion.

@@ -105,7 +105,7 @@ Result<void> Job::drive(control::AxisGroup& axes, JobOutcome& out) {
     control::ExecutorSettings settings;
     settings.gcode = settings_.reading ? *settings_.reading : reader_settings(rack_.config());
     settings.gcode.start = start_;
-    settings.accel_reserve = rack_.axes().front().card->accel_reserve();
+    settings.accel_reserve = accel_reserve_of(rack_);
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.commands != nullptr && settings_.commands->needs_stream())
         return drive_by_stream(axes, settings, out);

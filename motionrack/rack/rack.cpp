@@ -363,4 +363,8 @@ std::string Rack::describe(const sim::Condition& condition) {
                        condition.b);
 }
 
+double accel_reserve_of(Rack& rack) {
+    return rack.axes().empty() ? 0 : rack.axes().front().card->accel_reserve();
+}
+
 }  // namespace motionrack::rack

@@ -136,4 +136,7 @@ class Rack {
     bool started_ = false;
 };
 
+/// Share of each axis' acceleration that a planner leaves to the card; 0 in a rack without axes.
+double accel_reserve_of(Rack& rack);
+
 }  // namespace motionrack::rack

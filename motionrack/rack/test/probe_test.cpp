@@ -209,7 +209,7 @@ struct Fed {
         control::StreamExecutorSettings settings;
         settings.gcode = reader_settings(config);
         settings.jerk_limited = config.jerk_limited();
-        settings.accel_reserve = rack.axes().front().card->accel_reserve();
+        settings.accel_reserve = accel_reserve_of(rack);
         stream = std::make_unique<control::StreamExecutor>(**rack.path_axes(), rack.cards().front()->host(), settings);
         rack.set_stop_flag(stream->stop_flag());
         rack.on_slice(milliseconds(1), [this] {
