@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/base/result.hpp>
+#include <motionrack/base/trig.hpp>
 #include <motionrack/control/path/segment_merger.hpp>
 #include <motionrack/control/path_limits.hpp>
 
