@@ -101,6 +101,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
       "mcx314/library",
       "databoard4002/map",
       "databoard4002/model",
+      "databoard4002/driver",
       "databoard4002/axes",
       "ioflex02/map",
       "ioflex02/model",

@@ -32,7 +32,7 @@ struct Range {
 
 constexpr Range numbers[] = {
     {"offset", 0, 1ull << 40, [](PortSpec& spec, std::uint64_t n) { spec.offset = n; }},
-    {"stride", 2, 4096, [](PortSpec& spec, std::uint64_t n) { spec.stride = static_cast<std::uint32_t>(n); }},
+    {"stride", 1, 4096, [](PortSpec& spec, std::uint64_t n) { spec.stride = static_cast<std::uint32_t>(n); }},
     {"width", 8, 16, [](PortSpec& spec, std::uint64_t n) { spec.width = static_cast<int>(n); }},
     {"map", 0, 4, [](PortSpec& spec, std::uint64_t n) { spec.map = static_cast<int>(n); }},
     {"gap_ns", 0, 1'000'000'000,
@@ -61,10 +61,6 @@ std::string take(PortSpec& spec, std::string_view key, std::string_view value) {
 std::string contradiction(const PortSpec& spec) {
     if (spec.path.empty()) return "the path is empty";
     if (spec.width != 8 && spec.width != 16) return fmt::format("width is {}; it must be 8 or 16", spec.width);
-    if (spec.stride % 2 != 0)
-        return fmt::format("stride is {}, but registers of 16 bits are an even number of bytes apart", spec.stride);
-    if (spec.width == 16 && spec.offset % 2 != 0)
-        return fmt::format("offset is {}, but registers of 16 bits are at even addresses", spec.offset);
     if (spec.map != 0 && spec.reach != AddressSpace::uio) return "only uio: has maps";
     return "";
 }

@@ -23,11 +23,11 @@ enum class AddressSpace : std::uint8_t {
 struct PortSpec {
     AddressSpace reach = AddressSpace::memory;
     std::string path;
-    std::uint64_t offset = 0;    ///< bytes from the start of the file (uio: of the map) to the card's first register
-    std::uint32_t stride = 2;    ///< bytes from one register to the next, 2 .. 4096, even
-    int width = 16;              ///< bits per access: 16, or 8 for a card on its 8-bit bus
-    int map = 0;                 ///< uio: number of the map, 0 .. 4
-    std::string interrupt = {};  ///< the UIO node that counts the card's interrupts; "": none
+    std::uint64_t offset = 0;  ///< bytes from the start of the file (uio: of the map) to the card's first register
+    std::uint32_t stride = 0;  ///< bytes from one register to the next, 1 .. 4096; 0: the width of the card's registers
+    int width = 16;            ///< bits per access: 16, or 8 for a card on its 8-bit bus
+    int map = 0;               ///< uio: number of the map, 0 .. 4
+    std::string interrupt = {};       ///< the UIO node that counts the card's interrupts; "": none
     Duration gap = nanoseconds(250);  ///< minimum time between two accesses, 0 .. 1 s
 };
 

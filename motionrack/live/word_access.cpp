@@ -53,6 +53,8 @@ class MappedWords final : public WordAccess {
         }
         return 0;
     }
+    int write_byte(std::uint64_t at, std::uint8_t value) override { return first_[at] = value, 0; }
+    int read_byte(std::uint64_t at, std::uint8_t& value) override { return value = first_[at], 0; }
 
   private:
     File file_;  ///< holds the lock
@@ -80,6 +82,8 @@ class FileWords final : public WordAccess {
         value = static_cast<std::uint16_t>(high << 8 | low);
         return 0;
     }
+    int write_byte(std::uint64_t at, std::uint8_t value) override { return put(at, &value, 1); }
+    int read_byte(std::uint64_t at, std::uint8_t& value) override { return get(at, &value, 1); }
 
   private:
     int put(std::uint64_t at, const void* from, std::size_t bytes) {

@@ -1,4 +1,4 @@
-// Access to 16-bit words of a card: in mapped memory, or in a file that takes them one by one.
+// Access to words and bytes of a card: in mapped memory, or in a file that takes them one by one.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,9 @@ class WordAccess {
     /// `at`: bytes from the first register. Returns 0, or the errno of a refused access.
     virtual int write(std::uint64_t at, std::uint16_t value) = 0;
     virtual int read(std::uint64_t at, std::uint16_t& value) = 0;
+    /// One access of 8 bits, whatever the width of words.
+    virtual int write_byte(std::uint64_t at, std::uint8_t value) = 0;
+    virtual int read_byte(std::uint64_t at, std::uint8_t& value) = 0;
 };
 
 /// `length`: bytes from the start of the first register to the end of the last. Errors: io, refused.

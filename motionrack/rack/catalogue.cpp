@@ -265,7 +265,7 @@ std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, s
 
 constexpr CardKind kinds[] = {
     {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314, &library_over},
-    {"databoard4002", &databoard4002::card_map, &make_databoard4002},
+    {"databoard4002", &databoard4002::card_map, &make_databoard4002, nullptr, nullptr, &view_databoard4002},
     {"ioflex02", &ioflex02::card_map, &make_ioflex02},
     {"grating_bus", &grating_bus::card_map, &make_grating_bus},
     {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder},

@@ -154,6 +154,8 @@ struct CardKind {
     RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
     /// Function library on a port of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(RegisterPort& port, Interrupt& interrupt) = nullptr;
+    /// As `view`, of a card with byte ports that is selected by a number.
+    Result<RegisterView> (*byte_view)(BytePort& port, Interrupt& host, std::uint8_t select) = nullptr;
 };
 
 /// Builds the error that lists the readable registers of the card's map, and `more`.

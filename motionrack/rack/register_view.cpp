@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <nlohmann/json.hpp>
@@ -57,10 +58,30 @@ RegisterView view_mcx314(RegisterPort& port, bool clearing) {
     return view;
 }
 
+Result<RegisterView> view_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select) {
+    databoard4002::DriverSettings settings;
+    settings.select = select;
+    databoard4002::Driver driver(port, host, settings);
+    constexpr std::uint8_t empty_slot = 0xFF;
+    const std::uint8_t stat = driver.status().word;
+    if (stat == empty_slot)
+        return fail(ErrorKind::machine, fmt::format("No card answers under the number {} (STAT reads FFh). Nothing was "
+                                                    "changed. Check the number, its straps and its power.",
+                                                    select));
+    MOTIONRACK_TRY(const std::int64_t position, driver.position());
+    MOTIONRACK_TRY(const int rate, driver.rate());
+    RegisterView view;
+    for (const RegisterInfo& reg : databoard4002::card_map().registers)
+        if (reg.name == "STAT") view.registers.push_back({&reg, "", stat});
+    view.values = {{"POSITION", "", position, "counts"}, {"RATE", "", rate, "rate at the output, 0 at standstill"}};
+    return view;
+}
+
 std::string view_text(const RegisterView& view, bool all) {
     std::string out;
     for (const RegisterSnapshot& seen : view.registers) {
-        out += fmt::format("{:<4} {:<2} {:04X}h  {}\n", seen.reg->name, seen.axis, seen.word, seen.reg->meaning);
+        out += fmt::format("{:<4} {:<2} {:0{}X}h  {}\n", seen.reg->name, seen.axis, seen.word, seen.reg->width / 4,
+                           seen.reg->meaning);
         for (const FieldInfo& field : seen.reg->fields)
             if (const std::uint32_t value = field_of(seen.word, field); value != 0 || all)
                 out += fmt::format("          {:<6} {:<5} {}\n", field.name, value, field.meaning);

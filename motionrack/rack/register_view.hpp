@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/port.hpp>
+#include <motionrack/base/result.hpp>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct RegisterView {
 /// and read commands. These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others
 /// meanwhile. `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
 RegisterView view_mcx314(RegisterPort& port, bool clearing);
+
+/// Reads a DataBoard 4002 that is selected by this number: STAT, and POSITION and RATE by its commands P and R. These
+/// change no motion and no event; an unfinished sequence of argument bytes ends. `host`: the card's time. Errors:
+/// machine if no card answers, or it is not Ready in time.
+Result<RegisterView> view_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select);
 
 /// Formats the view for a terminal; fields with value 0 are left out unless `all`.
 std::string view_text(const RegisterView& view, bool all);

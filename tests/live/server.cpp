@@ -1,15 +1,19 @@
-// Serves a virtual MCX314 to another program through files, and runs that program:
+// Serves a virtual card to another program through files, and runs that program:
 //
-//   live_server memory|port8|port [--real-time] PROGRAM [ARGUMENT]...
+//   live_server memory|port8|port|databoard4002 [--real-time] PROGRAM [ARGUMENT]...
 //
-//   memory    the registers are words of a file that PROGRAM maps (with a trap, see trap.hpp)
-//   port      the registers are bytes of a file that PROGRAM reads and writes two by two (FUSE), port8: one by one
+//   memory    an MCX314, whose registers are words of a file that PROGRAM maps (with a trap, see trap.hpp)
+//   port      an MCX314, whose registers are bytes of a file that PROGRAM reads and writes two by two (FUSE);
+//             port8: one by one
+//   databoard4002   a DataBoard 4002, whose ports are bytes of such a file
 //
 // PROGRAM finds the address of its card in MOTIONRACK_LIVE_PORT, and the doorbell for simulated time in
 // MOTIONRACK_LIVE_DOORBELL. Returns the exit code of PROGRAM; 77 if this computer cannot serve.
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -102,15 +106,20 @@ int run_program(char** words) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
+std::unique_ptr<VirtualCard> make_card(const std::string& face, bool real_time, std::atomic<std::int64_t>& now) {
+    if (face == "databoard4002") return std::make_unique<VirtualDataboard4002>(real_time, now);
+    return std::make_unique<VirtualMcx314>(real_time, now);
+}
+
 int serve(const std::filesystem::path& folder, const std::string& face, bool real_time, char** words) {
     const std::string registers_path = folder / "registers", bell_path = folder / "doorbell", mount = folder / "files";
     std::filesystem::create_directory(mount);
     const MappedFile registers(registers_path, page, true), bell(bell_path, page, true);
     if (!registers || !bell) return std::perror("live_server"), 1;
 
-    VirtualCard card(real_time, bell.as<Doorbell>().now);
+    const std::unique_ptr<VirtualCard> card = make_card(face, real_time, bell.as<Doorbell>().now);
     std::string why;
-    const auto files = ServedFiles::serve(card, mount, why);
+    const auto files = ServedFiles::serve(*card, mount, why);
     std::string port = "memory:" + registers_path + ",offset=" + std::to_string(first_register);
     if (face != "memory") {
         if (!files) return std::printf("%s Nothing was tested.\n", why.c_str()), cannot_serve;
@@ -120,7 +129,7 @@ int serve(const std::filesystem::path& folder, const std::string& face, bool rea
     if (files) port += ",interrupt=" + mount + "/uio0";
     ::setenv("MOTIONRACK_LIVE_PORT", port.c_str(), 1);
     if (!real_time) ::setenv("MOTIONRACK_LIVE_DOORBELL", bell_path.c_str(), 1);
-    const Attendant attendant(card, bell.as<Doorbell>(), &registers.as<char>());
+    const Attendant attendant(*card, bell.as<Doorbell>(), &registers.as<char>());
     return run_program(words);
 }
 
@@ -131,9 +140,11 @@ int main(int argc, char** argv) {
     const std::string face = next < argc ? argv[next++] : "";
     const bool real_time = next < argc && std::string(argv[next]) == "--real-time";
     if (real_time) ++next;
-    if (next >= argc || (face != "memory" && face != "port" && face != "port8") || (real_time && face == "memory")) {
+    const std::array faces = {"memory", "port", "port8", "databoard4002"};
+    if (next >= argc || std::find(faces.begin(), faces.end(), face) == faces.end() || (real_time && face == "memory")) {
         std::fprintf(stderr,
-                     "live_server memory|port|port8 [--real-time] PROGRAM [ARGUMENT]... (no real time in memory)\n");
+                     "live_server memory|port|port8|databoard4002 [--real-time] PROGRAM [ARGUMENT]... (no real time in "
+                     "memory)\n");
         return 1;
     }
     std::string folder = (std::filesystem::temp_directory_path() / "motionrack-live-XXXXXX").string();

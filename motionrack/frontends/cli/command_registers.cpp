@@ -6,6 +6,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/live/byte_card_port.hpp>
 #include <motionrack/live/card_port.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
@@ -17,6 +18,7 @@ namespace {
 
 struct RegistersOptions {
     std::string card, rack, live;
+    std::uint8_t select = 13;
     bool clear = false, all = false, json = false;
 };
 
@@ -24,20 +26,38 @@ void print_registers(const rack::RegisterView& view, const RegistersOptions& opt
     fmt::print("{}", options.json ? rack::view_json(view) : rack::view_text(view, options.all));
 }
 
+/// The view, unless an access was refused.
+Result<rack::RegisterView> unless_refused(const live::LivePort& port, Result<rack::RegisterView> view) {
+    if (port.trouble()) return tl::unexpected<Error>(*port.trouble());
+    return view;
+}
+
+Result<rack::RegisterView> live_words(const live::PortSpec& spec, const rack::CardKind& kind,
+                                      const RegistersOptions& options) {
+    MOTIONRACK_TRY(const auto port, live::CardPort::open(spec, kind.map()));
+    return unless_refused(*port, kind.view(*port, options.clear));
+}
+
+Result<rack::RegisterView> live_bytes(const live::PortSpec& spec, const rack::CardKind& kind,
+                                      const RegistersOptions& options) {
+    MOTIONRACK_TRY(const auto port, live::ByteCardPort::open(spec, kind.map()));
+    return unless_refused(*port, kind.byte_view(*port, *port, options.select));
+}
+
 int live_registers(const RegistersOptions& options) {
     const rack::CardKind* const kind = rack::find_card_kind(options.card.empty() ? "mcx314" : options.card);
-    if (!kind || !kind->view) {
-        print_error(fmt::format(
-            "The registers of a real '{}' cannot be read; those of an mcx314 can. Nothing was opened.", options.card));
+    if (!kind || (!kind->view && !kind->byte_view)) {
+        print_error(
+            fmt::format("The registers of a real '{}' cannot be read; those of an mcx314 and of a "
+                        "databoard4002 can. Nothing was opened.",
+                        options.card));
         return exit_usage;
     }
     const auto spec = live::read_port_spec(options.live);
     if (!spec) return report(spec.error());
-    const auto port = live::CardPort::open(*spec, kind->map());
-    if (!port) return report(port.error());
-    const rack::RegisterView view = kind->view(**port, options.clear);
-    if ((*port)->trouble()) return report(*(*port)->trouble());
-    print_registers(view, options);
+    const auto view = kind->view ? live_words(*spec, *kind, options) : live_bytes(*spec, *kind, options);
+    if (!view) return report(view.error());
+    print_registers(*view, options);
     return exit_done;
 }
 
@@ -53,8 +73,13 @@ int virtual_registers(const RegistersOptions& options) {
         known += (known.empty() ? "" : ", ") + card.name();
         if (!options.card.empty() && options.card != card.name()) continue;
         const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
-        if (!kind || !kind->view) continue;
-        print_registers(kind->view(*card.port(), options.clear), options);
+        if (!kind || (!kind->view && !kind->byte_view)) continue;
+        const Result<rack::RegisterView> view =
+            kind->view ? kind->view(*card.port(), options.clear)
+                       : kind->byte_view(*card.byte_port(), card.host(),
+                                         static_cast<std::uint8_t>(config->cards[i].databoard4002.select));
+        if (!view) return report(view.error());
+        print_registers(*view, options);
         return exit_done;
     }
     print_error(
@@ -72,12 +97,14 @@ void add_registers(CLI::App& app, Action& chosen) {
                         "name of a card in the rack (default: the first); with --live its type (default: mcx314)");
     auto* rack = command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--live", options->live, "a real card: " + std::string(live::port_spec_form()))->excludes(rack);
+    command->add_option("--select", options->select, "number of a real databoard4002 on its bus (13)");
     command->add_flag("--clear", options->clear, "also read RR3, which clears it");
     command->add_flag("--all", options->all, "also fields that are 0");
     command->add_flag("--json", options->json, "as JSON");
     command->footer(
-        "Example: motionrack registers --live uio:/dev/uio0\nOf a real card WR0 is written, with NOP and read "
-        "commands: no other program may use it at the same time.");
+        "Example: motionrack registers --live uio:/dev/uio0\nOf a real mcx314 WR0 is written, with NOP and read "
+        "commands; a real databoard4002 is selected and gets the commands P and R. No other program may use the card "
+        "at the same time.");
     command->callback([options, &chosen] {
         chosen = [options] { return options->live.empty() ? virtual_registers(*options) : live_registers(*options); };
     });

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <motionrack/live/byte_card_port.hpp>
 #include <motionrack/live/card_port.hpp>
 
 namespace motionrack::live {
@@ -27,6 +28,13 @@ constexpr RegisterInfo registers[] = {
 constexpr CardMap four{"four", "Four registers", registers, {}, {}, {}};
 constexpr RegisterInfo wide[] = {{"W", 0, 32, Access::read, false, "", "", {}}};
 constexpr CardMap wide_card{"wide", "One register", wide, {}, {}, {}};
+
+constexpr RegisterInfo bytes_wide[] = {
+    {"A", 0, 8, Access::write, false, "", "", {}},
+    {"B", 1, 8, Access::read, false, "", "", {}},
+    {"C", 2, 8, Access::write, false, "", "", {}},
+};
+constexpr CardMap three_card{"three", "Three ports", bytes_wide, {}, {}, {}};
 
 class Folder {
   public:
@@ -78,6 +86,55 @@ RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersPlaceAndNoOthers, ()) {
     expected[offset + number * stride] = static_cast<char>(value & 0xFF);
     expected[offset + number * stride + 1] = static_cast<char>(value >> 8);
     RC_ASSERT(bytes_of(path) == expected);
+}
+
+RC_GTEST_PROP(LivePort, MovesOneByteAtThePortsPlaceAndNoOthers, ()) {
+    const bool mapped = *rc::gen::arbitrary<bool>();
+    const auto offset = *rc::gen::inRange<std::size_t>(0, 6000), stride = *rc::gen::inRange<std::size_t>(1, 600);
+    const auto number = *rc::gen::inRange<std::uint8_t>(0, 3);
+    const auto value = *rc::gen::arbitrary<std::uint8_t>();
+    const Folder folder;
+    std::string expected(offset + 2 * stride + 1, '\x55');
+    const std::string path = folder.file("card", expected);
+    const auto port = ByteCardPort::open(
+        *read_port_spec((mapped ? "memory:" : "port:") + path + ",gap_ns=0,offset=" + std::to_string(offset) +
+                        (stride == 1 ? "" : ",stride=" + std::to_string(stride))),
+        three_card);
+    RC_ASSERT(port.has_value());
+    (*port)->out(number, value);
+    RC_ASSERT((*port)->in(number) == value);
+    expected[offset + number * stride] = static_cast<char>(value);
+    RC_ASSERT(bytes_of(path) == expected);
+}
+
+TEST(LivePort, SaysThatItsRegistersHaveAnotherWidth) {
+    const Folder folder;
+    const std::string path = folder.file("card", std::string(64, '\0'));
+    const auto port = ByteCardPort::open(*read_port_spec("memory:" + path), four);
+    ASSERT_FALSE(port);
+    EXPECT_THAT(port.error().message, HasSubstr("The four has registers that are not ports of 8 bits"));
+    EXPECT_THAT(refusal("memory:" + path, three_card), HasSubstr("not words of 16 bits"));
+}
+
+TEST(LivePort, SaysThatAWordIsNotAtAnOddAddress) {
+    const Folder folder;
+    const std::string path = "memory:" + folder.file("card", std::string(64, '\0'));
+    EXPECT_THAT(refusal(path + ",offset=3"), HasSubstr("offset is 3, but registers of 16 bits are at even addresses"));
+    EXPECT_EQ(refusal(path + ",offset=3,width=8"), "");
+    EXPECT_THAT(refusal(path + ",stride=3"), HasSubstr("stride is 3, but registers of 16 bits are an even number"));
+}
+
+TEST(LivePort, APortOfAVanishedFileReadsAsAnEmptySlot) {
+    const Folder folder;
+    const std::string path = folder.file("card", std::string(8, '\x12'));
+    const auto port = *ByteCardPort::open(*read_port_spec("port:" + path + ",gap_ns=0"), three_card);
+    EXPECT_EQ(port->in(1), 0x12);
+    std::filesystem::resize_file(path, 1);
+    EXPECT_EQ(port->in(1), 0xFF);
+    ASSERT_TRUE(port->trouble());
+    EXPECT_THAT(port->trouble()->message, HasSubstr("The register at 01h could not be read through " + path));
+    port->out(0, 1);
+    EXPECT_EQ(bytes_of(path), "\x12") << "no access is made after it";
 }
 
 TEST(LivePort, SaysThatThereIsNoSuchFile) {

@@ -63,6 +63,8 @@ class PortWords final : public WordAccess {
         }
         return 0;
     }
+    int write_byte(std::uint64_t at, std::uint8_t value) override { return library_.write8(port_of(at), value), 0; }
+    int read_byte(std::uint64_t at, std::uint8_t& value) override { return value = library_.read8(port_of(at)), 0; }
 
   private:
     std::uint16_t port_of(std::uint64_t at) const { return static_cast<std::uint16_t>(first_ + at); }

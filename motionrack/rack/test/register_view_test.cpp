@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/template.hpp>
@@ -84,6 +85,26 @@ TEST_F(RegisterViews, WriteNothingButNopsAndReadCommands) {
         EXPECT_TRUE(code == mcx314::cmd::NOP || (code >= mcx314::cmd::READ_LP && code <= mcx314::cmd::READ_CA)) << code;
     }
     EXPECT_THAT(slot.reads, Not(testing::Contains(mcx314::reg::RR3)));
+}
+
+TEST(ADataBoardsView, ShowsItsStatusItsPositionAndItsRate) {
+    Rack rack(*read_rack_text("[card.board]\ntype = \"databoard4002\"\ncard_number = 5\n").config);
+    rack.start();
+    Card& card = *rack.card("board");
+    databoard4002::DriverSettings settings;
+    settings.select = 5;
+    databoard4002::Driver driver(*card.byte_port(), card.host(), settings);
+    ASSERT_TRUE(driver.connect());
+    ASSERT_TRUE(driver.set_rate(16'000));
+    ASSERT_TRUE(driver.move_to(-30, whole_seconds(1)));
+    card.host().pass(milliseconds(1));  // it is busy with the last command
+    const Result<RegisterView> view = view_databoard4002(*card.byte_port(), card.host(), 5);
+    ASSERT_TRUE(view) << view.error().message;
+    EXPECT_THAT(view_text(*view, false), HasSubstr("STAT    80h  status\n          READY  1 "));
+    EXPECT_THAT(view_text(*view, false), HasSubstr("POSITION    -30         counts\n"));
+    const Result<RegisterView> absent = view_databoard4002(*card.byte_port(), card.host(), 6);
+    ASSERT_FALSE(absent);
+    EXPECT_THAT(absent.error().message, HasSubstr("No card answers under the number 6"));
 }
 
 }  // namespace
