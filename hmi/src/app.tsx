@@ -22,7 +22,23 @@ import { Icon } from './parts/icons';
 import { Panel } from './parts/ui';
 import { narrow, view } from './view';
 
+/** A rack without axes: its cards in place of axes, path and program. */
+function CardsAlone(): JSX.Element {
+  return (
+    <div class="view two">
+      <div class="column">
+        <Panel title="Machine">
+          <p class="hint">This rack has no axes, so no program runs on it. Operate its cards on their pages.</p>
+        </Panel>
+        <Clock />
+      </div>
+      <Cards />
+    </div>
+  );
+}
+
 function Operate(): JSX.Element {
+  if (state.axisLetters.value === '') return <CardsAlone />;
   return (
     <div class="view operate">
       <div class="column">
@@ -84,7 +100,7 @@ function View(): JSX.Element {
 function Phone(): JSX.Element {
   return (
     <div class="view phone">
-      <Dro />
+      {state.axisLetters.value !== '' && <Dro />}
       {state.status.value?.program.name ? (
         <Panel title="Program">
           <Progress />

@@ -14,11 +14,12 @@ export const PROGRAM = join(BUILD, 'bin/motionrack');
 export const LIVE_SERVER = join(BUILD, 'tests/live/live_server');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 export const PICTURES = join(BUILD, 'pictures');
-/** Four axes whose positions are known at once; all kinds of card; an axis, and a card without one. */
+/** Four axes whose positions are known at once; all kinds of card; an axis, and a card without one; no axis. */
 export const RACKS = {
   axes: join(here, 'rack.toml'),
   all: join(here, '../../examples/15_panel/demonstration.toml'),
   bench: join(here, 'bench.toml'),
+  cards: join(here, 'cards.toml'),
 };
 
 /** Runs `motionrack serve`. Without pairing whoever comes may do everything. `live`: the card for which a served one
