@@ -1,6 +1,7 @@
 // Parts end on the path of the whole move; a remaining move starts at the current position.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/split_move.hpp>
 
@@ -45,14 +46,19 @@ double length_on_arc(const Geometry& path, const Point& place, const PulsesPerUn
     if (angle < 0) angle += 2 * pi;
     const WeighedPart beside = part_beside_plane(path, place, pulses);
     const double along = path.radius * whole * std::max(pulses[path.first], pulses[path.second]);
-    const double in_plane = along * along;
-    if (!(beside.weight > 0)) {
-        if (angle > whole) angle = angle - whole < 2 * pi - angle ? whole : 0;
-    } else if (std::fabs(angle - 2 * pi - beside.part * whole) < std::fabs(angle - beside.part * whole)) {
-        angle -= 2 * pi;
+    const double in_plane = std::max(along * along, min_length_mm);
+    double best = 0, least = std::numeric_limits<double>::infinity();
+    for (const double turned : {angle, angle - 2 * pi}) {
+        const double by_angle = turned / whole, by_others = beside.part;
+        const double part =
+            std::clamp((by_angle * in_plane + by_others * beside.weight) / (in_plane + beside.weight), 0.0, 1.0);
+        const double off =
+            in_plane * (by_angle - part) * (by_angle - part) + beside.weight * (by_others - part) * (by_others - part);
+        if (off >= least) continue;
+        least = off;
+        best = part;
     }
-    const double part = (angle / whole * in_plane + beside.part * beside.weight) / (in_plane + beside.weight);
-    return path.length * std::clamp(part, 0.0, 1.0);
+    return path.length * best;
 }
 
 double length_on_straight(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {

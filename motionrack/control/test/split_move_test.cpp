@@ -95,6 +95,22 @@ TEST(TheRestOfAMove, OfASteepHelixIsFoundByItsHeight) {
     }
 }
 
+TEST(TheRestOfAMove, OfAFlatHelixIsFoundByItsAngle) {
+    const PulsesPerUnit pulses = {640, 640, 640, 0, 0, 0};
+    for (const double turn : {0.3, 0.99, 1.0}) {
+        const Move whole = helix(turn, 0.002);  // a pulse
+        const Geometry path = geometry_of(whole, at_ten);
+        for (const double part : {0.1, 0.4, 0.6, 0.9}) {
+            SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);
+            for (const double height : {0.0, 0.002}) {
+                Point place = position_at(path, part * path.length);
+                place[2] = height;
+                EXPECT_NEAR(nearest_point(path, place, pulses).length, part * path.length, 0.001);
+            }
+        }
+    }
+}
+
 TEST(TheRestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
     const Move whole = helix(0.25, 0);
     const Geometry path = geometry_of(whole, at_ten);
