@@ -78,7 +78,7 @@ std::string sentence_of(const Breach& breach) {
 
 JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
     if (period <= Duration{} || period > max_period || start_hz <= 0) return;
-    start_hz_ = start_hz, accel_hz_ = accel_hz, period_s_ = to_seconds(period);
+    end_hz = start_reserve * start_hz + accel_hz * to_seconds(period);
     const double balanced = accel_hz > 0 ? std::sqrt(1.5 * count_rounding / accel_hz) : 0;
     const double window =
         std::clamp(std::max(pulses_of_start / start_hz, balanced), min_window, to_seconds(max_window));
@@ -91,19 +91,6 @@ JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
 double JumpLaw::jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const {
     const auto change = std::fabs(static_cast<double>(last - 2 * middle + first));
     return change > allowed_ ? (change - count_rounding - explained_) / seconds : 0;
-}
-
-bool JumpLaw::ends_abruptly(std::span<const std::int64_t> counts) const {
-    constexpr std::size_t most = 6;  // periods
-    const std::size_t last = counts.size() - 1;
-    if (looks == 0 || counts.size() < 3 || counts[last] != counts[last - 1] || counts[last - 1] == counts[last - 2])
-        return false;
-    for (std::size_t k = 2; k <= std::min(most, last - 1); ++k) {
-        const double window = static_cast<double>(k) * period_s_;
-        const double ramp = start_reserve * start_hz_ * window + 0.5 * accel_hz_ * window * window;
-        if (std::fabs(static_cast<double>(counts[last] - counts[last - 1 - k])) > ramp + count_rounding) return true;
-    }
-    return false;
 }
 
 JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period)

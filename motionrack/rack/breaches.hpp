@@ -61,15 +61,12 @@ struct JumpLaw {
 
     std::size_t looks = 0;  ///< samples per window; 0: the check is off
     double seconds = 0;     ///< duration of a window
+    double end_hz = 0;      ///< pulses/s: highest rate one period before a ramp ends
     /// Takes the counts at the start of the first window, at its end, and at the end of the second. Returns the
     /// pulses/s above what the acceleration limit explains, or 0 if the step is allowed.
     double jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const;
-    /// True if the axis stood still in the last period, moved in the one before, and had more pulses in the periods
-    /// before than a ramp to the velocity step limit has. `counts`: of the last samples, the newest last.
-    bool ends_abruptly(std::span<const std::int64_t> counts) const;
 
   private:
-    double start_hz_ = 0, accel_hz_ = 0, period_s_ = 0;
     double allowed_ = 0;    ///< pulses
     double explained_ = 0;  ///< pulses explained by the acceleration limit alone
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/ramp_watch.hpp>
+#include <utility>
 
 namespace motionrack::rack {
 
@@ -21,12 +22,16 @@ std::int64_t RampWatch::count_of(std::size_t i, Instant now) const {
     return rack_.axes()[watched_[i].axis].turned_by().count(now);
 }
 
+double RampWatch::rate_of(std::size_t i, Instant now) const {
+    return rack_.axes()[watched_[i].axis].turned_by().rate(now);
+}
+
 /// Assumes that each axis has had its present rate before.
 void RampWatch::arm(Instant now) {
     state_ = {};
     state_.watches = 1;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
-        const double each = rack_.axes()[watched_[i].axis].turned_by().rate(now) * to_seconds(period);
+        const double each = rate_of(i, now) * to_seconds(period);
         const std::int64_t count = count_of(i, now);
         for (std::size_t k = 0; k < counts_kept; ++k)
             state_.counts[i][k] = count - std::llround(each * static_cast<double>(counts_kept - 1 - k));
@@ -44,7 +49,9 @@ void RampWatch::judge(std::size_t i, Instant now) {
     const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
     const JumpLaw& law = watched_[i].law;
-    if (law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0 || law.ends_abruptly(counts))
+    const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
+    const bool ends_abruptly = rate == 0 && before > law.end_hz;
+    if (ends_abruptly || law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0)
         state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
 }
 

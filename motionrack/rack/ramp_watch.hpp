@@ -3,7 +3,8 @@
 //   armed                     a stop comes into force        the driver has seen all axes at standstill
 //     │     every millisecond        │                              │
 //     ▼                              ▼                              ▼
-//   windows of 1 to 8 ms: see JumpLaw ──► instant of the last velocity step of each axis ──► an axis that jumped
+//   windows of 1 to 8 ms, and the rate before a standstill: see JumpLaw ──► instant of the last velocity step of each
+//   axis ──► an axis that jumped
 //
 // A card that stops on a command or at a limit switch decelerates with a ramp. The chip of an MCX314 that follows a
 // path ends its pulses at the end of the current segment, at any velocity. A card may stop before its driver knows, and
@@ -56,10 +57,12 @@ class RampWatch final : public sim::Device {
         std::int64_t watches = 0;
         Instant since = never;  ///< earlier velocity steps are ignored
         std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
+        std::array<double, control::axis_count> rates{};                                  ///< pulses/s at the last look
         /// One tick after the last velocity step of each axis; 0: none.
         std::array<Instant, control::axis_count> jumped{};
     };
     std::int64_t count_of(std::size_t i, Instant now) const;
+    double rate_of(std::size_t i, Instant now) const;
     void keep(std::size_t i, std::int64_t count);
     void judge(std::size_t i, Instant now);
 

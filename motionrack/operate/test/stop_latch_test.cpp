@@ -305,5 +305,27 @@ TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
     EXPECT_TRUE(o.machine->status().axes[0].position_valid);
 }
 
+TEST(TheStopLatch, InvalidatesAPositionThatALimitSwitchStopsAtOnceWithTheErrorStop) {
+    int slipped = 0;
+    for (int k = 0; k < 60; ++k) {
+        const double at = 1.2 + 0.0023 * k, velocity = 5 + 0.1 * k;
+        SCOPED_TRACE(testing::Message() << velocity << " mm/s, at " << at << " s");
+        Operated o(two_axes("[controller]\nprofile = \"jerk_limited\"\n[axis.X.switches]\nlimit_plus_mm = 305\n"));
+        std::optional<bool> valid;
+        o.each_status([&](const Status& status) {
+            if (!valid && status.state == MachineState::error_stop) valid = status.axes[0].position_valid;
+        });
+        o.at(0.1, [&](Machine& m) { EXPECT_TRUE(m.jog_to({100, 30}, velocity)); });
+        o.at(at, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
+        o.run(at + 0.3);
+        ASSERT_TRUE(valid);
+        const AxisStatus& x = o.machine->status().axes[0];
+        if (std::fabs(x.commanded - x.true_position) < 0.01) continue;
+        ++slipped;
+        EXPECT_FALSE(*valid) << "its motor slipped to " << x.true_position << " from " << x.commanded;
+    }
+    EXPECT_GT(slipped, 0);
+}
+
 }  // namespace
 }  // namespace motionrack::operate
