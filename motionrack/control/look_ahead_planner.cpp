@@ -78,13 +78,19 @@ double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& 
 /// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
 /// it: from line to line of a curve, and at a corner where more axes move on. Part of the deceleration of the move
 /// before makes up for that. At a corner the hardware is asked for the lesser rate, so that the plan need not show it.
+/// An arc may begin with a higher rate than its own, which it must decelerate from as well.
 LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double min_cosine = 0.98;
-    if (drive_ == nullptr || path.shape != PathShape::line || before.path.shape != PathShape::line) return {};
+    if (drive_ == nullptr) return {};
+    if (path.shape == PathShape::arc) {
+        const double ratio = drive_->velocity_ratio(before.path, path);
+        return {1, false, std::max(1.0, ratio * ratio)};
+    }
+    if (path.shape != PathShape::line || before.path.shape != PathShape::line) return {};
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
     const double ratio = drive_->velocity_ratio(before.path, path);
-    return {std::max(1.0, ratio * ratio), cosine < min_cosine};
+    return {std::max(1.0, ratio * ratio), cosine < min_cosine, 1};
 }
 
 LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
@@ -227,7 +233,7 @@ void LookAheadPlanner::backward() {
     double entry = 0;
     for (std::uint64_t i = tail_; i > last_settled + 1;) {
         Node& here = node(--i);
-        const double from = braked(here, entry);
+        const double from = braked(here, entry) / here.gain.braking;
         if (here.joint <= from && settled_ == last_settled) settled_ = i;
         here.entry = std::min(here.joint, from);
         entry = here.entry / here.gain.square;
@@ -245,7 +251,8 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
         // After change_feeds() a junction may need a lower velocity than the move can decelerate to.
-        if (const double slowest = min_exit(here, entry); slowest - exit > path_rounding * entry) exit = slowest;
+        if (const double slowest = min_exit(here, entry * here.gain.braking); slowest - exit > path_rounding * entry)
+            exit = slowest;
         double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         // From standstill to standstill within the constant-velocity length of the hardware: a pulse or two.
         if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);

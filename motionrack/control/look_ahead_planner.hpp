@@ -66,6 +66,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     struct Gain {
         double square = 1;    ///< 1 or more
         bool corner = false;  ///< the plan ends the move before with the velocity of this one nevertheless
+        double braking = 1;   ///< 1 or more; counts only for a move that decelerates from its start
         double planned() const { return corner ? 1 : square; }
     };
 

@@ -146,6 +146,20 @@ TEST_P(Lossless, ShortLinesSlowDownInTimeForACornerAtWhichZMovesOn) {
 }
 
 /// Moves from standstill to standstill, in each of which X has less than half a pulse.
+/// On a diagonal line the generator has a higher rate than an arc of the same velocity.
+TEST_P(Lossless, AnArcDeceleratesInTimeFromTheRateOfADiagonalLine) {
+    std::string text = "G21 G90 G17 G64 P0.002\nG0 X152.3125 Y101.0757 Z75\nG1 F2750\n";
+    for (int i = 1; i <= 23; ++i)
+        text += fmt::format("X{:.4f} Y{:.4f}\n", 152.3125 - 0.0476 * i, 101.0757 + 0.0189 * i);
+    text +=
+        "G3 X148.5167 Y101.7604 I-1.7775 J-4.4876\nG2 X148.5066 Y101.7587 I-0.0404 J0.2072\n"
+        "G2 X147.7299 Y99.3469 I-1.6146 J-0.8110\nM2\n";
+    RackConfig config = router(GetParam());
+    set_microsteps(config, 64);
+    config.cards[0].mcx314.host_latency_us = 200;
+    expect_lossless(drive_with(config, text, {}));
+}
+
 TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 16);

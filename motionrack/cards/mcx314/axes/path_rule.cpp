@@ -33,8 +33,15 @@ double PathRule::max_junction_velocity(const control::Geometry& before, const co
 }
 
 double PathRule::velocity_ratio(const control::Geometry& before, const control::Geometry& after) const {
-    return basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out) /
-           basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
+    return rate_along(before, before.tangent_out) / rate_along(after, after.tangent_in);
+}
+
+/// On an arc that the chip draws itself: the least of all directions, by which its speeds are written.
+double PathRule::rate_along(const control::Geometry& path, const control::Point& tangent) const {
+    const DriveMotion drawing = drawing_of(map_, path);
+    if (path.shape == control::PathShape::arc && drawing.constant_vector)
+        return map_.limits[path.first].pulses_per_unit;
+    return basic_pulses_along(map_, drawing, tangent);
 }
 
 /// The speed changes at whole pulses, and the host writes it slightly after the junction; on an arc drawn with chords,

@@ -19,6 +19,8 @@ class PathRule final : public control::DriveConstraints {
     double late_seconds() const override { return to_seconds(host_.latency); }
 
   private:
+    double rate_along(const control::Geometry& path, const control::Point& tangent) const;
+
     AxisMap map_;
     HostTimes host_;
 };

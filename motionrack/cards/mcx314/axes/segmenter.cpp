@@ -161,6 +161,13 @@ void Segmenter::emit(const PendingMove& work, std::optional<double> next_units) 
     speeds.acceleration = acceleration_units(units, work.move.accel);
     if (work.move.constant_accel) make_even(work, speeds);
     speeds.fall_from = fall_from(work, units, speeds);
+    if (work.shape == Shape::chip_arc && left_at_ > speeds.top) {
+        MoveSpeeds first = speeds;  // the arc begins with the higher rate of the move before
+        first.top = static_cast<std::int32_t>(std::min(left_at_, max_units));
+        first.exit = speeds.top;
+        if (fall_length(units, first) > speeds.fall_from) speeds.fall_from = 0;
+    }
+    left_at_ = rests ? 0 : work.units_out * work.move.exit_velocity;
     switch (work.shape) {
         case Shape::chip_arc:
             if (speeds.fall_from > 0) emit_arcs(work, 0, speeds.fall_from, speeds.top, speeds.acceleration);

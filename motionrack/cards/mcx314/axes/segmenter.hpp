@@ -129,6 +129,7 @@ class Segmenter {
     std::vector<control::PathWarning> notes_;
     bool chain_open_ = false;
     double reached_ = 1;  ///< V at the end of the last segment of a trajectory
+    double left_at_ = 0;  ///< V at the end of the last move if it was not lowered for the next one; 0: at standstill
     int generator_ = 0;
     std::int32_t next_block_ = 0;
 };
