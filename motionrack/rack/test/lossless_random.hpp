@@ -102,7 +102,7 @@ class ChordMaker : public Chance {
             out_.x = rounded(out_.x + step * std::cos(heading_));
             out_.y = rounded(out_.y + step * std::sin(heading_));
             if (is_ramp)
-                z += slope * step;
+                z = std::clamp(z + slope * step, -4.5, 4.5);  // of 5 to the end of travel
             else if (with_z)
                 z = std::clamp(z + 0.3 * step * number(-1, 1), -3.0, 3.0);
             out_.text += fmt::format("X{:.4f} Y{:.4f}{}\n", out_.x, out_.y,
