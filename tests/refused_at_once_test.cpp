@@ -52,9 +52,9 @@ TEST_F(AServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
         EXPECT_FALSE(answer.contains("done")) << answer;
         EXPECT_THAT(answer.dump(), HasSubstr(sentence));
     };
-    refused("jog", {{"axis", "X"}, {"speed", 1e6}}, "the speed is 1e+06 mm/s; it must be at most 100 for axis X");
+    refused("jog", {{"axis", "X"}, {"speed", 1e6}}, "the jog speed is 1e+06 mm/s; it must be at most 100 for axis X");
     refused("jog", {{"axis", "X"}, {"speed", -1e6}}, "Nothing was moved");
-    refused("jog_by", {{"axis", "X"}, {"distance", 1}, {"speed", 1e6}}, "the speed is 1e+06 mm/s");
+    refused("jog_by", {{"axis", "X"}, {"distance", 1}, {"speed", 1e6}}, "the jog speed is 1e+06 mm/s");
     refused("jog_by", {{"axis", "X"}, {"distance", 1e6}, {"speed", 5}}, "the travel of axis X is 300");
     refused("start_program", {{"name", "a.ngc"}, {"text", "; nothing\n"}}, "the program is empty");
     refused("start_program", {{"name", "a.ngc"}, {"text", ""}}, "");

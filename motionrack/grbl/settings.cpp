@@ -97,7 +97,7 @@ constexpr std::array<Setting, 22> table = {{
          return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.clearance; });
      },
      nullptr},
-    {30, 0, "greatest spindle speed, rpm", nullptr, &SessionSettingValues::max_rpm, 1e6},
+    {30, 0, "maximum spindle speed, rpm", nullptr, &SessionSettingValues::max_rpm, 1e6},
     {31, 0, "minimum spindle speed, rpm", nullptr, &SessionSettingValues::min_rpm, 1e6},
     {32, 0, "laser mode", nullptr, &SessionSettingValues::laser, 1},
 }};

@@ -244,7 +244,7 @@ namespace {
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_velocity) return {};
     return not_now(
-        fmt::format("Not jogged: the speed is {:g} {}/s; it must be at most {:g} for axis {}. Nothing was moved.",
+        fmt::format("Not jogged: the jog speed is {:g} {}/s; it must be at most {:g} for axis {}. Nothing was moved.",
                     std::fabs(speed), axis.unit(), axis.max_velocity, axis.letter));
 }
 
@@ -257,7 +257,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
-    if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the speed is not a number.");
+    if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the jog speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     jogs_.hold(axis, speed, origin.session);
     enter(MachineState::jogging);
@@ -289,7 +289,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
-        return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a speed of {} is not a motion.", speed));
+        return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a jog speed of {} is not a motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;

@@ -288,7 +288,7 @@ MCX314_API int mcx314_set_output(int axis, int output, int level);
 /* What a fixed drive will do, exact to the chip's clock. */
 typedef struct MCX314_PLAN {
     double seconds; /* from the command to the last pulse */
-    double top_hz;  /* the greatest speed, pulses a second */
+    double top_hz;  /* maximum speed, pulses per second */
     double end_hz;  /* the speed at the last pulse; above SV where the way is too short for ramps */
     int dec_point;  /* pulses after which the speed falls */
     int offset;     /* AO with which it does; not used after ManualDec() and where D is another than A */

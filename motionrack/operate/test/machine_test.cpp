@@ -317,7 +317,7 @@ TEST(AMachine, JogsNeitherPastItsTravelNorWithoutASpeed) {
         EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
                     HasSubstr("axis X goes from 0 to 300, not to 301"));
         EXPECT_THAT(m.jog_to({11, 0, 1, 0, 0, 0}, 20).error().message, HasSubstr("no axis Z"));
-        EXPECT_THAT(m.jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a speed of 0"));
+        EXPECT_THAT(m.jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a jog speed of 0"));
     });
     o.run(1);
     EXPECT_DOUBLE_EQ(o.x(), 10);

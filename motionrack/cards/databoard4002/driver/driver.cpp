@@ -71,10 +71,10 @@ Result<std::int64_t> Driver::ask(std::uint8_t code, int bytes) {
     return static_cast<std::int64_t>(value << unused) >> unused;
 }
 
-Result<void> Driver::in_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t greatest) const {
-    if (value >= least && value <= greatest) return {};
+Result<void> Driver::in_range(const char* what, std::int64_t value, std::int64_t min, std::int64_t max) const {
+    if (value >= min && value <= max) return {};
     return fail(ErrorKind::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what,
-                                                settings_.select, value, least, greatest));
+                                                settings_.select, value, min, max));
 }
 
 Result<int> Driver::connect() {

@@ -119,7 +119,7 @@ class Driver {
     Result<void> send(std::uint8_t code);
     Result<void> send(std::uint8_t code, std::int64_t value, int bytes);
     Result<std::int64_t> ask(std::uint8_t code, int bytes);
-    Result<void> in_range(const char* what, std::int64_t value, std::int64_t least, std::int64_t greatest) const;
+    Result<void> in_range(const char* what, std::int64_t value, std::int64_t min, std::int64_t max) const;
     Result<void> run_move(std::uint8_t wanted, bool forward, Duration timeout, Waiting how);
     Result<void> end_move(const Error& error);
     Result<bool> held(bool forward);
