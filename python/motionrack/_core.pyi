@@ -100,22 +100,22 @@ def svg_timeline(title: str, seconds: npt.ArrayLike, charts: Sequence[tuple[str,
 
 class LivePort:
     """A real card behind a live port, with a stop that holds; motionrack.LiveCard has its registers by their names."""
-    def __init__(self, place: str, type: str) -> None:
-        """Opens the port; no register is touched. InvalidInput, FileError, Refused."""
+    def __init__(self, place: str, type: str, select: int = 13) -> None:
+        """Opens the port; no register is written. InvalidInput, FileError, Refused."""
     def map(self) -> dict[str, Any]:
         """Declaration of the card: registers, bits, states."""
     def now(self) -> float:
         """Seconds of the computer's clock since it was opened. Refused once it was closed."""
     def read(self, offset: int) -> int:
-        """One access, with all effects, at the byte offset of a register; 16 bits."""
+        """One access, with all effects, at the offset of a register."""
     def write(self, offset: int, value: int) -> None:
-        """One access, with all effects, at the byte offset of a register; value 0 to 65535."""
+        """One access, with all effects, at the offset of a register; value 0 to 65535, or to 255 at a port."""
     def view(self, clearing: bool) -> str:
         """Describes the value of every register."""
     def wait_interrupt(self, timeout: float) -> bool:
         """Whether its interrupt came within timeout s."""
     def quick_stop(self) -> None:
-        """All axes end their pulses, and nothing is written until reset_stop."""
+        """All axes stop, and nothing is written until reset_stop."""
     def reset_stop(self) -> None:
         """Releases the stop; nothing moves by that."""
     def stopped(self) -> bool:
@@ -938,6 +938,9 @@ class SlopeTable:
 class Databoard4002:
     """The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault."""
     def __init__(self, world: RackHandle, card: str, counts_per_mm: float = 1000.0, select: int = 13) -> None: ...
+    @staticmethod
+    def of_live_port(card: LivePort, counts_per_mm: float = 1000.0) -> Databoard4002:
+        """Of a real card. Refused where it has a driver."""
     def connect(self) -> int:
         """Checks for the card, clears its reset mark, returns its version. MachineFault if none answers."""
     def reset(self) -> None:

@@ -7,6 +7,11 @@
         card.library.wait(1, 10000)
         print(card.library.ReadLPS(1), card.RR0.read().DRV)
 
+    with motionrack.LiveCard("port:/dev/port,offset=0x300,gap_ns=1000", "databoard4002", select=13) as card:
+        card.driver.connect()
+        card.driver.move_to(1000)
+        print(card.driver.position(), card.STAT.read().READY)
+
 The axes are at standstill after the block, also after an exception. docs/howto/live-port.md has the preparations.
 """
 
@@ -16,6 +21,7 @@ import atexit
 import contextlib
 import weakref
 from types import TracebackType
+from typing import Any
 
 from . import _core
 from .errors import InvalidInput, Error, Stopped, Timeout
@@ -34,36 +40,37 @@ def _close_all() -> None:
 
 class LiveCard(MappedCard):
     """A real card: its registers are attributes by the names of its map, in capitals or not; ``library`` has the
-    functions of its source.
+    functions of an MCX314's source, ``driver`` the library as virtual cards have it.
 
-    Ctrl-C, an exception in a ``with`` block, its end, :meth:`close` and :meth:`quick_stop` stop all axes, at once and
-    without a ramp. Ctrl-C acts while a call waits, in Python's main thread. A stop stays active: until
-    :meth:`reset_stop` nothing is written, and calls raise Stopped. What ends without these (a signal other than
-    Ctrl-C, loss of power) leaves the axes driving: limit switches and emergency stop belong to the card, not to the
-    program.
+    Ctrl-C, an exception in a ``with`` block, its end, :meth:`close` and :meth:`quick_stop` stop all axes: an MCX314 at
+    once and without a ramp, a DataBoard 4002 by its command Q. Ctrl-C acts while a call waits, in Python's main
+    thread. A stop stays active: until :meth:`reset_stop` nothing is written, and calls raise Stopped. What ends
+    without these (a signal other than Ctrl-C, loss of power) leaves the axes driving: limit switches and emergency
+    stop belong to the card, not to the program.
 
     One thread at a time, the others are Refused; only :meth:`quick_stop` may come from any. While it is open no second
     port can be opened on its registers, in this program or another one of motionrack.
     """
 
     _port: _core.LivePort
-    _driver: _core.Mcx314 | None
+    _driver: _core.Mcx314 | _core.Databoard4002 | None
     _library: _core.Mcx314Library | None
     _place: str
 
-    def __init__(self, place: str, type: str = "mcx314") -> None:
-        """Opens the card at ``place``; its status is read, nothing is written, and nothing of the card is reset.
+    def __init__(self, place: str, type: str = "mcx314", *, select: int = 13) -> None:
+        """Opens the card at ``place``; nothing is written, and nothing of the card is reset. The status of an MCX314
+        is read.
 
         ``place``: ``"uio:/dev/uio0"``, ``"memory:PATH"`` (a file that can be mapped: a PCI memory region),
         ``"port:PATH"`` (a file with two bytes an access: a PCI I/O region, ``/dev/port``), then ``,offset=N`` bytes
-        (0 to 2**40), ``,stride=N`` bytes (2 to 4096), ``,width=8``, ``,map=N`` (0 to 4), ``,interrupt=PATH``,
-        ``,gap_ns=N`` (0 to 10**9). ``type``: only an ``"mcx314"`` has a map that a real card has, behind registers
-        that live ports reach.
+        (0 to 2**40), ``,stride=N`` bytes (1 to 4096), ``,width=8``, ``,map=N`` (0 to 4), ``,interrupt=PATH``,
+        ``,gap_ns=N`` (0 to 10**9). ``type``: ``"mcx314"`` or ``"databoard4002"``; other cards have no map that a real
+        one has. ``select``: number of a DataBoard 4002 on its bus, 0 to 255.
 
         InvalidInput: the error in place or type. FileError: not there, no permission, too short. Refused: open
         already, or it would not be reached as it must. Nothing is opened then.
         """
-        port = _core.LivePort(place, type)
+        port = _core.LivePort(place, type, select)
         super().__init__(port.map(), _port=port, _driver=None, _library=None, _place=place)
         _open.add(self)
 
@@ -76,7 +83,7 @@ class LiveCard(MappedCard):
 
     @property
     def type(self) -> str:
-        """``"mcx314"``."""
+        """``"mcx314"`` or ``"databoard4002"``."""
         return str(self._map["name"])
 
     @property
@@ -88,28 +95,35 @@ class LiveCard(MappedCard):
 
     @property
     def library(self) -> _core.Mcx314Library:
-        """The functions of the card's source under their names, each with the arguments, ranges and sentences of its
-        declaration. It assumes the state after ``RESET()``. Refused beside ``driver``, and once the card
-        was closed."""
+        """The functions of the MCX314's source under their names, each with the arguments, ranges and sentences of its
+        declaration. It assumes the state after ``RESET()``. Refused beside ``driver``, of a card of another type, and
+        once the card was closed."""
         if self._library is None:
             object.__setattr__(self, "_library", _core.Mcx314Library.of_live_port(self._port))
         assert self._library is not None
         return self._library
 
     @property
-    def driver(self) -> _core.Mcx314:
-        """The library as virtual cards have it in :attr:`Card.driver`, with times in s: after ``initialise()`` a
-        program is the same on both. Refused beside ``library``, and once the card was closed."""
+    def driver(self) -> Any:
+        """The library as virtual cards have it in :attr:`Card.driver`, with times in s: after ``initialise()`` of an
+        MCX314, or ``connect()`` of a DataBoard 4002, a program is the same on both. Refused beside ``library``, and
+        once the card was closed."""
         if self._driver is None:
-            object.__setattr__(self, "_driver", _core.Mcx314.of_live_port(self._port))
+            made = (
+                _core.Mcx314.of_live_port(self._port)
+                if self.type == "mcx314"
+                else _core.Databoard4002.of_live_port(self._port)
+            )
+            object.__setattr__(self, "_driver", made)
         assert self._driver is not None
         return self._driver
 
     # ---- stops ----
 
     def quick_stop(self) -> None:
-        """All axes end their pulses, at once and without a ramp; a call of another thread ends with Stopped. From any
-        thread, in every state. It holds until :meth:`reset_stop`. FileError where the computer refuses the write."""
+        """All axes stop: an MCX314 ends its pulses at once and without a ramp, a DataBoard 4002 gets Q; a call of
+        another thread ends with Stopped. From any thread, in every state. It holds until :meth:`reset_stop`. FileError
+        where the computer refuses the write, MachineFault where the card does not take Q."""
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
@@ -122,8 +136,8 @@ class LiveCard(MappedCard):
         return self._port.stopped()
 
     def close(self) -> None:
-        """Stops all axes at once and closes the card; a second call has no effect. Refused in the middle of a call of
-        this thread. FileError where the stop could not be written; it is closed all the same.
+        """Stops all axes and closes the card; a second call has no effect. Refused in the middle of a call of this
+        thread. FileError, MachineFault where the stop could not be written; it is closed all the same.
         """
         self._port.close()
         _open.discard(self)
@@ -142,15 +156,15 @@ class LiveCard(MappedCard):
     # ---- peeking, reading, writing ----
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access, with all effects: ``offset`` in bytes in the card's map, of a register that can be read; also
-        during a stop. InvalidInput, FileError.
+        """One access, with all effects: ``offset`` in the card's map, of a register that can be read; ``bits``: 16, or
+        8 at the ports of a DataBoard 4002; also during a stop. InvalidInput, FileError.
         """
         self._check_bits(bits)
         return self._port.read(offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access, with all effects, of a register that can be written; ``value`` 0 to 65535. Library and driver do
-        not know of the change. InvalidInput, Refused, Stopped, FileError.
+        """One access, with all effects, of a register that can be written; ``value`` 0 to 2**bits - 1. Library and
+        driver do not know of the change. InvalidInput, Refused, Stopped, FileError.
         """
         self._check_bits(bits)
         self._port.write(offset, value)
@@ -162,8 +176,9 @@ class LiveCard(MappedCard):
         )
 
     def view(self, clearing: bool = False) -> str:
-        """The meaning of its registers; ``clearing``: also RR3, which reading clears. It writes WR0, with NOP and
-        read commands, which move nothing; also during a stop. FileError."""
+        """The meaning of its registers; also during a stop. Of an MCX314 it writes WR0, with NOP and read commands,
+        which move nothing; ``clearing``: also RR3, which reading clears. A DataBoard 4002 is selected, and gets the
+        commands P and R. FileError, MachineFault."""
         return self._port.view(clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
@@ -175,8 +190,9 @@ class LiveCard(MappedCard):
             raise Timeout(f"The card at {self._place} asked for no interrupt within {timeout:g} s.")
 
     def _check_bits(self, bits: int) -> None:
-        if bits != 16:
-            raise InvalidInput(f"The registers of a real {self.type} have 16 bits, not {bits}. Nothing was done.")
+        width = int(self._map["registers"][0]["width"])
+        if bits != width:
+            raise InvalidInput(f"The registers of a real {self.type} have {width} bits, not {bits}. Nothing was done.")
 
     # ---- names as attributes ----
 

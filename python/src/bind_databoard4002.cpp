@@ -6,9 +6,15 @@
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/cards/databoard4002/trim_text.hpp>
 #include <python/src/bindings.hpp>
+#include <python/src/live_card.hpp>
 #include <python/src/rack_lock.hpp>
 
 namespace motionrack::python {
+
+template <>
+struct HostOf<databoard4002::Driver> {
+    using type = Host;
+};
 
 namespace {
 
@@ -19,6 +25,17 @@ using Wide = std::int64_t;
 
 db::Waiting waiting(bool interrupt) {
     return interrupt ? db::Waiting::interrupt : db::Waiting::polling;
+}
+
+db::DriverSettings settings_of(double counts_per_mm, int select) {
+    if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
+        refuse(fmt::format("counts_per_mm is {}; it must be above 0. Nothing was made.", counts_per_mm));
+    if (select < 0 || select > 255)
+        refuse(fmt::format("The card's number is {}; it must be 0 to 255. Nothing was made.", select));
+    db::DriverSettings out;
+    out.counts_per_mm = counts_per_mm;
+    out.select = static_cast<std::uint8_t>(select);
+    return out;
 }
 
 void bind_commands(BoardClass& c) {
@@ -221,16 +238,18 @@ void bind_databoard4002(py::module_& m) {
               [](const std::shared_ptr<RackHandle>& world, const std::string& card, double counts_per_mm, int select) {
                   const RackLock turn(*world, RackLock::Access::run);
                   sim::VirtualBytePort& port = *card_of_type(*world, card, "databoard4002").byte_port();
-                  if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
-                      refuse(fmt::format("counts_per_mm is {}; it must be above 0. Nothing was made.", counts_per_mm));
-                  if (select < 0 || select > 255)
-                      refuse(fmt::format("The card's number is {}; it must be 0 to 255. Nothing was made.", select));
-                  db::DriverSettings settings;
-                  settings.counts_per_mm = counts_per_mm;
-                  settings.select = static_cast<std::uint8_t>(select);
-                  return Board{world, std::make_unique<db::Driver>(port, port, settings)};
+                  return Board{world, std::make_unique<db::Driver>(port, port, settings_of(counts_per_mm, select))};
               }),
           py::arg("world"), py::arg("card"), py::arg("counts_per_mm") = 1000.0, py::arg("select") = 13);
+    c.def_static(
+        "of_live_port",
+        [](const std::shared_ptr<LiveCard>& card, double counts_per_mm) {
+            auto& board = card->device<LiveDataboard4002>("driver of the DataBoard 4002");
+            db::DriverSettings settings = settings_of(counts_per_mm, board.select());
+            card->claim("driver");
+            return Board{card, std::make_unique<db::Driver>(board.ports(), board.interrupt(), settings)};
+        },
+        py::arg("card"), py::arg("counts_per_mm") = 1000.0, "Of a real card. Refused where it has a driver.");
     bind_commands(c);
     bind_events(c);
 }

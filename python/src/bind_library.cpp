@@ -121,8 +121,9 @@ void bind_library(py::module_& m) {
     c.def_static(
         "of_live_port",
         [](const std::shared_ptr<LiveCard>& card) {
+            auto& chip = card->device<LiveMcx314>("function library of the MCX314");
             card->claim("function library");
-            return Called{card, std::make_unique<Library>(card->registers(), card->interrupt())};
+            return Called{card, std::make_unique<Library>(chip.registers(), chip.interrupt())};
         },
         py::arg("card"), "Of a real card. Refused where it has a driver.");
     py::options options;

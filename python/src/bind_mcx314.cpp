@@ -222,8 +222,9 @@ void bind_mcx314(py::module_& m) {
     c.def_static(
         "of_live_port",
         [](const std::shared_ptr<LiveCard>& card) {
+            auto& chip = card->device<LiveMcx314>("driver of the MCX314");
             card->claim("driver");
-            return Mcx314{card, std::make_unique<Driver>(card->registers(), card->interrupt())};
+            return Mcx314{card, std::make_unique<Driver>(chip.registers(), chip.interrupt())};
         },
         py::arg("card"), "Of a real card. Refused where it has a driver.");
     bind_parameters(c);

@@ -13,43 +13,52 @@ namespace {
 /// Maximum interval at which a wait checks for signals and stops.
 constexpr Duration listen_every = milliseconds(10);
 
-/// Map of a card type of known layout, for registers behind a live port.
-const CardMap& map_of(const std::string& type) {
+/// A kind of card whose registers are known as its maker has them.
+const rack::CardKind& kind_of(const std::string& type) {
     const rack::CardKind* const kind = rack::find_card_kind(type);
-    if (kind != nullptr && kind->view != nullptr) return kind->map();
+    if (kind != nullptr && (kind->view != nullptr || kind->byte_view != nullptr)) return *kind;
     std::string known;
     for (const rack::CardKind& each : rack::card_kinds())
-        if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
+        if (each.view != nullptr || each.byte_view != nullptr)
+            known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
     raise({ErrorKind::invalid_input,
            kind == nullptr
                ? fmt::format("Unknown card type {}; a real card is one of: {}. Nothing was opened.", type, known)
-               : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or live "
-                             "ports do not reach them. Nothing was opened. Real cards can be: {}.",
+               : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or it has "
+                             "no bus. Nothing was opened. Real cards can be: {}.",
                              type, known)});
 }
 
-std::unique_ptr<live::CardPort> port_at(const std::string& place, const CardMap& map) {
-    std::unique_ptr<live::CardPort> port = value_of(live::CardPort::open(value_of(live::read_port_spec(place)), map));
-    value_of(port->check_answers());
-    return port;
+std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::CardKind& kind, Interrupt& host,
+                                      int select) {
+    const live::PortSpec spec = value_of(live::read_port_spec(place));
+    if (kind.view != nullptr) return value_of(LiveMcx314::open(spec, host));
+    if (select < 0 || select > 255)
+        raise({ErrorKind::invalid_input,
+               fmt::format("The card's number is {}; it must be 0 to 255. Nothing was opened.", select)});
+    return value_of(LiveDataboard4002::open(spec, host, static_cast<std::uint8_t>(select)));
 }
 
 }  // namespace
 
-LiveCard::LiveCard(const std::string& place, const std::string& type)
-    : place_(place), map_(map_of(type)), port_(port_at(place, map_)) {}
+LiveCard::LiveCard(const std::string& place, const std::string& type, int select)
+    : place_(place), map_(kind_of(type).map()), device_(device_at(place, kind_of(type), ears_, select)) {}
 
 LiveCard::~LiveCard() {
-    if (!closed()) stops_.stop();
+    if (!closed()) static_cast<void>(device_->stop());
 }
 
-live::CardPort& LiveCard::open_port() const {
+LiveDevice& LiveCard::open_device() const {
     if (closed()) refuse(fmt::format("The card at {} was closed. Nothing was done. Open it again.", place_));
-    return *port_;
+    return *device_;
+}
+
+void LiveCard::refuse_device(const char* who) const {
+    refuse(fmt::format("The card at {} is a {}, which has no {}. Nothing was done.", place_, map_.name, who));
 }
 
 void LiveCard::check_call() const {
-    open_port();
+    open_device();
     check_trouble();
     if (stopped())
         raise({ErrorKind::stopped, fmt::format("The card at {} was stopped, and the stop holds. Nothing was done. Call "
@@ -58,14 +67,15 @@ void LiveCard::check_call() const {
 }
 
 void LiveCard::check_trouble() const {
-    if (port_->trouble()) raise(*port_->trouble());
+    if (device_->port().trouble()) raise(*device_->port().trouble());
 }
 
 // ---- stops
 
 void LiveCard::end_call() {
-    if (stopped()) stops_.stop();
+    const Result<void> done = stopped() ? device_->stop() : Result<void>{};
     check_trouble();
+    if (!done) raise(done.error());
 }
 
 void LiveCard::quick_stop() {
@@ -74,8 +84,9 @@ void LiveCard::quick_stop() {
     if (owner.load() == std::this_thread::get_id()) return;  // in a signal handler: the stop ends the call
     const RackLock turn(*this, RackLock::Access::stop);
     if (closed()) return;
-    stops_.stop();
+    const Result<void> done = device_->stop();
     check_trouble();
+    if (!done) raise(done.error());
 }
 
 void LiveCard::close() {
@@ -86,16 +97,17 @@ void LiveCard::close() {
     stop();
     const RackLock turn(*this, RackLock::Access::stop);
     if (closed()) return;
-    stops_.stop();
-    const std::optional<Error> trouble = port_->trouble();
-    port_.reset();
+    const Result<void> done = device_->stop();
+    const std::optional<Error> trouble = device_->port().trouble();
+    device_.reset();
     if (trouble) raise(*trouble);
+    if (!done) raise(done.error());
 }
 
 // ---- drivers
 
 void LiveCard::claim(const std::string& driver) {
-    open_port();
+    open_device();
     if (!driver_.empty())
         refuse(
             fmt::format("The card at {} is driven by its {}, and a second driver would not know what that has set. "
@@ -109,7 +121,7 @@ bool LiveCard::Ears::wait(Duration timeout) {
     while (true) {
         signals_.look(card_);
         const Duration left = end - now();
-        if (card_.port_->wait(std::clamp(left, Duration{0}, listen_every))) return true;
+        if (card_.device_->port().wait(std::clamp(left, Duration{0}, listen_every))) return true;
         if (left <= listen_every || stop_requested()) return false;
     }
 }
@@ -118,7 +130,7 @@ void LiveCard::Ears::pass(Duration duration) {
     const Instant end = later(now(), duration);
     do {
         signals_.look(card_);
-        card_.port_->pass(std::clamp(end - now(), Duration{0}, listen_every));
+        card_.device_->port().pass(std::clamp(end - now(), Duration{0}, listen_every));
     } while (now() < end);
 }
 
@@ -138,9 +150,9 @@ void LiveCard::check_offset(std::uint32_t offset, bool written) const {
 
 std::uint16_t LiveCard::read(std::uint32_t offset) {
     const RackLock turn(*this, RackLock::Access::run);
-    live::CardPort& port = open_port();
+    LiveDevice& device = open_device();
     check_offset(offset, false);
-    const std::uint16_t word = port.read(offset);
+    const std::uint16_t word = device.read(offset);
     check_trouble();
     return word;
 }
@@ -148,22 +160,23 @@ std::uint16_t LiveCard::read(std::uint32_t offset) {
 void LiveCard::write(std::uint32_t offset, std::int64_t value) {
     run_exclusive(*this, [&] {
         check_offset(offset, true);
-        if (value < 0 || value > 0xFFFF)
-            raise({ErrorKind::refused,
-                   fmt::format("{} does not fit into 16 bits: 0 to 65535. Nothing was written.", value)});
-        guarded_.write(offset, static_cast<std::uint16_t>(value));
+        const int bits = device_->width();
+        if (value < 0 || value >> bits != 0)
+            raise({ErrorKind::refused, fmt::format("{} does not fit into {} bits: 0 to {}. Nothing was written.", value,
+                                                   bits, (1 << bits) - 1)});
+        device_->write(offset, static_cast<std::uint16_t>(value));
     });
 }
 
 std::string LiveCard::view(bool clearing) {
     const RackLock turn(*this, RackLock::Access::run);
-    const rack::RegisterView seen = rack::find_card_kind(map_.name)->view(open_port(), clearing);
+    const Result<rack::RegisterView> seen = open_device().view(clearing);
     check_trouble();
-    return rack::view_text(seen, false);
+    return rack::view_text(value_of(seen), false);
 }
 
 bool LiveCard::wait_interrupt(Duration timeout) {
-    if (!open_port().has_interrupt())
+    if (!open_device().port().has_interrupt())
         refuse(
             fmt::format("The card at {} has no interrupt here. Nothing was done. Open it with interrupt=PATH, or "
                         "look at its registers.",

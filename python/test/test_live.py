@@ -174,9 +174,13 @@ class Opening(OnAFile):
         ):
             with self.assertRaisesRegex(kind, sentence):
                 LiveCard(place)
-        for other in ("databoard4002", "ioflex02", "grating_bus", "rtc5"):
-            with self.assertRaisesRegex(InvalidInput, f"A real {other} cannot be opened.*Real cards can be: mcx314"):
+        for other in ("ioflex02", "grating_bus", "rtc5"):
+            with self.assertRaisesRegex(
+                InvalidInput, f"A real {other} cannot be opened.*Real cards can be: mcx314, databoard4002"
+            ):
                 LiveCard(self.place, other)
+        with self.assertRaisesRegex(InvalidInput, "The card's number is 256; it must be 0 to 255"):
+            LiveCard(self.place, "databoard4002", select=256)
         with self.assertRaisesRegex(InvalidInput, "Unknown card type rtc6"):
             LiveCard(self.place, "rtc6")
 

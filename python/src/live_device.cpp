@@ -1,0 +1,42 @@
+// Real cards by kind.
+#include <fmt/format.h>
+
+#include <motionrack/rack/register_view.hpp>
+#include <python/src/live_device.hpp>
+
+namespace motionrack::python {
+
+Result<std::unique_ptr<LiveMcx314>> LiveMcx314::open(const live::PortSpec& spec, Interrupt& host) {
+    MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
+    MOTIONRACK_CHECK(port->check_answers());
+    return std::unique_ptr<LiveMcx314>(new LiveMcx314(std::move(port), host));
+}
+
+Result<rack::RegisterView> LiveMcx314::view(bool clearing) {
+    return rack::view_mcx314(*port_, clearing);
+}
+
+Result<std::unique_ptr<LiveDataboard4002>> LiveDataboard4002::open(const live::PortSpec& spec, Interrupt& host,
+                                                                   std::uint8_t select) {
+    MOTIONRACK_TRY(auto port, live::ByteCardPort::open(spec, databoard4002::card_map()));
+    return std::unique_ptr<LiveDataboard4002>(new LiveDataboard4002(std::move(port), host, select));
+}
+
+/// Sends Q through the port itself.
+Result<void> LiveDataboard4002::stop() {
+    databoard4002::DriverSettings settings;
+    settings.select = select_;
+    return databoard4002::Driver(*port_, *port_, settings).quit();
+}
+
+Result<rack::RegisterView> LiveDataboard4002::view(bool) {
+    return rack::view_databoard4002(*port_, *port_, select_);
+}
+
+void LiveDataboard4002::Guarded::out(std::uint8_t port, std::uint8_t value) {
+    const bool ends_move =
+        port == databoard4002::ports::CS || (port == databoard4002::ports::C2 && value == databoard4002::command("Q"));
+    if (ends_move || !host_.stop_requested()) port_.out(port, value);
+}
+
+}  // namespace motionrack::python
