@@ -59,7 +59,8 @@ void JournalWriter::see(const Status& status) {
     see_settings(status);
     see_positions(status);
     see_state(status);
-    if ((!is_stationary(status.state) || has_shifted(status)) && status.at - kept_ >= keep_every) keep(status);
+    const bool is_due = status.ended || status.at - kept_ >= keep_every;
+    if (is_due && (!is_stationary(status.state) || has_shifted(status))) keep(status);
 }
 
 void JournalWriter::stopped(const StopReport& report) {

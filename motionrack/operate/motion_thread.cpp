@@ -10,6 +10,7 @@ namespace motionrack::operate {
 
 void Machine::run() {
     while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
+    status_.ended = true;
     publish_status();  // includes the final positions
 }
 

@@ -103,6 +103,7 @@ struct Status {
     std::string service;        ///< card in service; empty: none
     bool real = false;          ///< the card in service is a real one, which moves
     std::vector<Alarm> alarms;  ///< oldest first
+    bool ended = false;         ///< the last status of the run
 };
 
 }  // namespace motionrack::operate

@@ -289,5 +289,25 @@ TEST_F(JournalWriterTest, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) 
     EXPECT_DOUBLE_EQ(kept[0].commanded, 1.57);
 }
 
+/// A servo behind a card that hangs drifts on; its last position is not that of the last period.
+TEST_F(JournalWriterTest, KeepsWhereAnAxisIsAtTheEndOfTheRun) {
+    open();
+    Status status;
+    status.state = MachineState::error_stop;
+    status.axes.resize(1);
+    status.axes[0].position_valid = true;
+    for (int k = 0; k <= 305; ++k) {
+        status.at = milliseconds(2 * k);
+        status.axes[0].commanded = status.axes[0].true_position = 0.05 * k;
+        status.ended = k == 305;
+        book_->see(status);
+    }
+    book_.reset();
+    end(true);
+    open();
+    ASSERT_TRUE(journal_->before());
+    EXPECT_DOUBLE_EQ(read_last(*journal_->before(), table()).axes.at(0).commanded, 0.05 * 305);
+}
+
 }  // namespace
 }  // namespace motionrack::operate
