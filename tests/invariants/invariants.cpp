@@ -313,7 +313,9 @@ void Invariants::see_alarms(const Sight& now) {
         if (alarm.active && !alarm_texts_.insert(alarm.source + ": " + alarm.text).second)
             found(Rule::one_alarm_a_cause, now.at, fmt::format("twice before a reset: {}", alarm.text));
     }
-    if (std::none_of(now.alarms->begin(), now.alarms->end(), [](const auto& alarm) { return alarm.active; }))
+    // A reset ends all alarms but those that stay, as that of a journal that cannot be written.
+    if (std::none_of(now.alarms->begin(), now.alarms->end(),
+                     [](const auto& alarm) { return alarm.active && !alarm.stays; }))
         alarm_texts_.clear();
 }
 
