@@ -183,6 +183,7 @@ void Machine::drive() {
             if (program_flow_ || over_) break;
             if (program_runs_) stream_->reset_after_program();
             program_runs_ = false;
+            if (jogs_.any()) break;  // commanded while this motion ended
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
         case control::ExecutionState::running:
@@ -207,6 +208,7 @@ void Machine::jog_all() {
     }
     if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (jogs_.any()) return;  // commanded while the axes were handed over
     if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.reason, {}));
 }
 

@@ -1,0 +1,76 @@
+// A jog that is commanded while the one before it ends, at any instant of that end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "operated.hpp"
+
+namespace motionrack::operate {
+namespace {
+
+using FirstJog = Result<void> (*)(Machine&, double distance);
+
+struct Succession {
+    double moved_idle = 0;  ///< mm, while the machine says that it stands
+    MachineState state = MachineState::disabled;
+};
+
+Succession jog_after(const rack::RackConfig& config, FirstJog first, double distance, double then_s) {
+    MachineSettings settings;
+    settings.slice = microseconds(100);  // commands also arrive while an axis is handed over
+    Operated o(config, std::move(settings));
+    Succession seen;
+    o.at(0.05, [](Machine& m) {
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+    });
+    o.at(0.1, [=](Machine& m) { EXPECT_TRUE(first(m, distance)); });
+    o.at(then_s, [](Machine& m) { static_cast<void>(m.jog('X', 10, {"operator"})); });
+    double before = 0;
+    bool idle_before = false;
+    o.each_status([&](const Status& status) {
+        const double x = status.axes[0].commanded;
+        const bool stands = idle(status.state);
+        if (stands && idle_before) seen.moved_idle += std::fabs(x - before);
+        before = x;
+        idle_before = stands;
+    });
+    o.run(then_s + 0.1);
+    seen.state = o.machine->state();
+    return seen;
+}
+
+void expect_never_called_standstill(const rack::RackConfig& config, FirstJog first, double ends_from_s,
+                                    double ends_to_s) {
+    for (double at = ends_from_s; at < ends_to_s; at += 0.0001) {
+        SCOPED_TRACE(testing::Message() << "the next jog at " << at << " s");
+        const Succession seen = jog_after(config, first, 0.3, at);
+        EXPECT_LT(seen.moved_idle, 0.05);  // a servo settles
+        EXPECT_EQ(seen.state, MachineState::standstill);
+    }
+}
+
+Result<void> jog_by(Machine& m, double distance) {
+    return m.jog_by('X', distance, 100);
+}
+
+Result<void> jog_to(Machine& m, double distance) {
+    control::Point target = m.stream().interpreter().position();
+    target[0] += distance;
+    return m.jog_to(target, 100);
+}
+
+Result<void> release(Machine& m, double) {
+    return m.jog('X', 0);
+}
+
+TEST(JogSuccession, OfAPulseAxisIsNeverCalledStandstill) {
+    expect_never_called_standstill(two_axes(), jog_by, 0.158, 0.168);
+    expect_never_called_standstill(two_axes(), jog_to, 0.158, 0.168);
+}
+
+TEST(JogSuccession, OfAServoIsNeverCalledStandstill) {
+    expect_never_called_standstill(carriage(), release, 0.1, 0.105);
+}
+
+}  // namespace
+}  // namespace motionrack::operate
