@@ -178,5 +178,27 @@ TEST(AMachine, JogsEveryAxisOfTheRouterWithoutALostStep) {
             }
 }
 
+/// The first line of a path has one pulse, and its AX1, at the limit switch, none; AX1 is not part of the next line.
+TEST(LimitSwitch, EndsAPathWhoseFirstAxisStandsAtIt) {
+    rack::RackConfig config = router();
+    config.controller.profile = "jerk_limited";
+    Operated o(config);
+    o.at(0.05, [](Machine& m) {
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+    });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 1, 10)); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
+    o.at(1.2, [](Machine& m) { m.reset({}); });
+    o.at(1.5, [](Machine& m) {
+        control::Point to = m.stream().interpreter().position();
+        to[0] += 0.11, to[1] += 0.7, to[2] -= 1.3;
+        EXPECT_TRUE(m.jog_to(to, 50));
+    });
+    o.run(3);
+    EXPECT_EQ(o.states.back(), "error stop");
+    EXPECT_THAT(o.machine->status().reason, HasSubstr("axis X: the + limit switch was reached"));
+    EXPECT_LT(o.stood_since, 1.5) << "nothing moved at a speed that no line has";
+}
+
 }  // namespace
 }  // namespace motionrack::operate

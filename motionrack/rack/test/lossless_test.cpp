@@ -252,6 +252,32 @@ TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
     expect_end(driven, path.x, path.y);
 }
 
+/// In the second program X begins the chain and does not move in the lines before which the host is late: Y has to
+/// drive what follows.
+TEST_P(Lossless, ALateHostGoesOnAtTheProgrammedFeed) {
+    RackConfig config = router(GetParam());
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
+    for (const char along : {'X', 'Y'}) {
+        std::string text = "G21 G90 G64 P0.01\nG0 X100 Y100 Z40\nG1 F3000\nX102\n";
+        for (int i = 1; i <= 200; ++i) text += fmt::format("{}{:.4f} Z{:.4f}\n", along, 102 + 0.2 * i, 40 + 0.1 * i);
+        const Driven undisturbed = drive_with(config, text + "M2\n", {});
+        const double seconds = to_seconds(undisturbed.outcome.time);
+        for (double left = 0.2; left < 0.75; left += 0.15) {
+            SCOPED_TRACE(testing::Message() << along << ", late " << left << " s before the end");
+            bool late = false;
+            const Driven driven = drive_with(config, text + "M2\n", {}, [&](Rack& rack) {
+                if (late || to_seconds(rack.kernel().now()) < seconds - left) return;
+                late = true;
+                rack.cards().front()->host().pass(milliseconds(20));
+            });
+            ASSERT_TRUE(driven.outcome.ended);
+            EXPECT_FALSE(driven.outcome.good());
+            EXPECT_LT(to_seconds(driven.outcome.time), seconds + 0.4);
+            expect_end(driven, along == 'X' ? 142 : 102, along == 'X' ? 100 : 142);
+        }
+    }
+}
+
 TEST(AHost, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
     RackConfig config = router();
     config.cards[0].mcx314.bus_access_ns = 60;

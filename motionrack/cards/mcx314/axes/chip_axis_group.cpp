@@ -37,6 +37,19 @@ bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
     return true;
 }
 
+unsigned axes_of(const Segment& segment) {
+    unsigned out = segment.auxiliary_channel >= 0 ? 1u << segment.auxiliary_channel : 0;
+    for (std::size_t i = 0; i < segment.axis_count; ++i) out |= 1u << segment.axes[i];
+    return out;
+}
+
+/// Returns true if a switch or an alarm ended the last drive of one of these axes.
+bool was_stopped(Driver& driver, unsigned axes) {
+    for (int c = 0; c < channel_count; ++c)
+        if ((axes >> c & 1) != 0 && !driver.axis_status(c).why_stopped().empty()) return true;
+    return false;
+}
+
 }  // namespace
 
 ChipAxisGroup::ChipAxisGroup(Driver& driver, const AxisMap& map, const HostTimes& host)
@@ -126,6 +139,8 @@ Result<void> ChipAxisGroup::play_pause(const Segment& segment) {
 
 Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
+    chain_axes_ = 0;
+    catches_up_ = false;
     s_curve_ = segment.s_curve;
     even_ = segment.even;
     braking_ = false;
@@ -151,18 +166,26 @@ Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
 Result<void> ChipAxisGroup::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
-    if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
+    if (was_stopped(driver_, chain_axes_) || (probing_ && probe_hit())) return stopped_by_machine();
     if (braking_) return stopped_by_user();  // already stationary
-    tell_late(segment);
+    MOTIONRACK_CHECK(restart_late(segment));
     return command(segment);
 }
 
-/// Records that the chip was stationary before it received this segment.
-void ChipAxisGroup::tell_late(const Segment& segment) {
+/// Records that the chip was stationary before it received this segment, whose first axis drives the chain from here
+/// on. R of that axis stays the one of a second axis: its path is slower, never faster.
+Result<void> ChipAxisGroup::restart_late(const Segment& segment) {
     const Instant now = driver_.interrupt().now();
     notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
                       std::min(now, runs_until_)});
     clear_interrupts();
+    chain_axes_ = 0;
+    catches_up_ = true;
+    if (generator_ == segment.axes[0]) return {};
+    generator_ = segment.axes[0];
+    written_speed_ = written_acceleration_ = 0;
+    MOTIONRACK_CHECK(driver_.SetSV(1u << generator_, segment.rest_speed));
+    return write_speed(segment);
 }
 
 Result<void> ChipAxisGroup::command(const Segment& segment) {
@@ -187,8 +210,9 @@ Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
             if (status.error(xyzu) && !are_at(driver_, expected_, auxiliary_)) return stopped_by_machine();
             // A segment that runs at once may have started from standstill: the chip may have stopped before the last
             // word arrived.
-            if (first && (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) != 0) tell_late(queued);
-            return {};
+            if (!first || (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) == 0) return {};
+            if (was_stopped(driver_, chain_axes_ & ~axes_of(queued))) return stopped_by_machine();
+            return restart_late(queued);
         }
         if (!status.interpolating()) {
             if (status.error(xyzu)) return stopped_by_machine();
@@ -215,7 +239,8 @@ Result<void> ChipAxisGroup::write_speed(const Segment& segment) {
     if (speed != written_speed_) MOTIONRACK_CHECK(driver_.SetV(own, speed));
     written_speed_ = speed;
     braking_acceleration_ = segment.braking;
-    return write_acceleration(braking_ ? segment.braking : segment.acceleration);
+    catches_up_ = catches_up_ && driver_.ReadCV(generator_) < running_speed_;
+    return write_acceleration(braking_ || catches_up_ ? segment.braking : segment.acceleration);
 }
 
 Result<void> ChipAxisGroup::write_acceleration(std::int32_t acceleration) {
@@ -249,6 +274,7 @@ Result<void> ChipAxisGroup::begin_segment(const Segment& segment) {
                   begun = std::exchange(ran_alone_, false) ? std::min(now, runs_until_) : now;
     runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
     running_speed_ = segment.speed;
+    chain_axes_ |= axes_of(segment);
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
     if (segment.auxiliary_channel >= 0) MOTIONRACK_CHECK(update_auxiliary_velocity(segment));
     return {};

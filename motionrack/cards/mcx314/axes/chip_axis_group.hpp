@@ -61,6 +61,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> play_pause(const Segment& segment);
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
+    Result<void> restart_late(const Segment& segment);
     Result<void> wait_for_joint(const Segment& queued);
     Result<void> decelerate();
     Result<void> wait_for_standstill();
@@ -77,7 +78,6 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> finish_auxiliary();
     std::int64_t auxiliary_fall_from(std::int64_t pulses, std::int32_t v) const;
     double segment_seconds(const Segment& segment, double from) const;
-    void tell_late(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
     void clear_interrupts();
@@ -97,10 +97,12 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::int32_t written_acceleration_ = 0;
     std::int32_t braking_acceleration_ = 1;  ///< A of the running segment for a requested stop
     int generator_ = 0;
+    unsigned chain_axes_ = 0;      ///< channels of the running chain's segments so far
     std::int32_t rest_speed_ = 1;  ///< V from which the running segment may stop at once
     bool s_curve_ = false;         ///< the running chain is an S-curve
     bool even_ = false;            ///< the running chain changes its speed linearly
     bool braking_ = false;         ///< stop requested
+    bool catches_up_ = false;      ///< began from standstill in the middle of a path: slower than planned
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
     bool ran_alone_ = false;    ///< the queued segment ended before the host saw its start
