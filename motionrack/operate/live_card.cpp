@@ -22,7 +22,10 @@ constexpr const char* by_its_wires =
 }  // namespace
 
 LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind)
-    : place_(place), kind_(kind), host_(rack.cards().front()->host()) {}
+    : place_(place),
+      kind_(kind),
+      select_(static_cast<std::uint8_t>(rack.config().card(place.card)->databoard4002.select)),
+      host_(rack.cards().front()->host()) {}
 
 Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::Rack& rack) {
     const rack::CardKind* const kind = rack::find_card_kind(rack.config().card(place.card)->type);
@@ -34,8 +37,8 @@ Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::R
 }
 
 Result<void> LiveCard::open_port() {
-    port_.reset();  // with its lock
-    MOTIONRACK_TRY(port_, live::CardPort::open(place_.spec, kind_.map()));
+    card_ = {};  // with its lock
+    MOTIONRACK_TRY(card_, live::open_card(place_.spec, kind_.map()));
     lost_.reset();
     return {};
 }
@@ -44,24 +47,39 @@ Result<void> LiveCard::open_port() {
 
 void LiveCard::write(std::uint32_t offset, std::uint16_t value) {
     if (lost_) return;
-    port_->write(offset, value);
-    lost_ = port_->trouble();
+    card_.registers->write(offset, value);
+    lost_ = card_.port->trouble();
 }
 
 /// 0 is the value of an axis at standstill.
 std::uint16_t LiveCard::read(std::uint32_t offset) {
     if (lost_ || gives_up_) return 0;
-    const std::uint16_t value = port_->read(offset);
-    lost_ = port_->trouble();
+    const std::uint16_t value = card_.registers->read(offset);
+    lost_ = card_.port->trouble();
     return lost_ ? std::uint16_t{0} : value;
+}
+
+void LiveCard::out(std::uint8_t port, std::uint8_t value) {
+    if (lost_) return;
+    card_.bytes->out(port, value);
+    lost_ = card_.port->trouble();
+}
+
+/// 0 is a STAT that is not Ready, on which waits end by their time-out.
+std::uint8_t LiveCard::in(std::uint8_t port) {
+    if (lost_ || gives_up_) return 0;
+    const std::uint8_t value = card_.bytes->in(port);
+    lost_ = card_.port->trouble();
+    return lost_ ? std::uint8_t{0} : value;
 }
 
 void LiveCard::look() {
     if (lost_ || gives_up_) return;
-    LiveRegisters seen{kind_.view(*this, false), host_.now()};
+    Result<rack::RegisterView> view = kind_.view(bus(), false);
+    if (!view && !lost_) lost_ = view.error();
     if (lost_) return;
     looked_ = now();
-    registers_ = std::move(seen);
+    registers_ = {std::move(*view), host_.now()};
 }
 
 void LiveCard::look_now_and_then() {
@@ -74,7 +92,7 @@ bool LiveCard::wait(Duration timeout) {
     const Instant end = later(now(), timeout);
     while (true) {
         const Duration left = std::clamp(end - now(), Duration{0}, live_piece);
-        const bool woken = !lost_ && port_->wait(left);
+        const bool woken = !lost_ && card_.port->wait(left);
         if (lost_) clock_.sleep(left);
         keep_up();  // even if the line stays active: commands arrive with virtual time
         heed_stop();
@@ -98,7 +116,7 @@ void LiveCard::keep_up() {
     if (behind < live_piece) return;
     passed_ = behind > max_live_lag ? now() : passed_ + live_piece;
     host_.pass(live_piece);
-    look_now_and_then();
+    if (card_.registers != nullptr) look_now_and_then();
 }
 
 void LiveCard::heed_stop() {

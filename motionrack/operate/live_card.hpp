@@ -1,6 +1,6 @@
 // A real card that replaces a virtual one of the rack during a service.
 //
-//   Service ──► library ──► LiveCard ──► live::CardPort ──► card      the card runs on the computer's time
+//   Service ──► library ──► LiveCard ──► live::LivePort ──► card      the card runs on the computer's time
 //                              │ waits: 1 ms of virtual time between two looks, so that commands, leases and the
 //                              │ status continue
 //                              └ after each call and twice a second: all registers, for the card's page
@@ -13,8 +13,8 @@
 #include <motionrack/base/function_library.hpp>
 #include <motionrack/base/port.hpp>
 #include <motionrack/base/result.hpp>
-#include <motionrack/live/card_port.hpp>
 #include <motionrack/live/clock.hpp>
+#include <motionrack/live/open_card.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <optional>
@@ -50,26 +50,29 @@ struct LiveStop {
 };
 
 /// Only the motion thread uses it.
-class LiveCard final : public RegisterPort, public Interrupt {
+class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
   public:
-    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::CardPort::open; io if the
+    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::open_card; io if the
     /// computer refuses an access or no card answers.
     static Result<std::unique_ptr<LiveCard>> open(const LivePlace& place, rack::Rack& rack);
 
     // ---- interface for the library
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t read(std::uint32_t offset) override;
+    void out(std::uint8_t port, std::uint8_t value) override;
+    std::uint8_t in(std::uint8_t port) override;
     bool wait(Duration timeout) override;
     void pass(Duration duration) override;
     Instant now() const override { return clock_.now(); }
     /// Also true once the card is lost, which ends waiting functions.
     bool stop_requested() const override { return lost_.has_value() || host_.stop_requested(); }
-    std::unique_ptr<FunctionLibrary> make_library() { return kind_.library(*this, *this); }
+    std::unique_ptr<FunctionLibrary> make_library() { return kind_.library(bus()); }
 
     // ---- interface for the service
-    /// Reads all registers now; writes WR0, with NOP and read commands.
+    /// Reads all registers now; writes the commands that reading takes, which move nothing.
     void look();
-    /// Calls look() if the last look was half a second ago.
+    /// Calls look() if the last look was half a second ago. A card with byte ports is not read while a function waits:
+    /// a handshake is not interrupted.
     void look_now_and_then();
     const LiveRegisters& registers() const { return registers_; }
     const LivePlace& place() const { return place_; }
@@ -83,6 +86,7 @@ class LiveCard final : public RegisterPort, public Interrupt {
 
   private:
     LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind);
+    rack::CardBus bus() { return {this, this, this, select_}; }
     Result<void> open_port();
     void keep_up();
     void heed_stop();
@@ -90,9 +94,10 @@ class LiveCard final : public RegisterPort, public Interrupt {
 
     LivePlace place_;
     const rack::CardKind& kind_;
+    std::uint8_t select_;
     Interrupt& host_;  ///< virtual time
     live::MonotonicClock clock_;
-    std::unique_ptr<live::CardPort> port_;  ///< nullptr: it could not be reopened
+    live::OpenCard card_;  ///< without a port: it could not be reopened
     std::optional<Error> lost_;
     LiveRegisters registers_;
     Instant looked_{};                ///< last look, on this clock

@@ -35,18 +35,19 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
         if (kind->library == nullptr || kind->view == nullptr)
             return fail(
                 ErrorKind::refused,
-                fmt::format("Card {} is of type {}: a real one cannot be driven. Nothing was opened. A real mcx314 "
-                            "can.",
+                fmt::format("Card {} is of type {}: a real one cannot be driven. Nothing was opened. A real mcx314 or "
+                            "databoard4002 can.",
                             name, card->type));
-        MOTIONRACK_CHECK(live::CardPort::check(places[i].spec));
+        MOTIONRACK_CHECK(live::check_card(places[i].spec, kind->map()));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)
             if (axis.card == name) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", axis.letter);
         if (!letters.empty())
-            return fail(ErrorKind::refused,
-                        fmt::format("Card {} moves {} of the machine, and the controller supports virtual cards only. "
-                                    "Nothing was opened. Give the rack file an mcx314 without axes for the real card.",
-                                    name, letters));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("Card {} moves {} of the machine, and the controller supports virtual cards only. "
+                            "Nothing was opened. Give the rack file a card of this type without axes for the real one.",
+                            name, letters));
         for (std::size_t j = 0; j < i; ++j)
             if (places[j].card == name)
                 return fail(ErrorKind::invalid_input,

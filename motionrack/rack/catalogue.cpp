@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <motionrack/cards/databoard4002/library/library.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
@@ -30,8 +31,17 @@ bool Card::shows(std::string_view scope, std::string_view wire) const {
 
 namespace {
 
-std::unique_ptr<FunctionLibrary> library_over(RegisterPort& port, Interrupt& interrupt) {
-    return std::make_unique<mcx314::Library>(port, interrupt);
+std::unique_ptr<FunctionLibrary> mcx314_library(const CardBus& bus) {
+    return std::make_unique<mcx314::Library>(*bus.registers, *bus.host);
+}
+Result<RegisterView> mcx314_view(const CardBus& bus, bool clearing) {
+    return view_mcx314(*bus.registers, clearing);
+}
+std::unique_ptr<FunctionLibrary> databoard4002_library(const CardBus& bus) {
+    return std::make_unique<databoard4002::Library>(*bus.bytes, *bus.host, bus.select);
+}
+Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
+    return view_databoard4002(*bus.bytes, *bus.host, bus.select);
 }
 
 class Mcx314Card final : public MotionCard {
@@ -138,7 +148,7 @@ class Mcx314Card final : public MotionCard {
         singles_ready_ = false;
         before_singles_ = {};
         group_valid_.fill(false);
-        return library_over(port_, port_);
+        return std::make_unique<mcx314::Library>(port_, port_);
     }
     double accel_reserve() const override { return mcx314::ChipAxisGroup::accel_reserve; }
     double jump_hz(const RackConfig& config) const override {
@@ -264,8 +274,8 @@ std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, s
 }
 
 constexpr CardKind kinds[] = {
-    {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314, &library_over},
-    {"databoard4002", &databoard4002::card_map, &make_databoard4002, nullptr, nullptr, &view_databoard4002},
+    {"mcx314", &mcx314::card_map, &make_mcx314, &mcx314_view, &mcx314_library},
+    {"databoard4002", &databoard4002::card_map, &make_databoard4002, &databoard4002_view, &databoard4002_library},
     {"ioflex02", &ioflex02::card_map, &make_ioflex02},
     {"grating_bus", &grating_bus::card_map, &make_grating_bus},
     {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder},
@@ -273,6 +283,10 @@ constexpr CardKind kinds[] = {
 };
 
 }  // namespace
+
+CardBus bus_of(Card& card, const RackCard& config) {
+    return {card.port(), card.byte_port(), &card.host(), static_cast<std::uint8_t>(config.databoard4002.select)};
+}
 
 tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more) {
     std::vector<std::string_view> known(more.begin(), more.end());

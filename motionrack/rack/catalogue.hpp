@@ -143,6 +143,16 @@ class MotionCard : public Card {
     virtual double counter_origin() const { return 0; }
 };
 
+/// A card as its driver sees it: its registers or its byte ports, and the host's time.
+struct CardBus {
+    RegisterPort* registers = nullptr;  ///< nullptr: it has none
+    BytePort* bytes = nullptr;          ///< nullptr: it has none
+    Interrupt* host = nullptr;
+    std::uint8_t select = 0;  ///< number that selects a card with byte ports
+};
+/// Bus of a virtual card.
+CardBus bus_of(Card& card, const RackCard& config);
+
 /// One kind of card.
 struct CardKind {
     std::string_view type;    ///< type name in a rack file
@@ -150,12 +160,10 @@ struct CardKind {
     /// `before`: the existing cards of the rack; cards of some kinds share a bus.
     std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                   std::span<const std::unique_ptr<Card>> before);
-    /// Reads its registers through a port of a virtual or real card; nullptr if not supported.
-    RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
-    /// Function library on a port of a virtual or real card; nullptr: no library for manual calls.
-    std::unique_ptr<FunctionLibrary> (*library)(RegisterPort& port, Interrupt& interrupt) = nullptr;
-    /// As `view`, of a card with byte ports that is selected by a number.
-    Result<RegisterView> (*byte_view)(BytePort& port, Interrupt& host, std::uint8_t select) = nullptr;
+    /// Reads the registers of a virtual or real card; nullptr if not supported. Errors: machine if no card answers.
+    Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
+    /// Function library of a virtual or real card; nullptr: no library for manual calls.
+    std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
 };
 
 /// Builds the error that lists the readable registers of the card's map, and `more`.

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <motionrack/cards/databoard4002/axes/position_axis.hpp>
+#include <motionrack/cards/databoard4002/library/library.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -179,6 +180,12 @@ class Databoard4002Card final : public MotionCard {
         MOTIONRACK_CHECK(made->set_up());
         axis_ = std::move(made);
         return axis_.get();
+    }
+    std::span<const FunctionInfo> library_functions() const override { return db::library_functions(); }
+    std::unique_ptr<FunctionLibrary> take_library() override {
+        axis_.reset();
+        driver_.reset();
+        return std::make_unique<db::Library>(port_, port_, static_cast<std::uint8_t>(select_));
     }
     double accel_reserve() const override { return 0; }
     double jump_hz(const RackConfig&) const override { return std::numeric_limits<double>::infinity(); }

@@ -16,11 +16,10 @@ constexpr Duration listen_every = milliseconds(10);
 /// A kind of card whose registers are known as its maker has them.
 const rack::CardKind& kind_of(const std::string& type) {
     const rack::CardKind* const kind = rack::find_card_kind(type);
-    if (kind != nullptr && (kind->view != nullptr || kind->byte_view != nullptr)) return *kind;
+    if (kind != nullptr && kind->view != nullptr) return *kind;
     std::string known;
     for (const rack::CardKind& each : rack::card_kinds())
-        if (each.view != nullptr || each.byte_view != nullptr)
-            known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
+        if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
     raise({ErrorKind::invalid_input,
            kind == nullptr
                ? fmt::format("Unknown card type {}; a real card is one of: {}. Nothing was opened.", type, known)
@@ -32,7 +31,7 @@ const rack::CardKind& kind_of(const std::string& type) {
 std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::CardKind& kind, Interrupt& host,
                                       int select) {
     const live::PortSpec spec = value_of(live::read_port_spec(place));
-    if (kind.view != nullptr) return value_of(LiveMcx314::open(spec, host));
+    if (kind.type == "mcx314") return value_of(LiveMcx314::open(spec, host));
     if (select < 0 || select > 255)
         raise({ErrorKind::invalid_input,
                fmt::format("The card's number is {}; it must be 0 to 255. Nothing was opened.", select)});

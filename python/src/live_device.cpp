@@ -33,10 +33,4 @@ Result<rack::RegisterView> LiveDataboard4002::view(bool) {
     return rack::view_databoard4002(*port_, *port_, select_);
 }
 
-void LiveDataboard4002::Guarded::out(std::uint8_t port, std::uint8_t value) {
-    const bool ends_move =
-        port == databoard4002::ports::CS || (port == databoard4002::ports::C2 && value == databoard4002::command("Q"));
-    if (ends_move || !host_.stop_requested()) port_.out(port, value);
-}
-
 }  // namespace motionrack::python

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <motionrack/cards/databoard4002/driver/driver.hpp>
+#include <motionrack/cards/databoard4002/library/library.hpp>
 #include <motionrack/cards/mcx314/library/library.hpp>
 #include <motionrack/live/byte_card_port.hpp>
 #include <motionrack/live/card_port.hpp>
@@ -79,24 +79,12 @@ class LiveDataboard4002 final : public LiveDevice {
     std::uint8_t select() const { return select_; }
 
   private:
-    /// A stopped driver may still end its move with Q; nothing else is written.
-    class Guarded final : public BytePort {
-      public:
-        Guarded(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}
-        void out(std::uint8_t port, std::uint8_t value) override;
-        std::uint8_t in(std::uint8_t port) override { return port_.in(port); }
-
-      private:
-        BytePort& port_;
-        const Interrupt& host_;
-    };
-
     LiveDataboard4002(std::unique_ptr<live::ByteCardPort> port, Interrupt& host, std::uint8_t select)
         : port_(std::move(port)), host_(host), guarded_(*port_, host), select_(select) {}
 
     std::unique_ptr<live::ByteCardPort> port_;
     Interrupt& host_;
-    Guarded guarded_;
+    databoard4002::GuardedPort guarded_;
     std::uint8_t select_;
 };
 

@@ -107,6 +107,7 @@ class DataBoard(unittest.TestCase):
         board.move_to(10000, timeout=60)
         self.assertAlmostEqual(rack.time - begun, motion["duration_s"], delta=0.1 * motion["duration_s"])
         self.assertEqual((board.position(), board.position_mm()), (10000, 100.0))
+        self.assertRegex(rack.cards["c1"].view(), r"STAT +[0-9A-F]+h(.|\n)*POSITION +10000 +counts")
 
     def test_time_outs_stops_and_refusals_are_told_apart(self) -> None:
         rack = Rack.from_text('card.c1 = "databoard4002"')

@@ -1,24 +1,16 @@
-// The operator panel with a real card in service: `motionrack serve --live`, with a virtual MCX314 in place of the real
+// The operator panel with a real MCX314 in service: `motionrack serve --live`, with a virtual one in place of the real
 // one, served by another process: live_server port --real-time panel_live.
-#include <fcntl.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <memory>
 #include <string>
-#include <tests/served_program.hpp>
-#include <thread>
+#include <tests/live/panel_on_a_card.hpp>
+#include <utility>
+#include <vector>
 
 namespace motionrack {
 namespace {
 
-namespace fs = std::filesystem;
+using live_test::PanelOnACard;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -26,93 +18,24 @@ using testing::HasSubstr;
 /// Bit of RR0.
 constexpr unsigned x_drives = 1;
 
-/// Address of the served card, and the test's own access to it beside the driving program.
-class CardSeen {
-  public:
-    CardSeen() : place(std::getenv("MOTIONRACK_LIVE_PORT")) {
-        const std::size_t at = place.find(':') + 1;
-        files_ = fs::path(place.substr(at, place.find(',') - at)).parent_path();
-        refuse(0);
-        remove(false);
-    }
+class ThePanelOnARealCard : public PanelOnACard {
+  protected:
+    ThePanelOnARealCard() : PanelOnACard("mcx314") {}
     unsigned drives() const {
         std::uint16_t word = 0xFFFF;
-        const int file = ::open((files_ / "look").c_str(), O_RDWR | O_CLOEXEC);
-        EXPECT_EQ(::pread(file, &word, sizeof word, 0x300), 2);
-        ::close(file);
+        card.look(0, &word, sizeof word);
         return word & 0xFU;
-    }
-    /// Makes the next `accesses` accesses of the program fail.
-    void refuse(std::uint32_t accesses) const { put("refuse", accesses); }
-    /// Leaves an empty slot to the program, in which the card still drives.
-    void remove(bool away) const { put("absent", away ? 1 : 0); }
-
-    const std::string place;
-
-  private:
-    void put(const char* name, std::uint32_t number) const {
-        const int file = ::open((files_ / name).c_str(), O_WRONLY | O_CLOEXEC);
-        EXPECT_EQ(::write(file, &number, sizeof number), 4) << name;
-        ::close(file);
-    }
-    fs::path files_;
-};
-
-class ThePanelOnARealCard : public testing::Test {
-  protected:
-    void SetUp() override {
-        fs::create_directories(folder_);
-        std::ofstream(folder_ / "rack.toml") << "[card.m]\ntype = \"mcx314\"\n[card.bench]\ntype = \"mcx314\"\n"
-                                                "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n";
-        serve();
-    }
-    void TearDown() override {
-        served.reset();
-        fs::remove_all(folder_);
-    }
-    void serve() {
-        served.reset();  // its predecessor has released the journal
-        served = std::make_unique<Served>(
-            std::vector<std::string>{(folder_ / "rack.toml").string(), "--port", "0", "--no-auth", "--users",
-                                     (folder_ / "users.json").string(), "--live", "bench=" + card.place});
-        ASSERT_NE(served->port(), 0) << served->said;
-    }
-    /// Checks that the answer contains this text.
-    void good(const std::string& function, const json& arguments, const std::string& text) const {
-        const json answer = served->post("call", {{"card", "bench"}, {"function", function}, {"arguments", arguments}});
-        EXPECT_EQ(answer.value("text", ""), text) << function << ": " << answer;
     }
     void drive_x() const {
         EXPECT_TRUE(served->post("take_control").contains("done"));
         good("SetRange", {{"data", 800'000}}, "Written.");
         good("TCurve_C", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}}, "X drives.");
-        ASSERT_EQ(card.drives(), x_drives);
-    }
-    static void until(const std::string& what, const std::function<bool()>& is) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        while (!is()) {
-            ASSERT_LT(std::chrono::steady_clock::now(), end) << "not within half a minute: " << what;
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
+        ASSERT_EQ(drives(), x_drives);
     }
     void until_stopped(ServedLink& link) const {
         until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
-        EXPECT_EQ(card.drives(), 0U);
+        EXPECT_EQ(drives(), 0U);
     }
-    /// Returns the newest alarm of the card; null: none.
-    static json alarm(ServedLink& link) {
-        json found;
-        const json status = link.status();
-        for (const json& one : status["alarms"])
-            if (one["source"] == "card bench") found = one;
-        return found;
-    }
-
-    const CardSeen card;
-    std::unique_ptr<Served> served;
-
-  private:
-    fs::path folder_ = fs::temp_directory_path() / ("motionrack_panel_live_" + std::to_string(::getpid()));
 };
 
 TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
@@ -148,9 +71,9 @@ TEST_F(ThePanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
     ServedLink other(served->port());
     until("it waits",
           [&] { return other.get("events?limit=20").dump().find("call wait: begun") != std::string::npos; });
-    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_EQ(drives(), x_drives);
     EXPECT_TRUE(other.post("stop").contains("done"));
-    until("X stands", [&] { return card.drives() == 0; });
+    until("X stands", [&] { return drives() == 0; });
     EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(),
                 HasSubstr("Stopped on request; X stands still."));
     until_stopped(other);
@@ -183,7 +106,7 @@ TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
 TEST_F(ThePanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
     drive_x();
     served->close();
-    until("X stands", [&] { return card.drives() == 0; });
+    until("X stands", [&] { return drives() == 0; });
     ServedLink other(served->port());
     until_stopped(other);
 }
@@ -192,7 +115,7 @@ TEST_F(ThePanelOnARealCard, StopsWithTheProgram) {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         drive_x();
         EXPECT_EQ(served->end(signal), 0);
-        EXPECT_EQ(card.drives(), 0U) << signal;
+        EXPECT_EQ(drives(), 0U) << signal;
         serve();
     }
 }
@@ -200,19 +123,19 @@ TEST_F(ThePanelOnARealCard, StopsWithTheProgram) {
 TEST_F(ThePanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) {
     drive_x();
     EXPECT_EQ(served->end(SIGKILL), -SIGKILL);
-    EXPECT_EQ(card.drives(), x_drives) << "nothing is left that could stop it";
+    EXPECT_EQ(drives(), x_drives) << "nothing is left that could stop it";
     serve();
-    EXPECT_EQ(card.drives(), x_drives) << "it is opened by its service only";
+    EXPECT_EQ(drives(), x_drives) << "it is opened by its service only";
     EXPECT_TRUE(served->post("take_control").contains("done"));
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", true}}).contains("done"));
-    EXPECT_EQ(card.drives(), 0U) << "it was reset";
+    EXPECT_EQ(drives(), 0U) << "it was reset";
 }
 
 TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
     drive_x();
     card.refuse(0xFFFF'FFFF);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
-    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_EQ(drives(), x_drives);
     EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
                 AllOf(HasSubstr("No such device"), HasSubstr("was not written"),
                       HasSubstr("press the emergency stop that cuts the motors' power")));
@@ -224,7 +147,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
     card.refuse(0);
     good("ReadLPS", {{"axis", 1}}, "0 pulses");
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
-    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_EQ(drives(), 0U);
     EXPECT_FALSE(alarm(*served)["active"]);
 }
 
@@ -232,7 +155,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     drive_x();
     card.remove(true);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
-    EXPECT_EQ(card.drives(), x_drives);
+    EXPECT_EQ(drives(), x_drives);
     EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
                 AllOf(HasSubstr("no card answers"), HasSubstr("positions are not valid"), HasSubstr("was not written"),
                       HasSubstr("press the emergency stop that cuts the motors' power")));
@@ -243,7 +166,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     card.remove(false);
     good("ReadLPS", {{"axis", 1}}, "0 pulses");
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
-    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_EQ(drives(), 0U);
     EXPECT_FALSE(alarm(*served)["active"]);
 }
 
@@ -262,7 +185,7 @@ TEST_F(ThePanelOnARealCard, IsStoppedThroughAPortThatWasOpenedAgain) {
     drive_x();
     card.refuse(1);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
-    EXPECT_EQ(card.drives(), 0U);
+    EXPECT_EQ(drives(), 0U);
     EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
                 AllOf(HasSubstr("No such device"), HasSubstr("was opened again"), HasSubstr("they stand")));
 }

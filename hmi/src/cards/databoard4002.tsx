@@ -11,6 +11,7 @@ import { Button, Empty, Field, Panel } from '../parts/ui';
 import { Chart, Legend } from '../scope/chart';
 import { Console, mayAccess } from './console';
 import { ask, give, type Bus, type Exchanged } from './handshake';
+import { LiveCard } from './live_card';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
 interface SlopesAnswer {
@@ -166,7 +167,24 @@ function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null 
   );
 }
 
-export function Databoard({ card }: { card: CardInfo }): JSX.Element {
+/** A real card: its status, position and rate. */
+function LiveDataboard({ card, place }: { card: CardInfo; place: string }): JSX.Element {
+  const stat = card.registers.find((one) => one.name === 'STAT');
+  return (
+    <LiveCard card={card} place={place}>
+      {(seen) => (
+        <>
+          {stat !== undefined && <Flags register={stat} word={wordOf(seen, 'STAT')} />}
+          <p class="tabular">
+            Position {whole(valueOf(seen, 'POSITION'))} counts, rate {whole(valueOf(seen, 'RATE'))}
+          </p>
+        </>
+      )}
+    </LiveCard>
+  );
+}
+
+function VirtualDataboard({ card }: { card: CardInfo }): JSX.Element {
   const { data } = usePoll<CardAnswer>('card', { name: card.name }, 200);
   const shown = card.registers.filter((one) => ['STAT', 'EVENT'].includes(one.name));
   return (
@@ -187,4 +205,8 @@ export function Databoard({ card }: { card: CardInfo }): JSX.Element {
       <Slope card={card} />
     </>
   );
+}
+
+export function Databoard({ card }: { card: CardInfo }): JSX.Element {
+  return card.live === null ? <VirtualDataboard card={card} /> : <LiveDataboard card={card} place={card.live} />;
 }

@@ -249,12 +249,12 @@ export function Functions({ card }: { card: CardInfo }): JSX.Element {
   const one = functions.value.find((each) => each.name === chosen.value) ?? functions.value[0];
   const told = inService(card)
     ? card.live !== null
-      ? 'A real card is in service: its functions move its motors. STOP ends the pulses of all its axes at once.'
+      ? 'A real card is in service: its functions move its motors. STOP stops all its axes at once.'
       : 'In service: the controller drives nothing. STOP and every switch stop all axes at once and end the service.'
     : card.axes.length > 0
       ? `The controller drives ${card.axes.map((axis) => axis.letter).join(', ')} with this card. The service takes the ` +
-        'card from it, resets the chip, and leaves positions that are not valid: home afterwards.'
-      : `${card.live === null ? '' : 'A real card. '}No axis of the machine is on this card: the first call begins its service, and resets the chip.`;
+        'card from it, resets it, and leaves positions that are not valid: home afterwards.'
+      : `${card.live === null ? '' : 'A real card. '}No axis of the machine is on this card: the first call begins its service, and resets the card.`;
   return (
     <Panel title="Functions of its library" class="wide functions" note={told} tools={<Service card={card} />}>
       {one === undefined ? (

@@ -142,7 +142,7 @@ export function Registers(): JSX.Element {
         note={
           card.live === null
             ? 'Looked at without effects: no register is read through the bus, nothing is cleared.'
-            : `A real card at ${card.live}: its service reads it through the port; RR3, which reading clears, is left out.`
+            : `A real card at ${card.live}: its service reads it through the port; registers that reading clears are left out.`
         }>
         <Inspector key={card.name} card={card} />
       </Panel>

@@ -6,8 +6,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/live/byte_card_port.hpp>
-#include <motionrack/live/card_port.hpp>
+#include <motionrack/live/open_card.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/register_view.hpp>
@@ -26,27 +25,18 @@ void print_registers(const rack::RegisterView& view, const RegistersOptions& opt
     fmt::print("{}", options.json ? rack::view_json(view) : rack::view_text(view, options.all));
 }
 
-/// The view, unless an access was refused.
-Result<rack::RegisterView> unless_refused(const live::LivePort& port, Result<rack::RegisterView> view) {
-    if (port.trouble()) return tl::unexpected<Error>(*port.trouble());
+Result<rack::RegisterView> live_view(const live::PortSpec& spec, const rack::CardKind& kind,
+                                     const RegistersOptions& options) {
+    MOTIONRACK_TRY(const live::OpenCard card, live::open_card(spec, kind.map()));
+    Result<rack::RegisterView> view =
+        kind.view({card.registers, card.bytes, card.port.get(), options.select}, options.clear);
+    if (card.port->trouble()) return tl::unexpected<Error>(*card.port->trouble());
     return view;
-}
-
-Result<rack::RegisterView> live_words(const live::PortSpec& spec, const rack::CardKind& kind,
-                                      const RegistersOptions& options) {
-    MOTIONRACK_TRY(const auto port, live::CardPort::open(spec, kind.map()));
-    return unless_refused(*port, kind.view(*port, options.clear));
-}
-
-Result<rack::RegisterView> live_bytes(const live::PortSpec& spec, const rack::CardKind& kind,
-                                      const RegistersOptions& options) {
-    MOTIONRACK_TRY(const auto port, live::ByteCardPort::open(spec, kind.map()));
-    return unless_refused(*port, kind.byte_view(*port, *port, options.select));
 }
 
 int live_registers(const RegistersOptions& options) {
     const rack::CardKind* const kind = rack::find_card_kind(options.card.empty() ? "mcx314" : options.card);
-    if (!kind || (!kind->view && !kind->byte_view)) {
+    if (!kind || !kind->view) {
         print_error(
             fmt::format("The registers of a real '{}' cannot be read; those of an mcx314 and of a "
                         "databoard4002 can. Nothing was opened.",
@@ -55,7 +45,7 @@ int live_registers(const RegistersOptions& options) {
     }
     const auto spec = live::read_port_spec(options.live);
     if (!spec) return report(spec.error());
-    const auto view = kind->view ? live_words(*spec, *kind, options) : live_bytes(*spec, *kind, options);
+    const auto view = live_view(*spec, *kind, options);
     if (!view) return report(view.error());
     print_registers(*view, options);
     return exit_done;
@@ -73,11 +63,8 @@ int virtual_registers(const RegistersOptions& options) {
         known += (known.empty() ? "" : ", ") + card.name();
         if (!options.card.empty() && options.card != card.name()) continue;
         const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
-        if (!kind || (!kind->view && !kind->byte_view)) continue;
-        const Result<rack::RegisterView> view =
-            kind->view ? kind->view(*card.port(), options.clear)
-                       : kind->byte_view(*card.byte_port(), card.host(),
-                                         static_cast<std::uint8_t>(config->cards[i].databoard4002.select));
+        if (!kind || !kind->view) continue;
+        const Result<rack::RegisterView> view = kind->view(rack::bus_of(card, config->cards[i]), options.clear);
         if (!view) return report(view.error());
         print_registers(*view, options);
         return exit_done;

@@ -16,9 +16,10 @@ const char* const second_card = "[card.free]\ntype = \"mcx314\"\n[card.glass]\nt
 /// A machine with service requests at given instants.
 struct Served : Operated {
     explicit Served(const std::string& more = second_card) : Operated(two_axes(more)) {}
-    void begin(double seconds) {
-        at(seconds, [this](Machine& m) {
-            const Result<void> begun = m.service().begin("m", anna, "w1", [this](const Result<std::string>& told) {
+    explicit Served(const rack::RackConfig& config) : Operated(config) {}
+    void begin(double seconds, const std::string& card = "m") {
+        at(seconds, [this, card](Machine& m) {
+            const Result<void> begun = m.service().begin(card, anna, "w1", [this](const Result<std::string>& told) {
                 said.push_back(told ? *told : told.error().message);
             });
             EXPECT_TRUE(begun) << begun.error().message;
@@ -75,6 +76,28 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
                   "position."}));
     EXPECT_NEAR(o.x(), 12, 1e-9);
     EXPECT_NEAR(o.y(), 3, 1e-9);
+}
+
+TEST(AService, OfACardThatPositionsItsAxisGivesItBack) {
+    Served o(carriage());
+    const auto set_up = [](Machine& m) { EXPECT_TRUE(m.set_position('X', 30)); };
+    o.at(0.02, set_up);
+    o.begin(0.05, "board");
+    o.call(0.1, "version", {}, "board");
+    o.call(0.15, "set_rate", {{"rate", 16'000}}, "board");
+    o.call(0.2, "set_number", {{"counts", 100'000}}, "board");
+    o.call(0.25, "go", {}, "board");
+    o.at(0.5, [](Machine& m) { EXPECT_NE(m.status().axes[0].velocity, 0) << "by the card alone"; });
+    o.at(0.6, [](Machine& m) { EXPECT_TRUE(m.service().end([](const Result<std::string>&) {})); });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_FALSE(m.status().axes[0].position_valid);
+    });
+    o.at(1.1, set_up);
+    o.at(1.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 5, 20)); });
+    o.run(3);
+    EXPECT_NEAR(o.x(), 35, 0.1);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
 TEST(AService, DrivesNothingElse) {

@@ -44,7 +44,9 @@ class RegisterViews : public testing::Test {
         port.write(mcx314::reg::WR6, static_cast<std::uint16_t>(value));
         port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(0x0100 | code));
     }
-    RegisterView view(bool clearing) { return find_card_kind("mcx314")->view(*rack_.cards()[0]->port(), clearing); }
+    RegisterView view(bool clearing) {
+        return *find_card_kind("mcx314")->view(bus_of(*rack_.cards()[0], rack_.config().cards[0]), clearing);
+    }
 
     Rack rack_;
 };

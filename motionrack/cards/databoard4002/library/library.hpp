@@ -1,0 +1,46 @@
+// The function library by its declaration: commands by name with numbers as arguments, for pages and scripts.
+#pragma once
+
+#include <motionrack/base/function_library.hpp>
+#include <motionrack/base/port.hpp>
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
+
+namespace motionrack::databoard4002 {
+
+/// The card's commands, one each, then status and events, complete moves and the slope.
+std::span<const FunctionInfo> library_functions();
+
+/// Card access of a driver that a stop ends: it may still end its move with Q; nothing else is written.
+class GuardedPort final : public BytePort {
+  public:
+    GuardedPort(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}
+    void out(std::uint8_t port, std::uint8_t value) override;
+    std::uint8_t in(std::uint8_t port) override { return port_.in(port); }
+
+  private:
+    BytePort& port_;
+    const Interrupt& host_;
+};
+
+class Library final : public FunctionLibrary {
+  public:
+    /// Port and host must outlive the library. `select`: the card's number on its bus.
+    Library(BytePort& port, Interrupt& host, std::uint8_t select);
+
+    std::span<const FunctionInfo> functions() const override;
+    /// Resets the card (C3) and connects to it. Errors: machine if no card answers.
+    Result<void> begin() override;
+    Result<CallAnswer> call(std::size_t function, std::span<const std::int64_t> values) override;
+    /// True while the rate at the output is not 0, or the card does not tell it.
+    bool moving() override;
+    /// Q.
+    void stop_now() override;
+
+  private:
+    GuardedPort guarded_;
+    Interrupt& host_;
+    Driver driver_;
+    Driver stopper_;  ///< not guarded
+};
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,24 @@
+// Opens the port of a real card in the width of its registers.
+#pragma once
+
+#include <memory>
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/base/port.hpp>
+#include <motionrack/base/result.hpp>
+#include <motionrack/live/live_port.hpp>
+
+namespace motionrack::live {
+
+/// The port of a real card, and the interface that its registers have.
+struct OpenCard {
+    std::unique_ptr<LivePort> port;
+    RegisterPort* registers = nullptr;  ///< nullptr: they are not words of 16 bits
+    BytePort* bytes = nullptr;          ///< nullptr: they are not ports of 8 bits
+};
+
+/// Checks an address without opening it. Errors: as CardPort::check.
+Result<void> check_card(const PortSpec& spec, const CardMap& map);
+/// Errors: as CardPort::open and ByteCardPort::open.
+Result<OpenCard> open_card(const PortSpec& spec, const CardMap& map);
+
+}  // namespace motionrack::live

@@ -1,0 +1,122 @@
+// The operator panel with a real DataBoard 4002 in service; a virtual one is served by another process: live_server
+// databoard4002 --real-time panel_databoard4002. Its motor follows the pulses, one count each.
+#include <gmock/gmock.h>
+
+#include <csignal>
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
+#include <motionrack/live/byte_card_port.hpp>
+#include <string>
+#include <tests/live/panel_on_a_card.hpp>
+
+namespace motionrack {
+namespace {
+
+using live_test::PanelOnACard;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int thousand_hz = 16'384 - 400;
+
+class ThePanelOnADataBoard : public PanelOnACard {
+  protected:
+    ThePanelOnADataBoard() : PanelOnACard("databoard4002") {}
+    /// Rate of the card, asked for beside the program, which must not access it meanwhile.
+    int rate() const {
+        const auto port =
+            live::ByteCardPort::open(*live::read_port_spec(card.other_place()), databoard4002::card_map());
+        EXPECT_TRUE(port);
+        databoard4002::Driver driver(**port, **port);
+        const Result<int> rate = driver.rate();
+        EXPECT_TRUE(rate) << rate.error().message;
+        return rate.value_or(-1);
+    }
+    void begin() const {
+        EXPECT_TRUE(served->post("take_control").contains("done"));
+        good("set_rate", {{"rate", thousand_hz}}, "Written.");
+    }
+    void drive() const {
+        begin();
+        good("set_target", {{"counts", 8'000'000}}, "Written.");
+        good("go", json::object(), "Given.");
+        good("rate", json::object(), std::to_string(thousand_hz) + " negative backwards, 0 at standstill");
+    }
+    void until_stopped(ServedLink& link) const {
+        until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
+        EXPECT_EQ(rate(), 0);
+    }
+};
+
+TEST_F(ThePanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
+    EXPECT_THAT(served->said, HasSubstr("real     bench at " + card.place));
+    begin();
+    good("version", json::object(), "1 version");
+    good("move_to", {{"counts", 250}, {"milliseconds", 10'000}}, "The card is at 250 counts.");
+    good("move_by", {{"counts", -290}, {"milliseconds", 10'000}}, "The card is at -40 counts.");
+    good("position", json::object(), "-40 counts");
+    EXPECT_THAT(call("status", json::object()).value("text", ""), HasSubstr("READY: the card takes an access"));
+    const json shown = served->get("card?name=bench");
+    EXPECT_EQ(shown["values"][0], (json{{"name", "POSITION"}, {"value", -40}})) << shown;
+    EXPECT_EQ(shown["registers"][0]["name"], "STAT") << shown;
+    EXPECT_THAT(call("move_to", {{"counts", 9'000'000}, {"milliseconds", 1000}})["error"]["message"],
+                HasSubstr("counts is 9000000, but must be -8388608 to 8388607 counts"));
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_TRUE(alarm(*served).is_null());
+}
+
+TEST_F(ThePanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
+    begin();
+    ASSERT_TRUE(served->send(
+        "POST", "call",
+        json{{"card", "bench"}, {"function", "move_to"}, {"arguments", {{"counts", 100'000}, {"milliseconds", 60'000}}}}
+            .dump()));
+    ServedLink other(served->port());
+    until("it waits",
+          [&] { return other.get("events?limit=20").dump().find("call move_to: begun") != std::string::npos; });
+    EXPECT_TRUE(other.post("stop").contains("done"));
+    EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(), HasSubstr("Stopped on request"));
+    until_stopped(other);
+    EXPECT_EQ(other.status()["state"], "error stop");
+    EXPECT_TRUE(alarm(other).is_null());
+}
+
+TEST_F(ThePanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
+    drive();
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    until_stopped(*served);
+    drive();
+    EXPECT_EQ(served->end(SIGTERM), 0);
+    EXPECT_EQ(rate(), 0);
+}
+
+TEST_F(ThePanelOnADataBoard, AlarmsWhereItsPortVanishes) {
+    drive();
+    card.refuse(0xFFFF'FFFF);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_EQ(rate(), thousand_hz);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
+                AllOf(HasSubstr("No such device"), HasSubstr("was not written"),
+                      HasSubstr("press the emergency stop that cuts the motors' power")));
+    card.refuse(0);
+    begin();
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_EQ(rate(), 0);
+    EXPECT_FALSE(alarm(*served)["active"]);
+}
+
+TEST_F(ThePanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
+    drive();
+    card.remove(true);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_EQ(rate(), thousand_hz);
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(), HasSubstr("No card answers under the number 13"));
+    EXPECT_TRUE(alarm(*served)["active"]);
+    card.remove(false);
+    begin();
+    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    EXPECT_EQ(rate(), 0);
+    EXPECT_FALSE(alarm(*served)["active"]);
+}
+
+}  // namespace
+}  // namespace motionrack
