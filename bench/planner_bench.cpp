@@ -49,7 +49,7 @@ void trapezoid_plan(benchmark::State& state) {
 }
 BENCHMARK(trapezoid_plan);
 
-void trapezoid_plan_between_speeds(benchmark::State& state) {
+void trapezoid_plan_between_velocities(benchmark::State& state) {
     const auto work = tasks();
     std::size_t i = 0;
     for (auto _ : state) {
@@ -58,7 +58,7 @@ void trapezoid_plan_between_speeds(benchmark::State& state) {
         benchmark::DoNotOptimize(p);
     }
 }
-BENCHMARK(trapezoid_plan_between_speeds);
+BENCHMARK(trapezoid_plan_between_velocities);
 
 /// Naive: steps through the motion at 1 kHz and decelerates when the remaining distance requires it.
 void trapezoid_plan_by_steps_of_1_ms(benchmark::State& state) {

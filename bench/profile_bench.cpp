@@ -87,11 +87,11 @@ void travel_from_outside(benchmark::State& state) {
 }
 BENCHMARK(travel_from_outside);
 
-void change_of_speed(benchmark::State& state) {
+void change_of_velocity(benchmark::State& state) {
     solve_all(state, tasks(1),
               [](const Task& t) { return velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits); });
 }
-BENCHMARK(change_of_speed);
+BENCHMARK(change_of_velocity);
 
 void stop_of_any_motion(benchmark::State& state) {
     solve_all(state, tasks(1), [](const Task& t) { return stop_profile(t.from, t.limits); });

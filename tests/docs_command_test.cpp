@@ -8,16 +8,16 @@ namespace {
 
 using testing::HasSubstr;
 
-class TheDocsCommand : public InFolder {};
+class DocsCommand : public InFolder {};
 
-TEST_F(TheDocsCommand, RefusesWithoutASiteAndSaysHowToGetOne) {
+TEST_F(DocsCommand, RefusesWithoutASiteAndSaysHowToGetOne) {
     const Ran ran = motionrack("docs --folder nowhere");
     EXPECT_EQ(ran.code, 5);
     EXPECT_THAT(ran.out, HasSubstr("The documentation was not found in nowhere. Nothing was served."));
     EXPECT_THAT(ran.out, HasSubstr("motionrack-doc"));
 }
 
-TEST_F(TheDocsCommand, PrintsItsAddressAndEndsByCtrlC) {
+TEST_F(DocsCommand, PrintsItsAddressAndEndsByCtrlC) {
     std::filesystem::create_directories(folder / "site");
     write("site/index.html", "<!doctype html>");
     const Ran ran = shell(interrupted(MOTIONRACK_PROGRAM " docs --port 0 --folder site", "0.2"));

@@ -8,7 +8,7 @@
 namespace motionrack {
 namespace {
 
-class ACommand : public InFolder {
+class LoadedLibraries : public InFolder {
   protected:
     /// Returns those that the loader has initialised, at the start or later.
     std::set<std::string> libraries_of(const std::string& arguments) const {
@@ -29,7 +29,7 @@ class ACommand : public InFolder {
     }
 };
 
-TEST_F(ACommand, LoadsOnlyTheLibrariesThatItNeeds) {
+TEST_F(LoadedLibraries, LoadsOnlyTheLibrariesThatItNeeds) {
     for (const char* arguments :
          {"check examples/02_part/part.ngc", "run examples/01_first_move/first_move.ngc --no-report"}) {
         const std::set<std::string> libraries = libraries_of(arguments);
@@ -40,13 +40,13 @@ TEST_F(ACommand, LoadsOnlyTheLibrariesThatItNeeds) {
     }
 }
 
-TEST_F(ACommand, LoadsThatForRecordingsOnceOneIsMade) {
+TEST_F(LoadedLibraries, LoadsThatForRecordingsOnceOneIsMade) {
     EXPECT_TRUE(
         has(libraries_of("run examples/01_first_move/first_move.ngc --no-report --record first.h5"), "libhdf5"));
     EXPECT_TRUE(has(libraries_of("report first.h5"), "libhdf5"));
 }
 
-TEST_F(ACommand, LoadsThatForPicturesOnceOneIsAskedFor) {
+TEST_F(LoadedLibraries, LoadsThatForPicturesOnceOneIsAskedFor) {
     const std::string job = "mark examples/marking/square.toml --picture ";
     EXPECT_FALSE(has(libraries_of(job + "square.svg"), "librsvg"));
     EXPECT_TRUE(has(libraries_of(job + "square.png"), "librsvg"));

@@ -39,7 +39,7 @@ JobRequest request_for(const std::string& text, const std::vector<std::string>& 
     return request;
 }
 
-class ARecordedRun : public InFolder {
+class RecordedRun : public InFolder {
   protected:
     std::string at(const std::string& name) const { return (folder / name).string(); }
 
@@ -85,7 +85,7 @@ std::vector<std::pair<std::int64_t, T>> read(const trace::RecordingReader& reade
     return out;
 }
 
-TEST_F(ARecordedRun, HasEveryPulseAndCountThatWasCounted) {
+TEST_F(RecordedRun, HasEveryPulseAndCountThatWasCounted) {
     const JobOutcome outcome = record(request_for(program), "a.h5");
     ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
     const auto reader = trace::RecordingReader::open(at("a.h5"));
@@ -109,7 +109,7 @@ TEST_F(ARecordedRun, HasEveryPulseAndCountThatWasCounted) {
     }
 }
 
-TEST_F(ARecordedRun, HasThePulsesOfTheWavesTickForTick) {
+TEST_F(RecordedRun, HasThePulsesOfTheWavesTickForTick) {
     const JobRequest request = request_for(program);
     WaveSettings waves;
     waves.path = at("a.vcd");
@@ -133,7 +133,7 @@ TEST_F(ARecordedRun, HasThePulsesOfTheWavesTickForTick) {
     EXPECT_EQ(steps, edges);
 }
 
-TEST_F(ARecordedRun, IsNotDisturbedByItsRecording) {
+TEST_F(RecordedRun, IsNotDisturbedByItsRecording) {
     const JobOutcome seen = record(request_for(program), "a.h5"), unseen = record(request_for(program), "");
     EXPECT_EQ(seen.time, unseen.time);
     EXPECT_EQ(seen.worst.mm, unseen.worst.mm);
@@ -144,12 +144,12 @@ TEST_F(ARecordedRun, IsNotDisturbedByItsRecording) {
     }
 }
 
-TEST_F(ARecordedRun, IsTheSameAgain) {
+TEST_F(RecordedRun, IsTheSameAgain) {
     record(request_for(program), "a.h5");
     expect_same_again("a.h5");
 }
 
-TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
+TEST_F(RecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         const JobRequest request =
             request_for(program, {"X.motor.push=64@0.9s", "Y.encoder.broken_a@1.1s", "Y.encoder.broken_a=0@1.105s"},
@@ -171,14 +171,14 @@ TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
     }
 }
 
-TEST_F(ARecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
+TEST_F(RecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
     const JobOutcome outcome = record(request_for(program, {"X.limit_plus=0@0.7s"}), "a.h5");
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
     expect_same_again("a.h5");
 }
 
-TEST_F(ARecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
+TEST_F(RecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
     for (const double stop_s : {0.2, 0.63}) {
         for (const bool live : {false, true}) {
             const JobRequest request =
@@ -194,7 +194,7 @@ TEST_F(ARecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
     }
 }
 
-TEST_F(ARecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
+TEST_F(RecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
     std::string longer = "G21 G90 F1200\n";
     for (int i = 0; i < 20; ++i) longer += "G1 X30 Y10\nG1 X1 Y1\n";
     const JobRequest request = request_for(longer + "M2\n");
@@ -226,7 +226,7 @@ TEST_F(ARecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
     EXPECT_THAT(data->verdict.text, HasSubstr("was cut off"));
 }
 
-TEST_F(ARecordedRun, RefusesOrdersThatAreNone) {
+TEST_F(RecordedRun, RefusesOrdersThatAreNone) {
     Rack rack(request_for(program).config);
     const auto refused = [&](const std::string& order) {
         const auto orders = read_commands({order});

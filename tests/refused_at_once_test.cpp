@@ -10,9 +10,9 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-using AnEmptyProgram = InFolder;
+using EmptyProgram = InFolder;
 
-TEST_F(AnEmptyProgram, IsRefusedByEachCommand) {
+TEST_F(EmptyProgram, IsRefusedByEachCommand) {
     write("empty.ngc", "");
     write("comments.ngc", "%\n(part 7)\n\n; to do\n%\n");
     write("stage.toml", text_of(source_root / "examples/13_stage/machine.toml"));
@@ -33,7 +33,7 @@ TEST_F(AnEmptyProgram, IsRefusedByEachCommand) {
     EXPECT_EQ(motionrack("run units.ngc -q --no-report").code, 0) << "it says what is to be set";
 }
 
-class AServedMachine : public InFolder {
+class ServedMachine : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -42,7 +42,7 @@ class AServedMachine : public InFolder {
     }
 };
 
-TEST_F(AServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
+TEST_F(ServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
     Served served(
         {(folder / "one.toml").string(), "--port", "0", "--no-auth", "--users", (folder / "users.json").string()});
     EXPECT_TRUE(served.post("take_control").contains("done"));

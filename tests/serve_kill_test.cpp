@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class AServedRack : public InFolder {
+class RackServer : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -46,7 +46,7 @@ class AServedRack : public InFolder {
 
 constexpr const char* long_way = "G1 X500 F3000\nX0\nX500\nX0\nM30\n";
 
-TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
+TEST_F(RackServer, LosesNothingAcknowledgedInAHundredKills) {
     const auto seed = static_cast<std::uint32_t>(seed_from_environment());
     SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);
@@ -91,7 +91,7 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
     }
 }
 
-TEST_F(AServedRack, KilledWhileItStoodKnowsIt) {
+TEST_F(RackServer, KilledWhileItStoodKnowsIt) {
     {
         Served served(arguments());
         make_ready(served);
@@ -106,7 +106,7 @@ TEST_F(AServedRack, KilledWhileItStoodKnowsIt) {
     EXPECT_EQ(entries("command").size(), 3u);
 }
 
-TEST_F(AServedRack, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
+TEST_F(RackServer, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
     {
         Served served(arguments());
         make_ready(served);
@@ -123,7 +123,7 @@ TEST_F(AServedRack, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
     EXPECT_TRUE(status["alarms"].empty());
 }
 
-TEST_F(AServedRack, StopsAMoveBeforeItEnds) {
+TEST_F(RackServer, StopsAMoveBeforeItEnds) {
     Served served(arguments());
     make_ready(served);
     EXPECT_TRUE(served.post("start_program", {{"name", "long.ngc"}, {"text", long_way}}).contains("done"));

@@ -11,7 +11,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class AServedProcess : public InFolder {
+class ServedProcess : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -27,7 +27,7 @@ class AServedProcess : public InFolder {
     }
 };
 
-TEST_F(AServedProcess, ServesOnWhileItsOutputIsNotRead) {
+TEST_F(ServedProcess, ServesOnWhileItsOutputIsNotRead) {
     Served served(arguments());
     served.fill_output();
     EXPECT_TRUE(pair(served).contains("token"));
@@ -36,7 +36,7 @@ TEST_F(AServedProcess, ServesOnWhileItsOutputIsNotRead) {
     EXPECT_EQ(served.end(SIGTERM), 0);
 }
 
-TEST_F(AServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
+TEST_F(ServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
     Served served(arguments());
     served.close_output();
     EXPECT_TRUE(pair(served).contains("token"));
@@ -44,12 +44,12 @@ TEST_F(AServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
     EXPECT_EQ(served.end(SIGTERM), 0);
 }
 
-TEST_F(AServedProcess, BringsTheAxesToRestWhenItsTerminalIsClosed) {
+TEST_F(ServedProcess, BringsTheAxesToRestWhenItsTerminalIsClosed) {
     Served served(arguments());
     EXPECT_EQ(served.end(SIGHUP), 0);
 }
 
-TEST_F(AServedProcess, OutlivesItsTerminalUnderNohup) {
+TEST_F(ServedProcess, OutlivesItsTerminalUnderNohup) {
     ::signal(SIGHUP, SIG_IGN);
     Served served(arguments());
     ::signal(SIGHUP, SIG_DFL);
@@ -58,7 +58,7 @@ TEST_F(AServedProcess, OutlivesItsTerminalUnderNohup) {
     EXPECT_EQ(served.end(SIGTERM), 0);
 }
 
-TEST_F(AServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
+TEST_F(ServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
     const std::string command = "serve one.toml --port 0 --users users.json --journal ";
     write("open.journal", "");
     ::chmod((folder / "open.journal").c_str(), 0666);
@@ -73,7 +73,7 @@ TEST_F(AServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
     EXPECT_FALSE(std::filesystem::exists(folder / "open/rack.journal"));
 }
 
-TEST_F(AServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
+TEST_F(ServedProcess, IsNotStartedWithARealCardThatCannotBeServed) {
     write("two.toml",
           "[card.m]\ntype = \"mcx314\"\n[card.bench]\ntype = \"mcx314\"\n"
           "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n");

@@ -63,7 +63,7 @@ std::string request(const std::string& method, const std::string& target, const 
            "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
 }
 
-class AFlood : public InFolder {
+class RequestFlood : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -164,7 +164,7 @@ class AFlood : public InFolder {
     }
 };
 
-TEST_F(AFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
+TEST_F(RequestFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
     const Seen seen = flood_beside(100, std::chrono::seconds(0));
     tell(seen);
     EXPECT_EQ(seen.lost, 0u);
@@ -180,7 +180,7 @@ TEST_F(AFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
 }
 
 /// The duration is MOTIONRACK_FLOOD_SECONDS if set.
-TEST_F(AFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
+TEST_F(RequestFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
     const Seen seen = flood_beside(0, std::chrono::seconds(from_environment("MOTIONRACK_FLOOD_SECONDS", 60)));
     tell(seen);
     EXPECT_EQ(seen.lost, 0u);

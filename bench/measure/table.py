@@ -177,7 +177,7 @@ PROGRAMS = [
         "16,384 random moves of all cases, so that no branch predictor learns them.",
         [
             Bench("trapezoid_plan", "a trapezoid from rest to rest", PLAN, "trapezoid_plan_by_steps_of_1_ms"),
-            Bench("trapezoid_plan_between_speeds", "between two speeds", PLAN),
+            Bench("trapezoid_plan_between_velocities", "between two speeds", PLAN),
             Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
             Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
             Bench("s_curve_plan_by_bisection", "its peak velocity found by bisection", PLAN),
@@ -231,7 +231,7 @@ PROGRAMS = [
                 "travel_between_any_states_near", "to near targets, where nearly each needs an equation solved", PLAN
             ),
             Bench("travel_from_outside", "from up to twice the allowed velocity and acceleration", PLAN),
-            Bench("change_of_speed", "to another velocity, at any position", PLAN),
+            Bench("change_of_velocity", "to another velocity, at any position", PLAN),
             Bench("stop_of_any_motion", "to standstill, at any position", PLAN),
             Bench("sample_of_a_travel", "its position at an instant", CALL),
         ],

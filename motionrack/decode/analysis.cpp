@@ -67,12 +67,12 @@ class ChannelRun {
         const std::int64_t counted = decoder_.count() - window_count_;
         window_count_ = decoder_.count();
         const double velocity = static_cast<double>(counted) / seconds;
-        if (!peak || std::fabs(velocity) > std::fabs(peak->counts_per_s)) peak = Peak{velocity, begin_s};
+        if (!peak || std::fabs(velocity) > std::fabs(peak->counts_per_s)) peak = VelocityPeak{velocity, begin_s};
     }
     const ChannelDecoder& decoder() const { return decoder_; }
     std::optional<std::uint64_t> begun() const { return begun_; }
 
-    std::optional<Peak> peak;
+    std::optional<VelocityPeak> peak;
     std::vector<IllegalAt> illegal;
     std::vector<IndexAt> indexes;
     double begun_s = 0;

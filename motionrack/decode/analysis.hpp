@@ -27,7 +27,7 @@ struct IndexAt {
     std::int64_t count = 0;
 };
 
-struct Peak {
+struct VelocityPeak {
     double counts_per_s = 0;  ///< signed
     double time_s = 0;        ///< start of its window
 };
@@ -45,7 +45,7 @@ struct ChannelResult {
     std::uint64_t up = 0, down = 0, illegal = 0, indexes = 0;
     double seconds = 0;        ///< from the channel's first sample to the last
     double mean_per_s = 0;     ///< count / seconds; 0 for no duration
-    std::optional<Peak> peak;  ///< absent if the capture is shorter than a window
+    std::optional<VelocityPeak> peak;  ///< absent if the capture is shorter than a window
     std::vector<IllegalAt> first_illegal;
     std::vector<IndexAt> first_indexes;
     std::vector<LineNote> notes;  ///< lines without a level at some time

@@ -38,7 +38,7 @@ Result<RegisterView> mcx314_view(const CardBus& bus, bool clearing) {
     return view_mcx314(*bus.registers, clearing);
 }
 std::unique_ptr<FunctionLibrary> databoard4002_library(const CardBus& bus) {
-    return std::make_unique<databoard4002::Library>(*bus.bytes, *bus.host, bus.select);
+    return std::make_unique<databoard4002::CommandLibrary>(*bus.bytes, *bus.host, bus.select);
 }
 Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
     return view_databoard4002(*bus.bytes, *bus.host, bus.select);

@@ -185,7 +185,7 @@ class Databoard4002Card final : public MotionCard {
     std::unique_ptr<FunctionLibrary> take_library() override {
         axis_.reset();
         driver_.reset();
-        return std::make_unique<db::Library>(port_, port_, static_cast<std::uint8_t>(select_));
+        return std::make_unique<db::CommandLibrary>(port_, port_, static_cast<std::uint8_t>(select_));
     }
     double accel_reserve() const override { return 0; }
     double jump_hz(const RackConfig&) const override { return std::numeric_limits<double>::infinity(); }

@@ -203,7 +203,7 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
         if (move.kind != control::MoveKind::dwell) data.planned.push_back(path_segment(move, at));
         at = move.end;
     }
-    const trace::Extent extent = trace::extent_of_path(data);
+    const trace::BoundingBox extent = trace::extent_of_path(data);
     const bool flat = !extent.some || extent.high[2] - extent.low[2] <= 0.05 * extent.diagonal();
     // As wide as possible, with a margin for the marks and the scale.
     const double wide = extent.high[0] - extent.low[0], high = extent.high[1] - extent.low[1];

@@ -157,7 +157,7 @@ std::string safety_reference() {
     out += validity;
     out +=
         "## States and sources\nEach cell is the end of a test's name, "
-        "`EveryState/AStopInAState.HoldsUntilAReset/..` (`motionrack/operate/test/stop_states_test.cpp`): in that "
+        "`EveryState/StopInAState.HoldsUntilAReset/..` (`motionrack/operate/test/stop_states_test.cpp`): in that "
         "state, by that source, with a laser, a belt, a stage and outputs that are on. It expects all of the above, in "
         "virtual time.\n\n| state |";
     for (const StopSource source : stop_sources) out += fmt::format(" {} |", name_of(source));
@@ -174,8 +174,8 @@ std::string safety_reference() {
         out += '\n';
     }
     out +=
-        "\nPrograms without an operator (`motionrack run`) are tested by `AStop.*` "
-        "(`motionrack/rack/test/stop_latch_test.cpp`), the page's commands by `AStopOnThePage.*` "
+        "\nPrograms without an operator (`motionrack run`) are tested by `LatchedStop.*` "
+        "(`motionrack/rack/test/stop_latch_test.cpp`), the page's commands by `StopOnThePage.*` "
         "(`motionrack/panel/test/stop_test.cpp`).\n";
     return out;
 }

@@ -124,7 +124,7 @@ std::string planned_json(const ReportData& data) {
                        packed(kinds, 1));
 }
 
-std::string extent_json(const Extent& extent) {
+std::string extent_json(const BoundingBox& extent) {
     return fmt::format("[{},{}]", xyz_json(extent.low), xyz_json(extent.high));
 }
 

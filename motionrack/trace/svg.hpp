@@ -22,7 +22,7 @@ struct SvgLook {
 enum class PathView { plan, perspective };
 
 /// Bounds of X, Y, Z. `some` is false until a point was added.
-struct Extent {
+struct BoundingBox {
     Xyz low{};
     Xyz high{};
     bool some = false;
@@ -30,10 +30,10 @@ struct Extent {
     double diagonal() const;
 };
 
-Extent extent_of_path(const ReportData& data);    ///< planned and actual path
-Extent extent_of_travel(const ReportData& data);  ///< travel limits; path if unlimited
+BoundingBox extent_of_path(const ReportData& data);    ///< planned and actual path
+BoundingBox extent_of_travel(const ReportData& data);  ///< travel limits; path if unlimited
 /// Visible region of a path picture: includes the travel, unless the path would be too small in it.
-Extent frame_of(const ReportData& data);
+BoundingBox frame_of(const ReportData& data);
 
 /// Colours the actual path by value, with a scale.
 struct SvgShade {

@@ -59,7 +59,7 @@ const char* svg_ink(double part) {
     return part < 0.3 ? "#1f2933" : "#ffffff";
 }
 
-void Extent::add(const Xyz& point) {
+void BoundingBox::add(const Xyz& point) {
     for (const double v : point) {
         if (!std::isfinite(v)) return;
     }
@@ -70,14 +70,14 @@ void Extent::add(const Xyz& point) {
     some = true;
 }
 
-double Extent::diagonal() const {
+double BoundingBox::diagonal() const {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) sum += (high[i] - low[i]) * (high[i] - low[i]);
     return std::isfinite(sum) ? std::sqrt(sum) : 0;
 }
 
-Extent extent_of_path(const ReportData& data) {
-    Extent extent;
+BoundingBox extent_of_path(const ReportData& data) {
+    BoundingBox extent;
     for (const ReportSegment& segment : data.planned) {
         for (const Xyz& point : segment.points) extent.add(point);
     }
@@ -85,8 +85,8 @@ Extent extent_of_path(const ReportData& data) {
     return extent;
 }
 
-Extent extent_of_travel(const ReportData& data) {
-    Extent extent = extent_of_path(data);
+BoundingBox extent_of_travel(const ReportData& data) {
+    BoundingBox extent = extent_of_path(data);
     for (const ReportAxis& axis : data.axes) {
         const std::size_t i = axis.name == "X" ? 0 : axis.name == "Y" ? 1 : axis.name == "Z" ? 2 : 3;
         if (i == 3 || !(axis.min_position < axis.max_position)) continue;
@@ -97,12 +97,12 @@ Extent extent_of_travel(const ReportData& data) {
     return extent;
 }
 
-Extent frame_of(const ReportData& data) {
-    Extent path = extent_of_path(data);
-    const Extent travel = extent_of_travel(data);
+BoundingBox frame_of(const ReportData& data) {
+    BoundingBox path = extent_of_path(data);
+    const BoundingBox travel = extent_of_travel(data);
     const double wide = path.high[0] - path.low[0], high = path.high[1] - path.low[1];
     const bool lost = wide < 0.4 * (travel.high[0] - travel.low[0]) && high < 0.4 * (travel.high[1] - travel.low[1]);
-    Extent frame = lost ? path : travel;
+    BoundingBox frame = lost ? path : travel;
     for (std::size_t i = 0; i < 2; ++i) {  // minimum size of a picture
         const double small = std::max(1e-3, 0.02 * frame.diagonal());
         if (frame.high[i] - frame.low[i] < small) frame.low[i] -= small, frame.high[i] += small;

@@ -24,7 +24,7 @@ struct Flat {
 /// Converts machine coordinates to pixels.
 class Projection {
   public:
-    Projection(const Extent& frame, PathView view, const SvgLook& look) : view_(view) {
+    Projection(const BoundingBox& frame, PathView view, const SvgLook& look) : view_(view) {
         for (std::size_t i = 0; i < 3; ++i) centre_[i] = (frame.low[i] + frame.high[i]) / 2;
         middle_ = {look.width / 2.0, look.height / 2.0};
         const SinCos yaw = sin_cos(-0.61), tilt = sin_cos(0.55);
@@ -74,7 +74,7 @@ std::string line_through(const std::vector<Flat>& points, const char* look) {
 }
 
 /// `floor`: height of the grid in perspective, mm.
-std::string grid(const Extent& frame, double floor, const Projection& at, PathView view, const SvgLook& look) {
+std::string grid(const BoundingBox& frame, double floor, const Projection& at, PathView view, const SvgLook& look) {
     const double reach_x = look.width / at.scale() / 2, reach_y = look.height / at.scale() / 2;
     const double step = nice_step(std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]), 6);
     const bool plan = view == PathView::plan;
@@ -103,7 +103,7 @@ std::string grid(const Extent& frame, double floor, const Projection& at, PathVi
     return out;
 }
 
-std::string travel_box(const Extent& box, const Projection& at, PathView view) {
+std::string travel_box(const BoundingBox& box, const Projection& at, PathView view) {
     std::string out;
     const auto corner = [&](int bits) {
         return at({(bits & 1 ? box.high : box.low)[0], (bits & 2 ? box.high : box.low)[1],
@@ -257,7 +257,7 @@ std::string marks(const ReportData& data, const Projection& at) {
 }  // namespace
 
 std::string svg_path(const ReportData& data, PathView view, const SvgLook& look, const SvgShade& shade) {
-    const Extent frame = frame_of(data);
+    const BoundingBox frame = frame_of(data);
     const Projection at(frame, view, look);
     const bool plan = view == PathView::plan;
     std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");

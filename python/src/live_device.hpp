@@ -84,7 +84,7 @@ class LiveDataboard4002 final : public LiveDevice {
 
     std::unique_ptr<live::ByteCardPort> port_;
     Interrupt& host_;
-    databoard4002::GuardedPort guarded_;
+    databoard4002::GuardedBytePort guarded_;
     std::uint8_t select_;
 };
 

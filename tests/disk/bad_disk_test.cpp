@@ -46,7 +46,7 @@ const Scenario scenarios[] = {
     {"frames", "frames stage.toml -q --duration 0.002 --vcd a.vcd --picture a.svg", {"a.vcd", "a.svg"}},
 };
 
-class ABadDisk : public InFolder, public testing::WithParamInterface<Scenario> {
+class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario> {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -119,7 +119,7 @@ class ABadDisk : public InFolder, public testing::WithParamInterface<Scenario> {
     }
 };
 
-TEST_P(ABadDisk, LeavesTheOldResultOrTheWholeNewOne) {
+TEST_P(FaultyDisk, LeavesTheOldResultOrTheWholeNewOne) {
     const Ran first = run_on("fail 0");
     ASSERT_EQ(first.code, 0) << first.out;
     const std::int64_t count = calls();
@@ -135,7 +135,7 @@ TEST_P(ABadDisk, LeavesTheOldResultOrTheWholeNewOne) {
     calls();
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, ABadDisk, testing::ValuesIn(scenarios),
+INSTANTIATE_TEST_SUITE_P(Commands, FaultyDisk, testing::ValuesIn(scenarios),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

@@ -35,7 +35,7 @@ class BadDiskAhead {
     BadDiskAhead& operator=(const BadDiskAhead&) = delete;
 };
 
-class AServedRackOnABadDisk : public InFolder {
+class ServedRackOnABadDisk : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
@@ -127,7 +127,7 @@ class AServedRackOnABadDisk : public InFolder {
     }
 };
 
-TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndHasNoValidPositionAfterwards) {
+TEST_F(ServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndHasNoValidPositionAfterwards) {
     const BadDiskAhead disk(at("data"), "", at("full"), at("count"));
     {
         Served served(arguments());
@@ -158,7 +158,7 @@ TEST_F(AServedRackOnABadDisk, HoldsWhenTheDiskIsFullAndHasNoValidPositionAfterwa
     EXPECT_EQ(status["alarms"].size(), 1u);
 }
 
-TEST_F(AServedRackOnABadDisk, DoesNotStartWhereTheDiskIsFull) {
+TEST_F(ServedRackOnABadDisk, DoesNotStartWhereTheDiskIsFull) {
     const BadDiskAhead disk(at("data"), "", at("full"), at("count"));
     write("full", "");
     Served served(arguments(), false);
@@ -167,7 +167,7 @@ TEST_F(AServedRackOnABadDisk, DoesNotStartWhereTheDiskIsFull) {
     EXPECT_EQ(served.end(SIGTERM), 5);
 }
 
-TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsValid) {
+TEST_F(ServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsValid) {
     for (const bool first_run : {true, false}) {
         const double before = first_run ? 0 : 0.5, x = 1.5;
         const auto start_anew = [&] {
@@ -198,7 +198,7 @@ TEST_F(AServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsVal
     }
 }
 
-TEST_F(AServedRackOnABadDisk, AcknowledgesNoPairingThatIsNotWritten) {
+TEST_F(ServedRackOnABadDisk, AcknowledgesNoPairingThatIsNotWritten) {
     const auto pair = [](Served& served, const char* name) {
         const std::size_t at = served.said.find("#pair=");
         return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", name}});

@@ -25,7 +25,7 @@ Instant instant_of(const std::string& option) {
     return timed ? timed->at : Instant{};
 }
 
-class AFault : public InFolder, public testing::WithParamInterface<Case> {
+class InjectedFault : public InFolder, public testing::WithParamInterface<Case> {
   protected:
     const Case& one() const { return GetParam(); }
     const Fault& fault() const { return GetParam().fault; }
@@ -61,7 +61,7 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
 
 // ---- run: a part program
 
-void AFault::run_program() const {
+void InjectedFault::run_program() const {
     write("part.ngc", one().text(fault().setup.program));
     std::string arguments = "run part.ngc -q --no-report --json --record run.h5 --rack ";
     arguments.append(rack_file()).append(options());
@@ -97,7 +97,7 @@ std::vector<std::pair<Instant, double>> read(const trace::RecordingReader& recor
     return out;
 }
 
-void AFault::look_at_recording(const json& summary) const {
+void InjectedFault::look_at_recording(const json& summary) const {
     const auto recording = trace::RecordingReader::open((folder / "run.h5").string());
     ASSERT_TRUE(recording) << recording.error().text();
     EXPECT_TRUE(recording->whole());
@@ -115,7 +115,7 @@ void AFault::look_at_recording(const json& summary) const {
     look_at_values(*recording);
 }
 
-void AFault::look_at_values(const trace::RecordingReader& recording) const {
+void InjectedFault::look_at_values(const trace::RecordingReader& recording) const {
     for (const std::string& shows : fault().shows) {
         const std::string text = one().text(shows);
         const std::size_t equals = text.find(" = ");
@@ -128,7 +128,7 @@ void AFault::look_at_values(const trace::RecordingReader& recording) const {
 
 // ---- home: homing an axis
 
-void AFault::home() const {
+void InjectedFault::home() const {
     const std::string arguments = "home X -q --json --rack " + rack_file() + options();
     SCOPED_TRACE("motionrack " + arguments);
     const Ran ran = shell("{ " MOTIONRACK_PROGRAM " " + arguments + " > home.json; }");
@@ -147,7 +147,7 @@ void AFault::home() const {
 
 // ---- frames: cards of a grating bus, and stages
 
-void AFault::show_frames() const {
+void InjectedFault::show_frames() const {
     const std::string arguments = "frames " + rack_file() + " -q --duration " + one().text("{for}") + options();
     SCOPED_TRACE("motionrack " + arguments);
     const Ran ran = motionrack(arguments);
@@ -175,7 +175,7 @@ double value_of(rack::Session& session, const std::string& name) {
     return value ? static_cast<double>(*value) : std::nan("");
 }
 
-void AFault::play_session() const {
+void InjectedFault::play_session() const {
     const std::string rack = one().text(fault().setup.rack);
     auto session = rack::Session::open(rack.find('\n') == std::string::npos ? (source_root / rack).string() : rack);
     ASSERT_TRUE(session) << session.error().text();
@@ -216,7 +216,7 @@ void AFault::play_session() const {
 
 // ---- shell: files and signals
 
-void AFault::run_shell() const {
+void InjectedFault::run_shell() const {
     const std::string path =
         "export PATH=\"" + std::filesystem::path(MOTIONRACK_PROGRAM).parent_path().string() + ":$PATH\"; ";
     const auto in_shell = [&](const std::string& text) { return shell("bash -c '" + path + one().text(text) + "'"); };
@@ -232,7 +232,7 @@ void AFault::run_shell() const {
     EXPECT_EQ(after.code, 0) << "the kept data are wrong: " << one().text(fault().after) << "\n" << after.out;
 }
 
-TEST_P(AFault, DoesWhatTheCatalogueSays) {
+TEST_P(InjectedFault, DoesWhatTheCatalogueSays) {
     const std::string& by = fault().setup.by;
     if (by == "run") return run_program();
     if (by == "home") return home();
@@ -249,7 +249,7 @@ std::vector<Case> own_cases() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, AFault, testing::ValuesIn(own_cases()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, InjectedFault, testing::ValuesIn(own_cases()),
                          [](const auto& each) { return each.param.name(); });
 
 }  // namespace

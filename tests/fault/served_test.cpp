@@ -123,9 +123,9 @@ bool lost_steps(rack::Rack& rack) {
     });
 }
 
-class AServedFault : public testing::TestWithParam<Case> {};
+class ServedFault : public testing::TestWithParam<Case> {};
 
-TEST_P(AServedFault, EndsAsItDoesInARun) {
+TEST_P(ServedFault, EndsAsItDoesInARun) {
     const Fault& fault = GetParam().fault;
     Served served(GetParam());
     served.machine->run();
@@ -160,7 +160,7 @@ std::vector<Case> served_cases() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, AServedFault, testing::ValuesIn(served_cases()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, ServedFault, testing::ValuesIn(served_cases()),
                          [](const auto& each) { return each.param.name(); });
 
 }  // namespace

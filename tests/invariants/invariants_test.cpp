@@ -278,18 +278,18 @@ const Broken broken[] = {
      }},
 };
 
-class ABrokenHistory : public testing::TestWithParam<Broken> {};
-INSTANTIATE_TEST_SUITE_P(Each, ABrokenHistory, testing::ValuesIn(broken),
+class BrokenHistory : public testing::TestWithParam<Broken> {};
+INSTANTIATE_TEST_SUITE_P(Each, BrokenHistory, testing::ValuesIn(broken),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST_P(ABrokenHistory, IsFound) {
+TEST_P(BrokenHistory, IsFound) {
     History h;
     EXPECT_TRUE(h.findings().empty());
     GetParam().history(h);
     EXPECT_TRUE(h.found(GetParam().rule)) << name_of(GetParam().rule);
 }
 
-TEST(AGoodHistory, OfRidesAndStopsHasNoFinding) {
+TEST(GoodHistory, OfRidesAndStopsHasNoFinding) {
     History h;
     h.begin();
     h.pass(0.5);
@@ -304,7 +304,7 @@ TEST(AGoodHistory, OfRidesAndStopsHasNoFinding) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
+TEST(GoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
     History h;
     h.begin();
     h.latch(true, true);
@@ -315,7 +315,7 @@ TEST(AGoodHistory, MayEndPulsesAtOnceByTheEmergencyStop) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayEndPulsesAtOnceIfThatInvalidatesThePosition) {
+TEST(GoodHistory, MayEndPulsesAtOnceIfThatInvalidatesThePosition) {
     for (const bool by_card_alone : {false, true}) {
         History h;
         h.begin();
@@ -329,7 +329,7 @@ TEST(AGoodHistory, MayEndPulsesAtOnceIfThatInvalidatesThePosition) {
     }
 }
 
-TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
+TEST(GoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
     History h;
     h.order(Invariants::Order::position);
     h.counter_off = 500;
@@ -339,13 +339,13 @@ TEST(AGoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayFindAHomeByTheEdgeOfASwitchThatIsMended) {
+TEST(GoodHistory, MayFindAHomeByTheEdgeOfASwitchThatIsMended) {
     History h;
     search_beside(h, true);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayDeclareAServoWhoseCounterStays) {
+TEST(GoodHistory, MayDeclareAServoWhoseCounterStays) {
     History h(true);
     for (const double origin : {0.59, 0.0}) {
         h.order(Invariants::Order::position);
@@ -355,7 +355,7 @@ TEST(AGoodHistory, MayDeclareAServoWhoseCounterStays) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
+TEST(GoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
     History h;
     h.begin();
     h.latch(true);
@@ -371,7 +371,7 @@ TEST(AGoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(AGoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
+TEST(GoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
     for (const double within : {0.002, 0.004, 0.006, 0.008, 0.01}) {  // within an interval
         History h;
         h.begin();
@@ -388,7 +388,7 @@ TEST(AGoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
     }
 }
 
-TEST(AFinding, IsToldOnceARuleAndWithItsName) {
+TEST(Finding, IsToldOnceARuleAndWithItsName) {
     History h;
     for (int i = 0; i < 3; ++i) h.ask_for(Rule::usable_again);
     EXPECT_EQ(h.findings().size(), 1u);

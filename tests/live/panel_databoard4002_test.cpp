@@ -18,9 +18,9 @@ using testing::HasSubstr;
 
 constexpr int thousand_hz = 16'384 - 400;
 
-class ThePanelOnADataBoard : public PanelOnACard {
+class PanelOnADataBoard : public PanelOnACard {
   protected:
-    ThePanelOnADataBoard() : PanelOnACard("databoard4002") {}
+    PanelOnADataBoard() : PanelOnACard("databoard4002") {}
     /// Rate of the card, asked for beside the program, which must not access it meanwhile.
     int rate() const {
         const auto port =
@@ -47,7 +47,7 @@ class ThePanelOnADataBoard : public PanelOnACard {
     }
 };
 
-TEST_F(ThePanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
+TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_THAT(served->said, HasSubstr("real     bench at " + card.place));
     begin();
     good("version", json::object(), "1 version");
@@ -64,7 +64,7 @@ TEST_F(ThePanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
-TEST_F(ThePanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
+TEST_F(PanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
     begin();
     ASSERT_TRUE(served->send(
         "POST", "call",
@@ -80,7 +80,7 @@ TEST_F(ThePanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
     EXPECT_TRUE(alarm(other).is_null());
 }
 
-TEST_F(ThePanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
+TEST_F(PanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
     drive();
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
     until_stopped(*served);
@@ -89,7 +89,7 @@ TEST_F(ThePanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
     EXPECT_EQ(rate(), 0);
 }
 
-TEST_F(ThePanelOnADataBoard, AlarmsWhereItsPortVanishes) {
+TEST_F(PanelOnADataBoard, AlarmsWhereItsPortVanishes) {
     drive();
     card.refuse(0xFFFF'FFFF);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
@@ -104,7 +104,7 @@ TEST_F(ThePanelOnADataBoard, AlarmsWhereItsPortVanishes) {
     EXPECT_FALSE(alarm(*served)["active"]);
 }
 
-TEST_F(ThePanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
+TEST_F(PanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
     drive();
     card.remove(true);
     until("an alarm", [&] { return !alarm(*served).is_null(); });

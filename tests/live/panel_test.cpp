@@ -18,9 +18,9 @@ using testing::HasSubstr;
 /// Bit of RR0.
 constexpr unsigned x_drives = 1;
 
-class ThePanelOnARealCard : public PanelOnACard {
+class PanelOnARealCard : public PanelOnACard {
   protected:
-    ThePanelOnARealCard() : PanelOnACard("mcx314") {}
+    PanelOnARealCard() : PanelOnACard("mcx314") {}
     unsigned drives() const {
         std::uint16_t word = 0xFFFF;
         card.look(0, &word, sizeof word);
@@ -38,7 +38,7 @@ class ThePanelOnARealCard : public PanelOnACard {
     }
 };
 
-TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
+TEST_F(PanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_THAT(served->said, HasSubstr("real     bench at " + card.place));
     EXPECT_TRUE(served->post("take_control").contains("done"));
     good("SetRange", {{"data", 800'000}}, "Written.");
@@ -63,7 +63,7 @@ TEST_F(ThePanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
-TEST_F(ThePanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
+TEST_F(PanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
     drive_x();
     ASSERT_TRUE(served->send(
         "POST", "call",
@@ -81,7 +81,7 @@ TEST_F(ThePanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
     EXPECT_TRUE(alarm(other).is_null());
 }
 
-TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
+TEST_F(PanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
     const std::vector<std::pair<const char*, json>> orders = {
         {"stop", json::object()},           {"service", {{"card", "bench"}, {"on", false}}},
         {"enable", {{"on", false}}},        {"release_control", json::object()},
@@ -103,7 +103,7 @@ TEST_F(ThePanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
     }
 }
 
-TEST_F(ThePanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
+TEST_F(PanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
     drive_x();
     served->close();
     until("X stands", [&] { return drives() == 0; });
@@ -111,7 +111,7 @@ TEST_F(ThePanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
     until_stopped(other);
 }
 
-TEST_F(ThePanelOnARealCard, StopsWithTheProgram) {
+TEST_F(PanelOnARealCard, StopsWithTheProgram) {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
         drive_x();
         EXPECT_EQ(served->end(signal), 0);
@@ -120,7 +120,7 @@ TEST_F(ThePanelOnARealCard, StopsWithTheProgram) {
     }
 }
 
-TEST_F(ThePanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) {
+TEST_F(PanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) {
     drive_x();
     EXPECT_EQ(served->end(SIGKILL), -SIGKILL);
     EXPECT_EQ(drives(), x_drives) << "nothing is left that could stop it";
@@ -131,7 +131,7 @@ TEST_F(ThePanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) 
     EXPECT_EQ(drives(), 0U) << "it was reset";
 }
 
-TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
+TEST_F(PanelOnARealCard, AlarmsWhereItsPortVanishes) {
     drive_x();
     card.refuse(0xFFFF'FFFF);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
@@ -151,7 +151,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsPortVanishes) {
     EXPECT_FALSE(alarm(*served)["active"]);
 }
 
-TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
+TEST_F(PanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     drive_x();
     card.remove(true);
     until("an alarm", [&] { return !alarm(*served).is_null(); });
@@ -170,7 +170,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     EXPECT_FALSE(alarm(*served)["active"]);
 }
 
-TEST_F(ThePanelOnARealCard, AlarmsWhereAStopIsRefused) {
+TEST_F(PanelOnARealCard, AlarmsWhereAStopIsRefused) {
     drive_x();
     card.refuse(0xFFFF'FFFF);
     EXPECT_TRUE(served->post("stop").contains("done"));
@@ -181,7 +181,7 @@ TEST_F(ThePanelOnARealCard, AlarmsWhereAStopIsRefused) {
     card.refuse(0);
 }
 
-TEST_F(ThePanelOnARealCard, IsStoppedThroughAPortThatWasOpenedAgain) {
+TEST_F(PanelOnARealCard, IsStoppedThroughAPortThatWasOpenedAgain) {
     drive_x();
     card.refuse(1);
     until("an alarm", [&] { return !alarm(*served).is_null(); });

@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-class AControlLease : public testing::Test {
+class LeaseOfControl : public testing::Test {
   protected:
     Moment now{};
     ControlLease lease{[this] { return now; }};
@@ -19,7 +19,7 @@ class AControlLease : public testing::Test {
     }
 };
 
-TEST_F(AControlLease, IsNobodysAtFirstAndGoesToWhoeverAsks) {
+TEST_F(LeaseOfControl, IsNobodysAtFirstAndGoesToWhoeverAsks) {
     EXPECT_FALSE(lease.holder());
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("No user has control"));
     now += 3s;
@@ -31,7 +31,7 @@ TEST_F(AControlLease, IsNobodysAtFirstAndGoesToWhoeverAsks) {
     EXPECT_TRUE(lease.check("a"));
 }
 
-TEST_F(AControlLease, IsTakenOverByForceAtAStandstillOnly) {
+TEST_F(LeaseOfControl, IsTakenOverByForceAtAStandstillOnly) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_THAT(take("bert", "b").error().message, HasSubstr("anna has it"));
     EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
@@ -40,7 +40,7 @@ TEST_F(AControlLease, IsTakenOverByForceAtAStandstillOnly) {
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Control is with bert"));
 }
 
-TEST_F(AControlLease, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
+TEST_F(LeaseOfControl, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
     ASSERT_TRUE(take("anna", "a"));
     lease.left("a");
     EXPECT_TRUE(lease.holder()->left);
@@ -49,7 +49,7 @@ TEST_F(AControlLease, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
     EXPECT_FALSE(lease.holder()->left);
 }
 
-TEST_F(AControlLease, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves) {
+TEST_F(LeaseOfControl, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves) {
     ASSERT_TRUE(take("anna", "a"));
     lease.left("a");
     ASSERT_TRUE(lease.check("a"));
@@ -57,7 +57,7 @@ TEST_F(AControlLease, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves
     EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
 }
 
-TEST_F(AControlLease, EndsWithTheStopOfAnotherButNotWithItsHolders) {
+TEST_F(LeaseOfControl, EndsWithTheStopOfAnotherButNotWithItsHolders) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_FALSE(lease.revoke("anna", "a"));
     EXPECT_FALSE(lease.revoke("anna", "")) << "the same user, by HTTP";
@@ -69,7 +69,7 @@ TEST_F(AControlLease, EndsWithTheStopOfAnotherButNotWithItsHolders) {
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Take control first"));
 }
 
-TEST_F(AControlLease, EndsTenSecondsAfterTheLastSignOfLife) {
+TEST_F(LeaseOfControl, EndsTenSecondsAfterTheLastSignOfLife) {
     ASSERT_TRUE(take("anna", "a"));
     now += 9s;
     EXPECT_TRUE(lease.keep("a"));
@@ -84,7 +84,7 @@ TEST_F(AControlLease, EndsTenSecondsAfterTheLastSignOfLife) {
     EXPECT_TRUE(take("bert", "b", false, false)) << "it is nobody's, even while the machine moves";
 }
 
-TEST_F(AControlLease, IsGivenBackByItsHolderOnly) {
+TEST_F(LeaseOfControl, IsGivenBackByItsHolderOnly) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_FALSE(lease.release("b"));
     EXPECT_TRUE(lease.release("a"));
@@ -92,7 +92,7 @@ TEST_F(AControlLease, IsGivenBackByItsHolderOnly) {
     EXPECT_FALSE(lease.release("a"));
 }
 
-TEST_F(AControlLease, ComesBackToTheUserWhosePageWasLoadedAgain) {
+TEST_F(LeaseOfControl, ComesBackToTheUserWhosePageWasLoadedAgain) {
     ASSERT_TRUE(take("anna", "a1"));
     EXPECT_FALSE(take("anna", "a2", false, false)) << "two pages of one user are two masters";
     lease.left("a1");
@@ -101,13 +101,13 @@ TEST_F(AControlLease, ComesBackToTheUserWhosePageWasLoadedAgain) {
     EXPECT_TRUE(lease.check("a2"));
 }
 
-TEST_F(AControlLease, OfNobodyInParticularIsNotTakenByAnotherOfThem) {
+TEST_F(LeaseOfControl, OfNobodyInParticularIsNotTakenByAnotherOfThem) {
     ASSERT_TRUE(take("", "a"));
     lease.left("a");
     EXPECT_THAT(take("", "b", false, false).error().message, HasSubstr("another session"));
 }
 
-TEST_F(AControlLease, TakenTwiceIsKept) {
+TEST_F(LeaseOfControl, TakenTwiceIsKept) {
     ASSERT_TRUE(take("anna", "a"));
     now += 5s;
     ASSERT_TRUE(take("anna", "a", false, false));

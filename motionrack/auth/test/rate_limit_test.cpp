@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(ARateLimit, GivesSoManyAtOnceAndThenSoManyASecond) {
+TEST(RateLimit, GivesSoManyAtOnceAndThenSoManyASecond) {
     RateLimit limit(3, 2);
     RateLimit::Time now{};
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(limit.take("a", now));
@@ -24,7 +24,7 @@ TEST(ARateLimit, GivesSoManyAtOnceAndThenSoManyASecond) {
     EXPECT_FALSE(limit.take("a", now));
 }
 
-TEST(ARateLimit, GivesNothingForAClockThatGoesBack) {
+TEST(RateLimit, GivesNothingForAClockThatGoesBack) {
     RateLimit limit(1, 1);
     RateLimit::Time now{1h};
     EXPECT_TRUE(limit.take("a", now));
@@ -32,7 +32,7 @@ TEST(ARateLimit, GivesNothingForAClockThatGoesBack) {
     EXPECT_FALSE(limit.take("a", now));
 }
 
-TEST(ARateLimit, KeepsSoManyKeysAndForgetsTheFullOnesFirst) {
+TEST(RateLimit, KeepsSoManyKeysAndForgetsTheFullOnesFirst) {
     RateLimit limit(1, 1, 100);
     RateLimit::Time now{};
     for (int i = 0; i < 100; ++i) EXPECT_TRUE(limit.take(std::to_string(i), now));

@@ -6,7 +6,7 @@
 namespace motionrack {
 namespace {
 
-TEST(ALateLibrary, FindsWhatItHas) {
+TEST(LateLibrary, FindsWhatItHas) {
     LateLibrary library("libm.so.6");
     double (*cosine)(double) = nullptr;
     library.find("cos", cosine);
@@ -15,7 +15,7 @@ TEST(ALateLibrary, FindsWhatItHas) {
     EXPECT_EQ(cosine(0), 1);
 }
 
-TEST(ALateLibrary, SaysWhatIsMissing) {
+TEST(LateLibrary, SaysWhatIsMissing) {
     LateLibrary nowhere("libnowhere.so.1");
     EXPECT_NE(nowhere.trouble().find("libnowhere.so.1"), std::string::npos) << nowhere.trouble();
     LateLibrary library("libm.so.6");

@@ -17,12 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class AFile : public testing::Test {
+class AtomicFile : public testing::Test {
   protected:
-    AFile() : folder_(fs::path(testing::TempDir()) / ("disk_" + std::to_string(::getpid()))) {
+    AtomicFile() : folder_(fs::path(testing::TempDir()) / ("disk_" + std::to_string(::getpid()))) {
         fs::create_directories(folder_);
     }
-    ~AFile() override { fs::remove_all(folder_); }
+    ~AtomicFile() override { fs::remove_all(folder_); }
     std::string at(const char* name) const { return (folder_ / name).string(); }
     static std::string text_of(const std::string& path) {
         std::ifstream in(path, std::ios::binary);
@@ -33,7 +33,7 @@ class AFile : public testing::Test {
     fs::path folder_;
 };
 
-TEST_F(AFile, TakesItsNameWhenItIsWhole) {
+TEST_F(AtomicFile, TakesItsNameWhenItIsWhole) {
     put(at("a"), "old");
     ::chmod(at("a").c_str(), 0640);
     auto file = NewFile::create(at("a"));
@@ -52,7 +52,7 @@ TEST_F(AFile, TakesItsNameWhenItIsWhole) {
     EXPECT_EQ(static_cast<int>(fs::status(at("b")).permissions()), 0600);
 }
 
-TEST_F(AFile, ThatIsNotCommittedLeavesWhatWasThere) {
+TEST_F(AtomicFile, ThatIsNotCommittedLeavesWhatWasThere) {
     put(at("a"), "old");
     {
         auto file = NewFile::create(at("a"));
@@ -68,7 +68,7 @@ TEST_F(AFile, ThatIsNotCommittedLeavesWhatWasThere) {
     EXPECT_EQ(text_of(at("a.new")), "half");
 }
 
-TEST_F(AFile, SaysWhyItIsNotWritten) {
+TEST_F(AtomicFile, SaysWhyItIsNotWritten) {
     const auto reason = [](const std::string& path) { return NewFile::create(path).error().message; };
     EXPECT_EQ(reason(at("nowhere/a")), "No such file or directory");
     EXPECT_EQ(reason(folder_.string()), "Is a directory");
@@ -83,7 +83,7 @@ TEST_F(AFile, SaysWhyItIsNotWritten) {
     EXPECT_EQ(text_of(at("a")), "mine");
 }
 
-TEST_F(AFile, OnAFullDiskStaysAsItWas) {
+TEST_F(AtomicFile, OnAFullDiskStaysAsItWas) {
     put(at("a"), "old");
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -99,7 +99,7 @@ TEST_F(AFile, OnAFullDiskStaysAsItWas) {
     EXPECT_FALSE(fs::exists(at("a.new")));
 }
 
-TEST_F(AFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
+TEST_F(AtomicFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
     put(at("a"), "old");
     auto file = NewFile::create(at("a"));
     EXPECT_TRUE(file->write("12.5 mm"));
@@ -110,7 +110,7 @@ TEST_F(AFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
     EXPECT_EQ(text_of(at("a")), "old");
 }
 
-TEST_F(AFile, OfADeviceIsWrittenAsItIs) {
+TEST_F(AtomicFile, OfADeviceIsWrittenAsItIs) {
     auto nothing = NewFile::create("/dev/null");
     ASSERT_TRUE(nothing);
     EXPECT_TRUE(nothing->write("text"));
@@ -119,7 +119,7 @@ TEST_F(AFile, OfADeviceIsWrittenAsItIs) {
     EXPECT_EQ(write_whole("/dev/full", "text").error().message, "No space left on device");
 }
 
-TEST_F(AFile, IsRefusedAsAnOutputWhereItIsReadOrALinkOrAnotherOutput) {
+TEST_F(AtomicFile, IsRefusedAsAnOutputWhereItIsReadOrALinkOrAnotherOutput) {
     put(at("in"), "in");
     fs::create_hard_link(at("in"), at("same"));
     fs::create_symlink("in", at("link"));

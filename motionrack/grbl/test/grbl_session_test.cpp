@@ -12,7 +12,7 @@ using testing::StartsWith;
 
 const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n", unlock = "[MSG:'$H'|'$X' to unlock]\r\n";
 
-TEST(AGrblPort, ReportsTheWorkOffsetFirstThenEveryTenReportsAndTheOverridesInTheNext) {
+TEST(GrblPort, ReportsTheWorkOffsetFirstThenEveryTenReportsAndTheOverridesInTheNext) {
     Bench b(three_axes());
     std::vector<int> offsets, overrides;
     for (int i = 1; i <= 32; ++i) {
@@ -24,7 +24,7 @@ TEST(AGrblPort, ReportsTheWorkOffsetFirstThenEveryTenReportsAndTheOverridesInThe
     EXPECT_THAT(overrides, ElementsAre(2, 12, 22, 32));
 }
 
-TEST(AGrblPort, ReportsTheWorkOffsetEveryThirtyReportsWhileItMoves) {
+TEST(GrblPort, ReportsTheWorkOffsetEveryThirtyReportsWhileItMoves) {
     Bench b(three_axes());
     b.ask("G1 X300 F600\n");
     std::vector<int> offsets, overrides;
@@ -38,7 +38,7 @@ TEST(AGrblPort, ReportsTheWorkOffsetEveryThirtyReportsWhileItMoves) {
     EXPECT_THAT(overrides, ElementsAre(2, 22, 42, 62));
 }
 
-TEST(AGrblPort, ReportsAChangedWorkOffsetAtOnce) {
+TEST(GrblPort, ReportsAChangedWorkOffsetAtOnce) {
     Bench b(three_axes());
     b.report(), b.report(), b.report();
     EXPECT_EQ(b.ask("G10 L2 P1 X5 Y-2.5\n"), "ok\r\n");
@@ -49,7 +49,7 @@ TEST(AGrblPort, ReportsAChangedWorkOffsetAtOnce) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|WPos:-5.000,2.500,1.000|"));
 }
 
-TEST(AGrblPort, DrivesALineAndAnswersOnce) {
+TEST(GrblPort, DrivesALineAndAnswersOnce) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("N12 G1 X10 F1200\n"), "ok\r\n");
     EXPECT_THAT(b.ask("?", 0.2), AllOf(StartsWith("<Run|MPos:"), HasSubstr("|FS:")));
@@ -58,7 +58,7 @@ TEST(AGrblPort, DrivesALineAndAnswersOnce) {
     EXPECT_NEAR(b.axis(0), 10, 1e-3);
 }
 
-TEST(AGrblPort, TakesFifteenMovesAndMakesTheNextLineWait) {
+TEST(GrblPort, TakesFifteenMovesAndMakesTheNextLineWait) {
     Bench b(three_axes());
     b.ask("$10=3\n");
     std::string lines;
@@ -70,7 +70,7 @@ TEST(AGrblPort, TakesFifteenMovesAndMakesTheNextLineWait) {
     b.ask("\x18");
 }
 
-TEST(AGrblPort, LosesWhatDoesNotFitWhileALineWaits) {
+TEST(GrblPort, LosesWhatDoesNotFitWhileALineWaits) {
     Bench b(three_axes());
     b.ask("$10=3\nG4 P1\n");
     const std::string out = b.ask(std::string(100, '\n') + std::string(100, '\n') + "?", 0.01);
@@ -78,14 +78,14 @@ TEST(AGrblPort, LosesWhatDoesNotFitWhileALineWaits) {
     EXPECT_EQ(answers(b.ask("", 2)), 1 + 128);
 }
 
-TEST(AGrblPort, AnswersADwellWhenItIsOverAndAllBeforeItIsDone) {
+TEST(GrblPort, AnswersADwellWhenItIsOverAndAllBeforeItIsDone) {
     Bench b(three_axes());
     EXPECT_EQ(answers(b.ask("G1 X10 F600\nG4 P0.5\n", 1.4)), 1);
     EXPECT_EQ(b.ask("", 0.3), "ok\r\n");
     EXPECT_EQ(b.session->state(), State::idle);
 }
 
-TEST(AGrblPort, HoldsAndResumes) {
+TEST(GrblPort, HoldsAndResumes) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     EXPECT_THAT(b.ask("!?", 0.004), StartsWith("<Hold:1|"));
@@ -101,7 +101,7 @@ TEST(AGrblPort, HoldsAndResumes) {
     EXPECT_NEAR(b.axis(0), 0, 1e-3);
 }
 
-TEST(AGrblPort, ForgetsWhatWaitedInAHoldAtAResetAndKeepsItsPosition) {
+TEST(GrblPort, ForgetsWhatWaitedInAHoldAtAResetAndKeepsItsPosition) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     b.ask("!", 0.5);
@@ -109,7 +109,7 @@ TEST(AGrblPort, ForgetsWhatWaitedInAHoldAtAResetAndKeepsItsPosition) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-TEST(AGrblPort, AlarmsAtAResetInMotionAndBrakes) {
+TEST(GrblPort, AlarmsAtAResetInMotionAndBrakes) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     const double place = b.axis(0);
@@ -121,7 +121,7 @@ TEST(AGrblPort, AlarmsAtAResetInMotionAndBrakes) {
     b.until_idle();
 }
 
-TEST(AGrblPort, WaitsAtM0UntilItIsResumed) {
+TEST(GrblPort, WaitsAtM0UntilItIsResumed) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G1 X5 F3000\nM0\nG1 X10\n", 1), "ok\r\n");
     EXPECT_THAT(b.report(), StartsWith("<Hold:0|MPos:5.000"));
@@ -132,7 +132,7 @@ TEST(AGrblPort, WaitsAtM0UntilItIsResumed) {
 
 // ---- jog
 
-TEST(AGrblPort, JogsAndKeepsItsModes) {
+TEST(GrblPort, JogsAndKeepsItsModes) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G20 G90\n$J=G91 G21 X10 Y5 F600\n"), "ok\r\nok\r\n");
     EXPECT_THAT(b.report(), StartsWith("<Jog|"));
@@ -145,14 +145,14 @@ TEST(AGrblPort, JogsAndKeepsItsModes) {
     EXPECT_THAT(b.ask("$G\n"), StartsWith("[GC:G0 G54 G17 G20 G90 "));
 }
 
-TEST(AGrblPort, JogsInMachineCoordinatesWithG53) {
+TEST(GrblPort, JogsInMachineCoordinatesWithG53) {
     Bench b(three_axes());
     b.ask("G92 X50\n$J=G53 X3 F600\n");
     b.until_idle();
     EXPECT_NEAR(b.axis(0), 3, 1e-3);
 }
 
-TEST(AGrblPort, EnablesNoDriveBeforeALineMovesIt) {
+TEST(GrblPort, EnablesNoDriveBeforeALineMovesIt) {
     Bench b(three_axes());
     b.session->greet();
     EXPECT_EQ(b.ask("\x18\n$$\n$G\n?").find("Alarm"), std::string::npos);
@@ -161,7 +161,7 @@ TEST(AGrblPort, EnablesNoDriveBeforeALineMovesIt) {
     EXPECT_EQ(b.machine->state(), operate::MachineState::jogging);
 }
 
-TEST(AGrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
+TEST(GrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
     SessionSettings settings;
     settings.may_stop = []() -> Result<void> { return fail(ErrorKind::refused, "Anna drives."); };
     Bench b(three_axes(), settings);
@@ -176,8 +176,8 @@ TEST(AGrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
     EXPECT_EQ(b.ask("\x18", 0.1), banner) << "of a machine that stands it is its own";
 }
 
-class AJogThatIsCancelled : public testing::TestWithParam<const char*> {};
-TEST_P(AJogThatIsCancelled, StopsAndGoesOnFromThere) {
+class JogThatIsCancelled : public testing::TestWithParam<const char*> {};
+TEST_P(JogThatIsCancelled, StopsAndGoesOnFromThere) {
     Bench b(three_axes());
     b.ask("$J=X300 F3000\n$J=X0 F3000\n", 0.5);
     EXPECT_THAT(b.ask(std::string(GetParam()) + "?", 0.02), StartsWith("<Jog|"));
@@ -191,9 +191,9 @@ TEST_P(AJogThatIsCancelled, StopsAndGoesOnFromThere) {
     b.until_idle();
     EXPECT_NEAR(b.axis(0), place + 1, 1e-3);
 }
-INSTANTIATE_TEST_SUITE_P(By, AJogThatIsCancelled, testing::Values("\x85", "\xC2\x85", "!"));
+INSTANTIATE_TEST_SUITE_P(By, JogThatIsCancelled, testing::Values("\x85", "\xC2\x85", "!"));
 
-TEST(AGrblPort, TakesNoJogWhileItRuns) {
+TEST(GrblPort, TakesNoJogWhileItRuns) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G1 X50 F600\n$J=X1 F100\n$$\n$#\n$X\n$C\n$N\n"),
               "ok\r\nerror:8\r\nerror:8\r\nerror:8\r\nok\r\nerror:8\r\nerror:8\r\n");
@@ -201,7 +201,7 @@ TEST(AGrblPort, TakesNoJogWhileItRuns) {
 
 // ---- overrides, spindle, coolant
 
-TEST(AGrblPort, ChangesOverridesInStepsWithinTheirLimits) {
+TEST(GrblPort, ChangesOverridesInStepsWithinTheirLimits) {
     Bench b(three_axes());
     b.report(), b.report();
     const auto after = [&](const std::string& bytes) {
@@ -220,7 +220,7 @@ TEST(AGrblPort, ChangesOverridesInStepsWithinTheirLimits) {
     EXPECT_EQ(after("\x99\x92"), "90,100,100");
 }
 
-TEST(AGrblPort, ReportsSpindleAndCoolantWithTheOverrides) {
+TEST(GrblPort, ReportsSpindleAndCoolantWithTheOverrides) {
     Bench b(three_axes());
     b.report(), b.report();
     EXPECT_EQ(b.ask("M3 S500 M8\n", 0.05), "ok\r\n");
@@ -234,7 +234,7 @@ TEST(AGrblPort, ReportsSpindleAndCoolantWithTheOverrides) {
     EXPECT_THAT(b.report(), HasSubstr("|FS:0,0|Ov:100,100,110>"));
 }
 
-TEST(AGrblPort, WaitsForTheMotionBeforeAnotherSpindleSpeedButNotInLaserMode) {
+TEST(GrblPort, WaitsForTheMotionBeforeAnotherSpindleSpeedButNotInLaserMode) {
     Bench b(three_axes());
     EXPECT_EQ(answers(b.ask("M3 S100\nG1 X5 F600\nG1 X6 S200\n", 0.1)), 2);
     b.until_idle();
@@ -245,7 +245,7 @@ TEST(AGrblPort, WaitsForTheMotionBeforeAnotherSpindleSpeedButNotInLaserMode) {
 
 // ---- locks and alarms
 
-TEST(AMachineWithHomeSwitches, IsLockedAtFirst) {
+TEST(MachineWithHomeSwitches, IsLockedAtFirst) {
     Bench b(router());
     b.session->greet();
     EXPECT_EQ(b.ask(""), banner + unlock);
@@ -255,7 +255,7 @@ TEST(AMachineWithHomeSwitches, IsLockedAtFirst) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-TEST(AMachineWithHomeSwitches, IsHomedAndAnswersThen) {
+TEST(MachineWithHomeSwitches, IsHomedAndAnswersThen) {
     Bench b(router());
     b.ask("$N0=G55\n");
     EXPECT_EQ(b.ask("$H\n", 0.5), "");
@@ -266,7 +266,7 @@ TEST(AMachineWithHomeSwitches, IsHomedAndAnswersThen) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|MPos:1"));
 }
 
-TEST(AMachineWithHomeSwitches, AlarmsWhenItsHomingIsBrokenOff) {
+TEST(MachineWithHomeSwitches, AlarmsWhenItsHomingIsBrokenOff) {
     Bench b(router());
     b.ask("$H\n", 0.5);
     EXPECT_EQ(b.ask("\x18", 0.5), "ALARM:6\r\nok\r\n" + banner + unlock);
@@ -276,7 +276,7 @@ TEST(AMachineWithHomeSwitches, AlarmsWhenItsHomingIsBrokenOff) {
     EXPECT_EQ(b.ask("!", 0.5), "ALARM:6\r\nok\r\n" + banner + unlock);
 }
 
-TEST(AMachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
+TEST(MachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
     Bench b(router());
     ASSERT_TRUE(b.machine->wires().force("X.home", 1));
     ASSERT_TRUE(b.machine->wires().force("X.limit_minus", 1));
@@ -291,7 +291,7 @@ TEST(AMachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
 
 const std::string with_limits = "[axis.X.switches]\nlimit_minus_mm = -2\nlimit_plus_mm = 302\n";
 
-TEST(AGrblPort, AlarmsAtALimitSwitchAndHearsOnlyAReset) {
+TEST(GrblPort, AlarmsAtALimitSwitchAndHearsOnlyAReset) {
     Bench b(three_axes(with_limits));
     b.ask("G1 X100 F3000\n", 0.5);
     ASSERT_TRUE(b.machine->wires().force("X.limit_plus", 0));
@@ -304,7 +304,7 @@ TEST(AGrblPort, AlarmsAtALimitSwitchAndHearsOnlyAReset) {
     b.until_idle();
 }
 
-TEST(AGrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
+TEST(GrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     ASSERT_TRUE(b.machine->wires().force("estop", 0));
@@ -320,7 +320,7 @@ TEST(AGrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
 
 // ---- permissions
 
-TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
+TEST(GrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     bool mine = false;
     SessionSettings settings;
     settings.take_control = [&]() -> Result<void> {
@@ -346,7 +346,7 @@ TEST(AGrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     EXPECT_EQ(b.ask("G0 X5\n"), "ok\r\n");
 }
 
-TEST(AGrblPort, FollowsWhatOthersDoWithTheMachine) {
+TEST(GrblPort, FollowsWhatOthersDoWithTheMachine) {
     Bench b(three_axes());
     ASSERT_TRUE(b.machine->enable(true));
     ASSERT_TRUE(b.machine->begin_program("G1 X50 F3000\nG1 X0\nM2\n", "panel.ngc"));
@@ -368,7 +368,7 @@ TEST(AGrblPort, FollowsWhatOthersDoWithTheMachine) {
     EXPECT_EQ(b.ask("$X\n", 0.1), "[MSG:Caution: Unlocked]\r\nok\r\n");
 }
 
-TEST(AGrblPort, ShowsAFourthAxisWhenAsked) {
+TEST(GrblPort, ShowsAFourthAxisWhenAsked) {
     SessionSettings settings;
     settings.axes = 4;
     Bench b(router(), settings);

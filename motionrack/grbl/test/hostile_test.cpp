@@ -13,7 +13,7 @@ using testing::EndsWith;
 using testing::StartsWith;
 
 /// MOTIONRACK_SEED=N sets the first seed.
-TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
+TEST(GrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> pieces = {"G0", "G1",   "X1",     "Y-3",   "Z5",     "F600", "\n",   "\r\n",
                                              "$$", "$G",   "$H",     "$X",    "$J=",    "G91",  "?",    "!",
@@ -42,7 +42,7 @@ TEST(AGrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
 
 /// Lines without a reset, a sleep or a hold are answered once each, however wrong they are. None leads beyond the
 /// travel, where the alarm would be the answer, as in Grbl.
-TEST(AGrblPort, AnswersEveryLineOnce) {
+TEST(GrblPort, AnswersEveryLineOnce) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> words = {"G0",   "G1",     "X1",  "Y3",      "Z.5", "F600", "$$",    "$G",
                                             "$#",   "$I",     "$X",  "$J=X1F9", "G91", "?",    "\x91",  "M3",
@@ -63,7 +63,7 @@ TEST(AGrblPort, AnswersEveryLineOnce) {
     }
 }
 
-TEST(AGrblPort, TakesALineOfAMegabyteWithoutHarm) {
+TEST(GrblPort, TakesALineOfAMegabyteWithoutHarm) {
     Bench b(three_axes());
     b.ask("G1 X100 F6000\n");
     const std::string digits(1 << 20, '1');

@@ -18,13 +18,13 @@ void PrintTo(const Greeting& row, std::ostream* out) {
     *out << row.who;
 }
 
-class ASender : public testing::TestWithParam<Greeting> {};
-TEST_P(ASender, IsKnownByWhatItSaysFirst) {
+class GrblSender : public testing::TestWithParam<Greeting> {};
+TEST_P(GrblSender, IsKnownByWhatItSaysFirst) {
     Introduction once;
     EXPECT_EQ(once.hear(GetParam().bytes), Verdict::sender);
     EXPECT_EQ(once.take_bytes(), GetParam().bytes);
 }
-TEST_P(ASender, IsKnownByTheEndOfItsFirstLineWhenItsBytesComeOneByOne) {
+TEST_P(GrblSender, IsKnownByTheEndOfItsFirstLineWhenItsBytesComeOneByOne) {
     Introduction slow;
     Verdict verdict = Verdict::open;
     for (const char c : GetParam().bytes)
@@ -32,7 +32,7 @@ TEST_P(ASender, IsKnownByTheEndOfItsFirstLineWhenItsBytesComeOneByOne) {
     EXPECT_EQ(verdict, Verdict::sender);
 }
 INSTANTIATE_TEST_SUITE_P(
-    That, ASender,
+    That, GrblSender,
     testing::Values(Greeting{"bCNC", "\n\n"}, Greeting{"UGS", "?"}, Greeting{"gSender", "\x18"},
                     Greeting{"LaserGRBL", "\x18?"}, Greeting{"cncjs", "$$\n"}, Greeting{"grblControl", "\r\n\r\n"},
                     Greeting{"asks for the build", "$I\r\n"}, Greeting{"asks for modes", "?$G\n"},
@@ -41,13 +41,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Greeting{"sends a comment", "(W\xC3\xBCrfel, 10 mm)\nG21\n"}, Greeting{"sends blanks", "  \n"},
                     Greeting{"only holds", "!"}, Greeting{"jogs", "$J=G91 X1 F100\n"}));
 
-class AStranger : public testing::TestWithParam<Greeting> {};
-TEST_P(AStranger, IsKnownByWhatItSaysFirst) {
+class UnknownClient : public testing::TestWithParam<Greeting> {};
+TEST_P(UnknownClient, IsKnownByWhatItSaysFirst) {
     Introduction once;
     EXPECT_EQ(once.hear(GetParam().bytes), Verdict::stranger);
 }
 INSTANTIATE_TEST_SUITE_P(
-    That, AStranger,
+    That, UnknownClient,
     testing::Values(Greeting{"fetches", "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"},
                     Greeting{"posts lines", "POST / HTTP/1.1\r\n\r\nG1 X5 F600\n"},
                     Greeting{"has a method of its own", "G1X9 / HTTP/1.1\r\n"},
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Greeting{"knocks with zeros after a reset", std::string("\x18\x00\n", 3)},
                     Greeting{"never ends its line", std::string(600, 'G')}));
 
-TEST(AnIntroduction, StaysOpenUntilTheFirstLineHasEnded) {
+TEST(Introduction, StaysOpenUntilTheFirstLineHasEnded) {
     Introduction slow;
     EXPECT_EQ(slow.hear("G1 X1"), Verdict::open);
     EXPECT_EQ(slow.hear("0 F6!00"), Verdict::open);
@@ -100,7 +100,7 @@ std::string first_packet(std::mt19937& random) {
 }
 
 /// MOTIONRACK_PACKETS=N sets their number.
-TEST(AnIntroduction, LetsNoForeignPacketActOnAMachineThatMoves) {
+TEST(Introduction, LetsNoForeignPacketActOnAMachineThatMoves) {
     std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment()));
     Bench undisturbed(three_axes()), b(three_axes());
     for (Bench* each : {&undisturbed, &b}) EXPECT_EQ(each->ask("G1 X200 F6000\n"), "ok\r\n");

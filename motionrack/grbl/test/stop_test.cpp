@@ -102,7 +102,7 @@ const std::array<Doing, 9> doings = {{
     {"homes", "$H\n", zigzag, true},
 }};
 
-class AStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
+class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
   protected:
     void try_once(double after, const Source& source, const Doing& doing) {
         Bench b(doing.homes ? router() : three_axes());
@@ -134,7 +134,7 @@ class AStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>
 };
 
 /// MOTIONRACK_STOPS=N sets the number of tested instants.
-TEST_P(AStop, LeavesNoLineOfASenderToBeDriven) {
+TEST_P(SenderStop, LeavesNoLineOfASenderToBeDriven) {
     const auto [which, what] = GetParam();
     const std::uint64_t seed = seed_from_environment(), count = trials("MOTIONRACK_STOPS", 3, 30);
     std::mt19937 random(static_cast<std::uint32_t>(seed * 100 + which * 10 + what));
@@ -146,15 +146,15 @@ TEST_P(AStop, LeavesNoLineOfASenderToBeDriven) {
         if (HasFailure()) return;
     }
 }
-INSTANTIATE_TEST_SUITE_P(By, AStop,
+INSTANTIATE_TEST_SUITE_P(By, SenderStop,
                          testing::Combine(testing::Range(std::size_t{0}, sources.size()),
                                           testing::Range(std::size_t{0}, doings.size())));
 
 /// Bytes of the sender in the slice of the stop.
-class AStoppedHoming : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(AndThen, AStoppedHoming, testing::Values("", "!", "$C\n"));
+class StoppedHoming : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(AndThen, StoppedHoming, testing::Values("", "!", "$C\n"));
 
-TEST_P(AStoppedHoming, StaysStoppedUntilAReset) {
+TEST_P(StoppedHoming, StaysStoppedUntilAReset) {
     Bench b(router());
     b.ask("$H\n", 0.3);
     ASSERT_EQ(b.machine->state(), operate::MachineState::homing);

@@ -126,7 +126,7 @@ const Scenario scenarios[] = {
      }},
 };
 
-class OnABadDisk : public AJournal, public testing::WithParamInterface<Scenario> {
+class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenario> {
   protected:
     OnABadDisk() : state_(path_ + ".state") {}
     ~OnABadDisk() override {

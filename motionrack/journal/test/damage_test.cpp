@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class ADamagedJournal : public AJournal {
+class DamagedJournal : public JournalFile {
   protected:
     /// A run with a regular end, three entries and the machine positions.
     void make() {
@@ -36,7 +36,7 @@ class ADamagedJournal : public AJournal {
     }
 };
 
-TEST_F(ADamagedJournal, ThatIsWholeIsTrusted) {
+TEST_F(DamagedJournal, ThatIsWholeIsTrusted) {
     make();
     const LastRun last = next();
     EXPECT_TRUE(last.clean);
@@ -45,7 +45,7 @@ TEST_F(ADamagedJournal, ThatIsWholeIsTrusted) {
     EXPECT_EQ(last.kept.at("machine"), "X 12.5");
 }
 
-TEST_F(ADamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
+TEST_F(DamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
     for (const char* change_it :
          {"UPDATE kept SET value = 'X 62.5'", "UPDATE kept SET run = 2", "UPDATE kept SET utc_ms = utc_ms + 1",
           "UPDATE kept SET key = 'machine ', seal = seal", "UPDATE kept SET seal = ''"}) {
@@ -57,7 +57,7 @@ TEST_F(ADamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
     }
 }
 
-TEST_F(ADamagedJournal, DoesNotTrustAnEndThatChanged) {
+TEST_F(DamagedJournal, DoesNotTrustAnEndThatChanged) {
     make();
     change("UPDATE run SET ended_ms = ended_ms + 1");
     EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
@@ -68,7 +68,7 @@ TEST_F(ADamagedJournal, DoesNotTrustAnEndThatChanged) {
         << "a run that was cut off does not become one that ended by itself";
 }
 
-TEST_F(ADamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
+TEST_F(DamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
     auto journal = open();
     journal->keep("machine", "X 12.5");
     write(*journal, "state", "stands");
@@ -80,13 +80,13 @@ TEST_F(ADamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
     EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
 }
 
-TEST_F(ADamagedJournal, DoesNotTakeWhatAnOlderRunKeptForTheLastOne) {
+TEST_F(DamagedJournal, DoesNotTakeWhatAnOlderRunKeptForTheLastOne) {
     make();
     ASSERT_TRUE(open()->close());
     EXPECT_THAT(next().doubts, ElementsAre("the stored value of 'machine' is of run 1, not of the last one, 2"));
 }
 
-TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
+TEST_F(DamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
     const std::pair<const char*, const char*> changes[] = {
         {"UPDATE entry SET text = 'tow' WHERE number = 2", "entry 2 was changed"},
         {"UPDATE entry SET at = at + 1 WHERE number = 1", "entry 1 was changed"},
@@ -112,7 +112,7 @@ TEST_F(ADamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
     }
 }
 
-TEST_F(ADamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
+TEST_F(DamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
     {
         const auto journal = open();
         for (std::int64_t i = 0; i < Journal::checked_at_start + 10; ++i) journal->write(Instant{i}, "command", "o");
@@ -125,7 +125,7 @@ TEST_F(ADamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
     EXPECT_THAT(journal->check()->problem, HasSubstr("entry 3 was changed"));
 }
 
-TEST_F(ADamagedJournal, ChecksTheChainWhileItIsWritten) {
+TEST_F(DamagedJournal, ChecksTheChainWhileItIsWritten) {
     const auto journal = open();
     for (int i = 1; i <= 200; ++i) {
         journal->write(Instant{i}, "audit", "entry");
@@ -138,7 +138,7 @@ TEST_F(ADamagedJournal, ChecksTheChainWhileItIsWritten) {
     EXPECT_EQ(journal->check()->entries, 201);
 }
 
-TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
+TEST_F(DamagedJournal, IsRefusedWhereItsStructureIsBroken) {
     make();
     change("PRAGMA wal_checkpoint(TRUNCATE)");
     std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
@@ -156,7 +156,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereItsStructureIsBroken) {
 }
 
 /// A disk that lost the last writes: the file starts as it was before it had tables.
-TEST_F(ADamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
+TEST_F(DamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
     make();
     change("PRAGMA wal_checkpoint(TRUNCATE)");
     const std::string whole = path_ + ".whole";
@@ -172,7 +172,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
                 testing::AllOf(HasSubstr("bytes and no tables"), HasSubstr("Nothing was started. Keep the file")));
 }
 
-TEST_F(ADamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
+TEST_F(DamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
     for (const char* sql :
          {"UPDATE entry SET number = 9223372036854775807 WHERE number = 3",
           "UPDATE entry SET number = -5 WHERE number = 1", "UPDATE run SET number = 9223372036854775807",
@@ -187,7 +187,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
     }
 }
 
-TEST_F(ADamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
+TEST_F(DamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
     make();
     change("DELETE FROM run");
     const auto refused = Journal::open(path_);
@@ -197,7 +197,7 @@ TEST_F(ADamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
 }
 
 /// As left by a killed program: the last writes are in the log beside the file.
-TEST_F(ADamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
+TEST_F(DamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
     for (const char* mode : {"PRAGMA journal_mode = WAL", "PRAGMA journal_mode = DELETE"}) {
         make();
         sqlite3* other = nullptr;
@@ -215,7 +215,7 @@ TEST_F(ADamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
     }
 }
 
-TEST_F(ADamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
+TEST_F(DamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
     change(R"(
         CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
         CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
@@ -243,7 +243,7 @@ TEST_F(ADamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
     EXPECT_THAT(next().damage, HasSubstr("entry 7 was changed"));
 }
 
-TEST(ASeal, KeepsFieldsApart) {
+TEST(Seal, KeepsFieldsApart) {
     EXPECT_NE(Seal().add("ab").add("c").text(), Seal().add("a").add("bc").text());
     EXPECT_NE(Seal().add("").add("a").text(), Seal().add("a").add("").text());
     EXPECT_EQ(Seal().add(std::int64_t{12}).text(), Seal().add("12").text());

@@ -17,7 +17,7 @@ std::ptrdiff_t open_descriptors() {
     return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
 }
 
-TEST_F(AJournal, LeavesNeitherADescriptorNorALogBehind) {
+TEST_F(JournalFile, LeavesNeitherADescriptorNorALogBehind) {
     open();
     const std::ptrdiff_t before = open_descriptors();
     for (int i = 0; i < 5; ++i) {
@@ -30,7 +30,7 @@ TEST_F(AJournal, LeavesNeitherADescriptorNorALogBehind) {
     EXPECT_FALSE(fs::exists(path_ + "-wal")) << "all of it is in the file";
 }
 
-TEST_F(AJournal, ThatIsClosedRefusesAnEntryAtOnce) {
+TEST_F(JournalFile, ThatIsClosedRefusesAnEntryAtOnce) {
     const auto journal = open();
     EXPECT_TRUE(journal->close());
     std::string refused;
@@ -42,7 +42,7 @@ TEST_F(AJournal, ThatIsClosedRefusesAnEntryAtOnce) {
     EXPECT_TRUE(journal->close()) << "it has ended already";
 }
 
-TEST_F(AJournal, TakesSoManyEntriesAsMayWaitAndNoMore) {
+TEST_F(JournalFile, TakesSoManyEntriesAsMayWaitAndNoMore) {
     const auto journal = open();
     std::promise<void> busy, go_on;
     journal->write(Instant{}, "state", "first", "{}", [&](const Result<std::int64_t>&) {
@@ -59,7 +59,7 @@ TEST_F(AJournal, TakesSoManyEntriesAsMayWaitAndNoMore) {
     EXPECT_EQ(all_entries().size(), Journal::max_waiting + 1);
 }
 
-TEST_F(AJournal, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
+TEST_F(JournalFile, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
     open()->close();
     change(
         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 1000005) "
@@ -71,7 +71,7 @@ TEST_F(AJournal, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
     EXPECT_EQ(left.begin()->first, 6);
 }
 
-TEST(AFileWatch, NoticesThatWhatWasAddedSinceItsStartIsGone) {
+TEST(FileWatch, NoticesThatWhatWasAddedSinceItsStartIsGone) {
     const std::string path = testing::TempDir() + "file_watch_" + std::to_string(::getpid());
     std::ofstream(path) << "begun";
     FileWatch watch;

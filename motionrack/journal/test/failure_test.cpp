@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class AJournalOnABadDisk : public AJournal {
+class JournalOnABadDisk : public JournalFile {
   protected:
     /// Waits until the journal reports a failure; the time limit of the test applies.
     static std::string failure_of(const Journal& journal) {
@@ -36,7 +36,7 @@ class AJournalOnABadDisk : public AJournal {
     }
 };
 
-TEST_F(AJournalOnABadDisk, ThatIsFullSaysSoAndHasNoCleanEnd) {
+TEST_F(JournalOnABadDisk, ThatIsFullSaysSoAndHasNoCleanEnd) {
     auto journal = open();
     journal->keep("machine", "X 7");
     EXPECT_EQ(write(*journal, "state", "fits"), 1);
@@ -57,7 +57,7 @@ TEST_F(AJournalOnABadDisk, ThatIsFullSaysSoAndHasNoCleanEnd) {
     EXPECT_EQ(all_entries().size(), 2u);
 }
 
-TEST_F(AJournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
+TEST_F(JournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
     const auto copy_over = [this](const char* end) {
         fs::copy_file(path_ + end, path_ + ".copy");
         fs::rename(path_ + ".copy", path_ + end);
@@ -78,7 +78,7 @@ TEST_F(AJournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
     }
 }
 
-TEST_F(AJournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
+TEST_F(JournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
     BadDisk disk;
     auto journal = open();
     disk.hold(true);
@@ -99,7 +99,7 @@ TEST_F(AJournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
     EXPECT_EQ(next->before()->kept.at("machine"), "999");
 }
 
-TEST_F(AJournalOnABadDisk, FailsWhereTooManyEntriesWait) {
+TEST_F(JournalOnABadDisk, FailsWhereTooManyEntriesWait) {
     auto journal = open();
     sqlite3* other = nullptr;
     ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);

@@ -14,14 +14,14 @@
 
 namespace motionrack::journal {
 
-class AJournal : public testing::Test {
+class JournalFile : public testing::Test {
   protected:
-    AJournal()
+    JournalFile()
         : path_((std::filesystem::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db"))
                     .string()) {
         remove();
     }
-    ~AJournal() override { remove(); }
+    ~JournalFile() override { remove(); }
     void remove() const {
         for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) std::filesystem::remove(path_ + end);
     }

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
+TEST_F(JournalFile, KeepsEntriesInOrderAndGivesTheNewest) {
     auto journal = open();
     for (int i = 1; i <= 50; ++i)
         journal->write(Instant{i}, i % 2 == 0 ? "command" : "state", "entry " + std::to_string(i));
@@ -37,7 +37,7 @@ TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
     EXPECT_FALSE(journal->read({0, "", 10001}));
 }
 
-TEST_F(AJournal, KnowsWhetherTheRunBeforeEndedByItself) {
+TEST_F(JournalFile, KnowsWhetherTheRunBeforeEndedByItself) {
     {
         auto journal = open();
         EXPECT_FALSE(journal->before());
@@ -62,7 +62,7 @@ TEST_F(AJournal, KnowsWhetherTheRunBeforeEndedByItself) {
     EXPECT_EQ(journal->read({})->front().run, 2);
 }
 
-TEST_F(AJournal, BelongsToOneProgramAtATime) {
+TEST_F(JournalFile, BelongsToOneProgramAtATime) {
     auto journal = open();
     const auto second = Journal::open(path_);
     ASSERT_FALSE(second);
@@ -70,7 +70,7 @@ TEST_F(AJournal, BelongsToOneProgramAtATime) {
     write(*journal, "state", "still mine");
 }
 
-TEST_F(AJournal, LeavesFilesThatAreNoJournalAsTheyAre) {
+TEST_F(JournalFile, LeavesFilesThatAreNoJournalAsTheyAre) {
     std::ofstream(path_)
         << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
     const auto refused = Journal::open(path_);
@@ -90,7 +90,7 @@ TEST_F(AJournal, LeavesFilesThatAreNoJournalAsTheyAre) {
     EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be made"), std::string::npos);
 }
 
-TEST_F(AJournal, IsForItsOwnerOnly) {
+TEST_F(JournalFile, IsForItsOwnerOnly) {
     const auto rights = [this](const char* end) { return fs::status(path_ + end).permissions(); };
     const mode_t before = ::umask(0);
     auto journal = open();
@@ -104,7 +104,7 @@ TEST_F(AJournal, IsForItsOwnerOnly) {
     ::umask(before);
 }
 
-TEST_F(AJournal, IsAFile) {
+TEST_F(JournalFile, IsAFile) {
     fs::create_directory(path_);
     EXPECT_NE(Journal::open(path_).error().message.find("Is a directory"), std::string::npos);
     fs::remove(path_);
@@ -112,7 +112,7 @@ TEST_F(AJournal, IsAFile) {
     EXPECT_NE(Journal::open(path_).error().message.find("is not a file"), std::string::npos);
 }
 
-TEST_F(AJournal, RefusesAVersionThatItDoesNotKnow) {
+TEST_F(JournalFile, RefusesAVersionThatItDoesNotKnow) {
     open()->close();
     sqlite3* file = nullptr;
     ASSERT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
@@ -123,7 +123,7 @@ TEST_F(AJournal, RefusesAVersionThatItDoesNotKnow) {
     EXPECT_NE(refused.error().message.find("version 9"), std::string::npos) << refused.error().message;
 }
 
-TEST_F(AJournal, SaysWhenTheDiskDoesNotTakeIt) {
+TEST_F(JournalFile, SaysWhenTheDiskDoesNotTakeIt) {
     auto journal = open();
     EXPECT_EQ(write(*journal, "state", "fits"), 1);
     sqlite3* other = nullptr;
@@ -134,7 +134,7 @@ TEST_F(AJournal, SaysWhenTheDiskDoesNotTakeIt) {
     EXPECT_FALSE(journal->read({}));
 }
 
-TEST_F(AJournal, TakesEntriesOfManyThreads) {
+TEST_F(JournalFile, TakesEntriesOfManyThreads) {
     auto journal = open();
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)
@@ -171,7 +171,7 @@ TEST_F(AJournal, TakesEntriesOfManyThreads) {
     }
 }
 
-TEST_F(AJournal, LosesNothingThatWasAcknowledgedInAHundredKills) {
+TEST_F(JournalFile, LosesNothingThatWasAcknowledgedInAHundredKills) {
     const auto seed = static_cast<std::uint32_t>(seed_from_environment());
     SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST_F(AJournal, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
+TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
     std::vector<std::string> told;
     std::mutex lock;
     JournalSettings settings;

@@ -129,7 +129,7 @@ void open_door(Machine& m, bool open) {
     EXPECT_TRUE(m.wires().force("door", open ? 0 : 1));
 }
 
-TEST(ADoor, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
+TEST(Door, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
     Operated o(two_axes(with_door));
     declare_all(o);
     double held = 0;
@@ -156,7 +156,7 @@ TEST(ADoor, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
     EXPECT_THAT(o.machine->status().alarms, testing::SizeIs(1));
 }
 
-TEST(ADoor, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
+TEST(Door, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
     declare_all(o);
     double stood = 0;
@@ -182,7 +182,7 @@ TEST(ADoor, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
     EXPECT_NEAR(o.x(), stood + 5, 0.01);
 }
 
-TEST(AMachineWithoutContacts, HasNoWiresForThem) {
+TEST(MachineWithoutContacts, HasNoWiresForThem) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         for (const char* wire : {"door", "estop1", "estop2"}) EXPECT_FALSE(m.wires().force(wire, 0)) << wire;

@@ -35,7 +35,7 @@ TEST_P(JogLeaseAtARate, EndsAQuarterOfASecondOfTheWallAfterItsLastRenewal) {
 
 INSTANTIATE_TEST_SUITE_P(Rates, JogLeaseAtARate, testing::Values(0.1, 0.5, 1.0, 4.0, 30.0));
 
-TEST(AJogLease, EndsWithItsSessionAtOnce) {
+TEST(JogLease, EndsWithItsSessionAtOnce) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 1})); });
     o.at(0.2, [](Machine& m) { m.jogs().end_of("b"); });
@@ -45,7 +45,7 @@ TEST(AJogLease, EndsWithItsSessionAtOnce) {
     EXPECT_LT(o.stood_since, 0.26);
 }
 
-TEST(AJogLease, OfOneSessionOutlivesTheEndOfAnother) {
+TEST(JogLease, OfOneSessionOutlivesTheEndOfAnother) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.jog('X', 2, {"a", 1}));
@@ -57,7 +57,7 @@ TEST(AJogLease, OfOneSessionOutlivesTheEndOfAnother) {
     EXPECT_NEAR(o.y(), 0.5, 0.03);
 }
 
-TEST(AJogLease, IsNotProlongedByARenewalThatIsOlderThanTheStop) {
+TEST(JogLease, IsNotProlongedByARenewalThatIsOlderThanTheStop) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 1})); });
     o.at(0.2, [](Machine& m) {
@@ -76,7 +76,7 @@ TEST(AJogLease, IsNotProlongedByARenewalThatIsOlderThanTheStop) {
     EXPECT_NEAR(o.x(), 10.3, 0.03);
 }
 
-TEST(AJogLease, IsNotProlongedByAnOlderRenewalWithAnotherSpeed) {
+TEST(JogLease, IsNotProlongedByAnOlderRenewalWithAnotherSpeed) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 1})); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog('X', 1, {"a", 3, true})); });
@@ -86,7 +86,7 @@ TEST(AJogLease, IsNotProlongedByAnOlderRenewalWithAnotherSpeed) {
     EXPECT_NEAR(o.x(), 10.45, 0.02);
 }
 
-TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterAStopFromElsewhere) {
+TEST(JogLease, ThatOnlyRenewsMovesNothingAfterAStopFromElsewhere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 1})); });
     o.at(0.15, [](Machine& m) { EXPECT_TRUE(m.jog('X', 2, {"a", 2, true})); });
@@ -101,7 +101,7 @@ TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterAStopFromElsewhere) {
     EXPECT_EQ(o.machine->state(), MachineState::error_stop) << "until a reset";
 }
 
-TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {
+TEST(JogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', -20, {"a", 1})); });
     for (int n = 2; n < 20; ++n)
@@ -112,7 +112,7 @@ TEST(AJogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {
     EXPECT_THAT(o.machine->status().reason, HasSubstr("the - soft limit was reached. Move it the other way."));
 }
 
-TEST(AJogLease, OfTwoAxesIsLetGoOneByOne) {
+TEST(JogLease, OfTwoAxesIsLetGoOneByOne) {
     Operated o(two_axes());
     for (const double t : {0.1, 0.2, 0.3})
         o.at(t, [](Machine& m) {

@@ -133,7 +133,7 @@ TEST_P(JogToTheLimit, StopsWithinAPulseOfItAndNeverBeyond) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, JogToTheLimit, testing::ValuesIn(jog_cases));
 
-TEST(AJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
+TEST(ContinuousJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
     Operated o(rack_of({.start = 300}));
     o.at(0.1, [](Machine& m) { static_cast<void>(m.jog('X', 20)); });
     o.at(0.2, [&](Machine& m) {
@@ -147,7 +147,7 @@ TEST(AJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
     EXPECT_LT(o.x(), 299);
 }
 
-TEST(AJog, WithoutAValidPositionHasNoSoftLimit) {
+TEST(ContinuousJog, WithoutAValidPositionHasNoSoftLimit) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', -10)); });
     o.run(0.2);
@@ -155,7 +155,7 @@ TEST(AJog, WithoutAValidPositionHasNoSoftLimit) {
     EXPECT_LT(o.x(), -0.5);
 }
 
-TEST(AMachine, JogsEveryAxisOfTheRouterWithoutALostStep) {
+TEST(Machine, JogsEveryAxisOfTheRouterWithoutALostStep) {
     for (const char* profile : {"trapezoid", "jerk_limited"})
         for (const double speed : {3.0, 20.0, 50.0})
             for (std::size_t i = 0; i < 4; ++i) {

@@ -76,7 +76,7 @@ struct Real : Operated {
     std::vector<std::string> said;
 };
 
-TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
+TEST(RealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
     CardFile file("/dev/zero");
     Real o(file);
     o.at(0.02, [](Machine& m) { EXPECT_EQ(m.service().live(), nullptr); });
@@ -105,7 +105,7 @@ TEST(ARealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
     EXPECT_TRUE(o.alarms().empty());
 }
 
-TEST(ARealCard, LeavesTheVirtualOneAndTheMachineAlone) {
+TEST(RealCard, LeavesTheVirtualOneAndTheMachineAlone) {
     CardFile file("/dev/zero");
     Real o(file);
     o.call(0.05, "SetRange", {{"data", 800'000}});
@@ -117,7 +117,7 @@ TEST(ARealCard, LeavesTheVirtualOneAndTheMachineAlone) {
     EXPECT_NEAR(o.x(), 12, 1e-9);
 }
 
-TEST(ARealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
+TEST(RealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -146,7 +146,7 @@ TEST(ARealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
     o.run(1.5);
 }
 
-TEST(ARealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
+TEST(RealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
     CardFile file("/dev/zero");
     file.points_to(file.memory('\0'));
     Real o(file);
@@ -167,7 +167,7 @@ TEST(ARealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
     EXPECT_THAT(o.said[0], HasSubstr("had not ended 100 ms after the stop and was aborted"));
 }
 
-TEST(ARealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
+TEST(RealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -212,15 +212,15 @@ void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& functi
         << "-1 is not its position";
 }
 
-TEST(ARealCard, WhoseRegistersAllReadOnesWhileItStandsIsAnAlarmThatStays) {
+TEST(RealCard, WhoseRegistersAllReadOnesWhileItStandsIsAnAlarmThatStays) {
     expect_the_alarm_of_an_empty_slot(0.4, "moving", {{"axis", 1}});
 }
 
-TEST(ARealCard, WhoseRegistersAllReadOnesWhileAFunctionWaitsIsAnAlarmThatStays) {
+TEST(RealCard, WhoseRegistersAllReadOnesWhileAFunctionWaitsIsAnAlarmThatStays) {
     expect_the_alarm_of_an_empty_slot(0.05, "wait", {{"axis", 1}, {"milliseconds", 60'000}});
 }
 
-TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
+TEST(RealCard, ThatCannotBeOpenedRefusesTheService) {
     struct Bad {
         const char* name;
         const char* says;
@@ -249,7 +249,7 @@ TEST(ARealCard, ThatCannotBeOpenedRefusesTheService) {
     }
 }
 
-TEST(ARealCard, StandsForACardThatMovesNoAxis) {
+TEST(RealCard, StandsForACardThatMovesNoAxis) {
     const auto refused = [](const std::vector<std::string>& places) {
         MachineSettings settings;
         for (const std::string& place : places) settings.live.push_back(*read_live_place(place));
@@ -263,7 +263,7 @@ TEST(ARealCard, StandsForACardThatMovesNoAxis) {
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");
 }
 
-TEST(ARealCard, IsNamedWithItsPlace) {
+TEST(RealCard, IsNamedWithItsPlace) {
     const Result<LivePlace> good = read_live_place("bench=port:/dev/port,offset=0x300,width=8");
     ASSERT_TRUE(good) << good.error().message;
     EXPECT_EQ(good->card, "bench");

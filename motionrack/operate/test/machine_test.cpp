@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(AMachine, DrivesAProgramToItsEnd) {
+TEST(Machine, DrivesAProgramToItsEnd) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.begin_program("%\nG21 G90 F1200\nG1 X30\nG2 X40 Y10 I10\nM2\nG1 X0\n", "p.ngc"));
@@ -26,7 +26,7 @@ TEST(AMachine, DrivesAProgramToItsEnd) {
     EXPECT_THAT(o.events, testing::Contains(control::gcode::CanonCallKind::end));
 }
 
-TEST(AMachine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
+TEST(Machine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nG1 X20\n", "first.ngc")); });
     o.at(5, [](Machine& m) {
@@ -42,14 +42,14 @@ TEST(AMachine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
     EXPECT_THAT(lines, testing::AnyOf(ElementsAre(0, 2), ElementsAre(2)));
 }
 
-TEST(AMachine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
+TEST(Machine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("\n\n%\nG21 G90 F1200\nG1 X30\n%\nG1 X5\n", "p.ngc")); });
     o.run(5);
     EXPECT_NEAR(o.x(), 30, 0.5 / 640);
 }
 
-TEST(AMachine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
+TEST(Machine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(
@@ -69,7 +69,7 @@ TEST(AMachine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
     EXPECT_NEAR(o.y(), 0, 0.5 / 640);
 }
 
-TEST(AMachine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
+TEST(Machine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         const Result<void> begun = m.begin_program("G21 G90 F1200\nG1 X30\nG1 X9999\n", "p.ngc");
@@ -81,7 +81,7 @@ TEST(AMachine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
     EXPECT_DOUBLE_EQ(o.x(), 10);
 }
 
-TEST(AMachine, HoldsAProgramOnItsPathAndResumesIt) {
+TEST(Machine, HoldsAProgramOnItsPathAndResumesIt) {
     Operated o(two_axes());
     double held_x = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
@@ -100,7 +100,7 @@ TEST(AMachine, HoldsAProgramOnItsPathAndResumesIt) {
     EXPECT_NEAR(o.y(), 20, 0.5 / 640);
 }
 
-TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
+TEST(Machine, DrivesTheNextLineAfterAStopInAPause) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.line("G1 X11 F600", 1));
@@ -119,7 +119,7 @@ TEST(AMachine, DrivesTheNextLineAfterAStopInAPause) {
     EXPECT_NEAR(o.x(), 12, 1e-3);
 }
 
-TEST(AMachine, TellsTheLineAtWhichItWaits) {
+TEST(Machine, TellsTheLineAtWhichItWaits) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("(cold)\nM0\nG1 X11 F600\n", "cold.nc")); });
     o.at(0.5, [](Machine& m) {
@@ -132,7 +132,7 @@ TEST(AMachine, TellsTheLineAtWhichItWaits) {
     o.run(0.8);
 }
 
-TEST(AMachine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
+TEST(Machine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
     Operated o(two_axes());
     double stopped_x = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
@@ -151,7 +151,7 @@ TEST(AMachine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
     EXPECT_DOUBLE_EQ(o.y(), 0);
 }
 
-TEST(AMachine, StopsFromAHoldAndIsNeverRefusedAStop) {
+TEST(Machine, StopsFromAHoldAndIsNeverRefusedAStop) {
     Operated o(two_axes());
     o.machine->stop();
     o.at(0.05, [](Machine& m) { m.reset(); });
@@ -168,7 +168,7 @@ TEST(AMachine, StopsFromAHoldAndIsNeverRefusedAStop) {
     EXPECT_NEAR(o.x(), 12, 0.5 / 640);
 }
 
-TEST(AMachine, JogsWhileItIsRenewedAndStopsByItself) {
+TEST(Machine, JogsWhileItIsRenewedAndStopsByItself) {
     Operated o(two_axes());
     for (double t = 0.1; t < 1.05; t += 0.1) o.at(t, [](Machine& m) { EXPECT_TRUE(m.jog('X', 10)); });
     o.run(3);
@@ -178,7 +178,7 @@ TEST(AMachine, JogsWhileItIsRenewedAndStopsByItself) {
     EXPECT_LT(o.stood_since, 1.35);
 }
 
-TEST(AMachine, AfterAJogDrivesLinesFromWhereItStands) {
+TEST(Machine, AfterAJogDrivesLinesFromWhereItStands) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 3, 10)); });
     o.at(2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X1 Y1 F600", 1)); });
@@ -189,7 +189,7 @@ TEST(AMachine, AfterAJogDrivesLinesFromWhereItStands) {
     EXPECT_NEAR(o.machine->status().axes[0].actual, 14, 1.5 / 640);
 }
 
-TEST(AMachine, OverridesAndSingleStepsAProgram) {
+TEST(Machine, OverridesAndSingleStepsAProgram) {
     Operated o(two_axes());
     int holds = 0;
     o.at(0.1, [](Machine& m) {
@@ -209,7 +209,7 @@ TEST(AMachine, OverridesAndSingleStepsAProgram) {
     EXPECT_LT(o.peak_velocity, 10.1);
 }
 
-TEST(AMachine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
+TEST(Machine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(m.begin_program("G0 X1\n", "p").error().message, HasSubstr("axis X is not valid"));
@@ -227,7 +227,7 @@ TEST(AMachine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
     EXPECT_NEAR(x.machine->position(o.machine->now()), 12, 1.0 / 640);
 }
 
-TEST(AMachine, StopsItsHoming) {
+TEST(Machine, StopsItsHoming) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.at(0.4, [](Machine& m) { m.stop(); });
@@ -237,7 +237,7 @@ TEST(AMachine, StopsItsHoming) {
     EXPECT_FALSE(o.machine->status().axes[0].position_valid);
 }
 
-TEST(AMachine, TakesADeclaredPositionAsValid) {
+TEST(Machine, TakesADeclaredPositionAsValid) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);
@@ -246,7 +246,7 @@ TEST(AMachine, TakesADeclaredPositionAsValid) {
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
-TEST(AMachine, EndsWithThePositionThatWasDeclaredLast) {
+TEST(Machine, EndsWithThePositionThatWasDeclaredLast) {
     Operated o(two_axes());
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);
@@ -254,7 +254,7 @@ TEST(AMachine, EndsWithThePositionThatWasDeclaredLast) {
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
-TEST(AMachine, HearsManyThreadsAtOnce) {
+TEST(Machine, HearsManyThreadsAtOnce) {
     MachineSettings settings;
     auto machine = *Machine::make(two_axes(), settings);
     std::atomic<int> heard{0};
@@ -278,7 +278,7 @@ TEST(AMachine, HearsManyThreadsAtOnce) {
     EXPECT_FALSE(machine->state() == MachineState::error_stop);
 }
 
-TEST(AMachine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
+TEST(Machine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G20 G91", 1)); });
     o.at(0.2, [](Machine& m) {
@@ -296,7 +296,7 @@ TEST(AMachine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
     EXPECT_EQ(o.machine->stream().moves(), 0u);
 }
 
-TEST(AMachine, CancelsAJogAlongALineAndGoesOnFromThere) {
+TEST(Machine, CancelsAJogAlongALineAndGoesOnFromThere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({200, 100, 0, 0, 0, 0}, 20)); });
     o.at(1, [](Machine& m) { m.cancel(); });
@@ -311,7 +311,7 @@ TEST(AMachine, CancelsAJogAlongALineAndGoesOnFromThere) {
     EXPECT_NEAR((o.x() - 10) / 190, (o.y() + 1) / 100, 1e-3);
 }
 
-TEST(AMachine, JogsNeitherPastItsTravelNorWithoutASpeed) {
+TEST(Machine, JogsNeitherPastItsTravelNorWithoutASpeed) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
@@ -323,7 +323,7 @@ TEST(AMachine, JogsNeitherPastItsTravelNorWithoutASpeed) {
     EXPECT_DOUBLE_EQ(o.x(), 10);
 }
 
-TEST(AMachine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
+TEST(Machine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nM3 S900 M8\nG1 X50\nM2\n", "p")); });
     o.at(0.5, [](Machine& m) { EXPECT_EQ(m.status().spindle, control::gcode::Spindle::off); });
@@ -337,7 +337,7 @@ TEST(AMachine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
     EXPECT_FALSE(o.machine->status().flood);
 }
 
-TEST(AMachine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
+TEST(Machine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, 5));
@@ -349,7 +349,7 @@ TEST(AMachine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
     }
 }
 
-TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
+TEST(Machine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
     Operated o(two_axes());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 50)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });
@@ -364,9 +364,9 @@ TEST(AMachine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
 }
 
 /// Lines without motion and without duration.
-class ALineOfNothing : public testing::TestWithParam<const char*> {};
+class LineOfNothing : public testing::TestWithParam<const char*> {};
 
-TEST_P(ALineOfNothing, IsDrivenAloneAndBetweenOthers) {
+TEST_P(LineOfNothing, IsDrivenAloneAndBetweenOthers) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         SCOPED_TRACE(profile);
         rack::RackConfig config = two_axes();
@@ -385,8 +385,7 @@ TEST_P(ALineOfNothing, IsDrivenAloneAndBetweenOthers) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lines, ALineOfNothing,
-                         testing::Values("G4 P0", "G4 P0.000001", "G0 Y0", "G90", "G1 F100", ""));
+INSTANTIATE_TEST_SUITE_P(Lines, LineOfNothing, testing::Values("G4 P0", "G4 P0.000001", "G0 Y0", "G90", "G1 F100", ""));
 
 }  // namespace
 }  // namespace motionrack::operate

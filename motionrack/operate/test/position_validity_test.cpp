@@ -47,9 +47,9 @@ constexpr BrokenJog broken_jogs[] = {
     {"servo_pushed", true, 100, "motor.push=1000", false, true, ""},
 };
 
-class AJogThatBreaks : public testing::TestWithParam<BrokenJog> {};
+class JogThatBreaks : public testing::TestWithParam<BrokenJog> {};
 
-TEST_P(AJogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
+TEST_P(JogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
     const BrokenJog& one = GetParam();
     Operated o(one.servo ? carriage() : two_axes());
     o.at(0.05, [&](Machine& m) {
@@ -81,10 +81,10 @@ TEST_P(AJogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, AJogThatBreaks, testing::ValuesIn(broken_jogs),
+INSTANTIATE_TEST_SUITE_P(Faults, JogThatBreaks, testing::ValuesIn(broken_jogs),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(AMachine, HasAValidPositionAgainThatIsDeclaredAfterLostSteps) {
+TEST(Machine, HasAValidPositionAgainThatIsDeclaredAfterLostSteps) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 50)); });
     o.at(0.3, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.lose_steps=64", "X")); });
@@ -100,7 +100,7 @@ TEST(AMachine, HasAValidPositionAgainThatIsDeclaredAfterLostSteps) {
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "what was lost before it was declared is told once";
 }
 
-TEST(AMachine, InvalidatesAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
+TEST(Machine, InvalidatesAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
     Operated o(two_axes("[controller]\nprofile = \"jerk_limited\"\n[axis.X.switches]\nlimit_plus_mm = 302\n"));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
@@ -113,7 +113,7 @@ TEST(AMachine, InvalidatesAnAxisWhosePulsesEndWithoutARampAtALimitSwitch) {
     EXPECT_THAT(status.alarms[0].text, HasSubstr("The position of X is not valid any more"));
 }
 
-TEST(AMachine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
+TEST(Machine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
     Operated o(two_axes());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.stall", "X")); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X200 F6000\nM2\n", "p")); });
@@ -130,7 +130,7 @@ TEST(AMachine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
     EXPECT_THAT(status.alarms[0].text, HasSubstr("The following error of X was"));
 }
 
-TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
+TEST(Machine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     Operated o(two_axes());
     const auto refused = [](const Result<void>& order) {
         EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being declared"));
@@ -148,7 +148,7 @@ TEST(AMachine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     EXPECT_NEAR(o.y(), 7, 1e-3);
 }
 
-TEST(AMachine, InvalidatesAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
+TEST(Machine, InvalidatesAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 5));
@@ -184,20 +184,20 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not valid any more.")));
 }
 
-TEST(AMachine, InvalidatesAnAxisThatIsPushedWhileOthersStillSearchHome) {
+TEST(Machine, InvalidatesAnAxisThatIsPushedWhileOthersStillSearchHome) {
     Operated o(router());
     push_what_is_home(o, [](Machine&) {});
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].position_valid);
 }
 
-TEST(AMachine, InvalidatesAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
+TEST(Machine, InvalidatesAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
     Operated o(router());
     push_what_is_home(o, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
     EXPECT_EQ(o.machine->state(), MachineState::error_stop);
 }
 
-TEST(AFollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
+TEST(FollowingError, ThatGrowsSlowlyIsAWarningUntilItIsAnAlarm) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG1 X60 F300\nM2\n", "p")); });
     o.at(0.5, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "encoder.broken_a", "X")); });
@@ -220,7 +220,7 @@ const char* const with_index =
     "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nmethod = 4\n"
     "home_offset_mm = 0\n";
 
-TEST(ASecondIndex, IsNotedFromTheSecondSearchOn) {
+TEST(SecondIndex, IsNotedFromTheSecondSearchOn) {
     Operated o(two_axes(with_index));
     bool disturbs = false, at_switch = false, pulsed = false;
     o.each_status([&](const Status& status) {

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
+TEST(Machine, IsDisabledAtFirstAndTakesNoMotion) {
     auto machine = *Machine::make(two_axes(), {});
     EXPECT_EQ(machine->state(), MachineState::disabled);
     EXPECT_THAT(machine->jog('X', 5).error().message, HasSubstr("enable it first"));
@@ -18,7 +18,7 @@ TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
     EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
 }
 
-TEST(AMachine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
+TEST(Machine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
@@ -47,7 +47,7 @@ TEST(AMachine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
     o.run(5);
 }
 
-TEST(AMachine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
+TEST(Machine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.run(1);
@@ -56,7 +56,7 @@ TEST(AMachine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
     EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "nothing moved";
 }
 
-TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
+TEST(Machine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
     Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 40\n"));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
     o.run(6);
@@ -67,7 +67,7 @@ TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
     EXPECT_LT(o.x(), 42);
 }
 
-TEST(AMachine, DisabledWhileItMovesStopsFirst) {
+TEST(Machine, DisabledWhileItMovesStopsFirst) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
@@ -76,7 +76,7 @@ TEST(AMachine, DisabledWhileItMovesStopsFirst) {
     EXPECT_LT(o.stood_since, 1.5);
 }
 
-TEST(AMachine, MovesNoAxisThatIsDisabled) {
+TEST(Machine, MovesNoAxisThatIsDisabled) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.enable(false, "Y")); });
     o.at(0.2, [](Machine& m) {
@@ -103,7 +103,7 @@ TEST(AMachine, MovesNoAxisThatIsDisabled) {
     EXPECT_DOUBLE_EQ(o.y(), 5);
 }
 
-TEST(AMachine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
+TEST(Machine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         const auto refused = [](const Result<void>& order) { return order ? std::string() : order.error().message; };
@@ -118,7 +118,7 @@ TEST(AMachine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
     EXPECT_DOUBLE_EQ(o.x(), 11);
 }
 
-TEST(AMachine, RefusesAProgramWithoutAnyWord) {
+TEST(Machine, RefusesAProgramWithoutAnyWord) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(m.begin_program("; nothing\n", "p").error().message, HasSubstr("the program is empty"));
@@ -128,7 +128,7 @@ TEST(AMachine, RefusesAProgramWithoutAnyWord) {
     o.run(1);
 }
 
-TEST(AMachine, DisabledAfterAnErrorStaysSoWhenItIsReset) {
+TEST(Machine, DisabledAfterAnErrorStaysSoWhenItIsReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });

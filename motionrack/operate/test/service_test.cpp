@@ -46,7 +46,7 @@ struct Served : Operated {
     std::vector<std::string> said;
 };
 
-TEST(AService, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
+TEST(Service, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
     Served o;
     o.begin(0.05);
     o.call(0.1, "SetRange", {{"data", 800'000}});
@@ -78,7 +78,7 @@ TEST(AService, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
     EXPECT_NEAR(o.y(), 3, 1e-9);
 }
 
-TEST(AService, OfACardThatPositionsItsAxisGivesItBack) {
+TEST(Service, OfACardThatPositionsItsAxisGivesItBack) {
     Served o(carriage());
     const auto set_up = [](Machine& m) { EXPECT_TRUE(m.set_position('X', 30)); };
     o.at(0.02, set_up);
@@ -100,7 +100,7 @@ TEST(AService, OfACardThatPositionsItsAxisGivesItBack) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
-TEST(AService, DrivesNothingElse) {
+TEST(Service, DrivesNothingElse) {
     Served o;
     o.begin(0.05);
     o.at(0.1, [&](Machine& m) {
@@ -123,7 +123,7 @@ TEST(AService, DrivesNothingElse) {
     o.run(0.2);
 }
 
-TEST(AService, IsNotBegunWhileSomethingMovesOrAStopIsInForce) {
+TEST(Service, IsNotBegunWhileSomethingMovesOrAStopIsInForce) {
     Served o;
     const auto refused = [&](double seconds, const std::string& why) {
         o.at(seconds, [=](Machine& m) {
@@ -153,7 +153,7 @@ TEST(AService, IsNotBegunWhileSomethingMovesOrAStopIsInForce) {
     o.run(1.4);
 }
 
-TEST(AService, IsNeededForACardThatTheControllerDrives) {
+TEST(Service, IsNeededForACardThatTheControllerDrives) {
     Served o;
     o.call(0.1, "ReadLPS", {{"axis", 1}});
     o.call(0.2, "SetV", {{"axis", 1}, {"data", 9000}});
@@ -164,7 +164,7 @@ TEST(AService, IsNeededForACardThatTheControllerDrives) {
                           "refused: SetV: data is 9000, but must be 1 to 8000 x M pulses/s. Nothing was done."}));
 }
 
-TEST(AService, IsBegunByACallToACardThatNothingDrives) {
+TEST(Service, IsBegunByACallToACardThatNothingDrives) {
     Served o;
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
     o.call(0.1, "SetRange", {{"data", 800'000}}, "free");
@@ -184,7 +184,7 @@ TEST(AService, IsBegunByACallToACardThatNothingDrives) {
                                                 "m. End that service first."}));
 }
 
-TEST(AService, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
+TEST(Service, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
     Served o;
     o.drive_x();
     o.call(0.35, "wait", {{"axis", 1}, {"milliseconds", 60'000}});
@@ -213,9 +213,9 @@ struct Ending {
     void (*give)(Machine& m);
     MachineState after;
 };
-class AServiceWithAMovingAxis : public testing::TestWithParam<Ending> {};
+class ServiceWithAMovingAxis : public testing::TestWithParam<Ending> {};
 
-TEST_P(AServiceWithAMovingAxis, StopsAtOnce) {
+TEST_P(ServiceWithAMovingAxis, StopsAtOnce) {
     Served o("");
     double x = 0;
     o.drive_x();
@@ -234,7 +234,7 @@ TEST_P(AServiceWithAMovingAxis, StopsAtOnce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    OfTheMachine, AServiceWithAMovingAxis,
+    OfTheMachine, ServiceWithAMovingAxis,
     testing::Values(Ending{"its_end", [](Machine& m) { EXPECT_TRUE(m.service().end({})); }, MachineState::standstill},
                     Ending{"a_lost_client", [](Machine& m) { m.service().end_of("w1"); }, MachineState::standstill},
                     Ending{"disabling", [](Machine& m) { EXPECT_TRUE(m.enable(false)); }, MachineState::disabled},
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(
                            MachineState::error_stop}),
     [](const auto& each) { return std::string(each.param.name); });
 
-TEST(AService, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
+TEST(Service, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
     Served o("switches = { limit_minus_mm = -5, limit_plus_mm = 305 }\n");  // for Y
     o.begin(0.05);
     o.call(0.08, "SetRange", {{"data", 800'000}});
@@ -263,7 +263,7 @@ TEST(AService, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
     o.run(0.8);
 }
 
-TEST(AService, EndsWithTheProgram) {
+TEST(Service, EndsWithTheProgram) {
     Served o;
     o.drive_x();
     o.run(0.5);
@@ -272,7 +272,7 @@ TEST(AService, EndsWithTheProgram) {
     EXPECT_EQ(o.machine->status().axes[0].velocity, 0);
 }
 
-TEST(AService, OfAnotherSessionGoesOn) {
+TEST(Service, OfAnotherSessionGoesOn) {
     Served o;
     o.begin(0.05);
     o.at(0.1, [](Machine& m) { m.service().end_of("w2"); });

@@ -9,7 +9,7 @@
 namespace motionrack::operate {
 namespace {
 
-TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
+TEST(OperatedServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
@@ -22,7 +22,7 @@ TEST(AServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
     EXPECT_NEAR(o.x(), 130, 0.3);
 }
 
-TEST(AServoAxis, DrivesALongLineInOneGo) {
+TEST(OperatedServoAxis, DrivesALongLineInOneGo) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -31,7 +31,7 @@ TEST(AServoAxis, DrivesALongLineInOneGo) {
     EXPECT_GT(o.peak_velocity, 480) << "of 500";
 }
 
-TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
+TEST(OperatedServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -45,7 +45,7 @@ TEST(AServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
     EXPECT_NEAR(o.x(), 600, 0.3);
 }
 
-TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
+TEST(OperatedServoAxis, CountsAfterAStopFromWhereItCameToRest) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -65,7 +65,7 @@ TEST(AServoAxis, CountsAfterAStopFromWhereItCameToRest) {
     EXPECT_NEAR(o.x(), 600, 0.3);
 }
 
-TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
+TEST(OperatedServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
@@ -84,7 +84,7 @@ TEST(AServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
     EXPECT_NEAR(o.x(), 155, 0.3);
 }
 
-TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
+TEST(OperatedServoAxis, MovesAgainAfterItsCardWasReset) {
     for (const bool homes : {true, false}) {
         Operated o(carriage());
         const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.set_position('X', 200)); };
@@ -107,7 +107,7 @@ TEST(AServoAxis, MovesAgainAfterItsCardWasReset) {
 }
 
 /// The host waits for the card, then for its position, before the line has failed; lines are taken all the while.
-TEST(AServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefusedOne) {
+TEST(OperatedServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefusedOne) {
     for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
         Operated o(carriage());
         o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
@@ -133,7 +133,7 @@ TEST(AServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefusedOne) 
     }
 }
 
-TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
+TEST(OperatedServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     double told = 0;
@@ -147,7 +147,7 @@ TEST(AServoAxis, IsToldWhereItWasDeclaredToStand) {
     EXPECT_NEAR(o.x(), 120, 0.3);
 }
 
-TEST(AServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
+TEST(OperatedServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 100));
@@ -161,7 +161,7 @@ TEST(AServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
 }
 
 /// Its watchdog does not reset it then, so that it drives on by its last commands.
-TEST(AServoAxis, StandsWhenItsCardHasHungForLessThanASecond) {
+TEST(OperatedServoAxis, StandsWhenItsCardHasHungForLessThanASecond) {
     struct Motion {
         const char* name;
         void (*begin)(Machine& m);

@@ -50,7 +50,7 @@ void expect_soon(const Speeds& speeds, double stop_s) {
     EXPECT_EQ(speeds.mm_s.back(), 0);
 }
 
-TEST(AStop, DeceleratesWithinFiftyMillisecondsAlsoBeforeAFasterLine) {
+TEST(StopDelay, DeceleratesWithinFiftyMillisecondsAlsoBeforeAFasterLine) {
     for (const char* const profile : {"trapezoid", "jerk_limited"}) {
         SCOPED_TRACE(profile);
         for (double at = 0.1; at < 0.5; at += 0.01)
@@ -62,7 +62,7 @@ TEST(AStop, DeceleratesWithinFiftyMillisecondsAlsoBeforeAFasterLine) {
     }
 }
 
-TEST(AHold, DeceleratesWithinFiftyMillisecondsAlsoBeforeAFasterLine) {
+TEST(Hold, DeceleratesWithinFiftyMillisecondsAlsoBeforeAFasterLine) {
     for (double at = 0.15; at < 0.35; at += 0.01)
         expect_soon(stopped_at(at, "jerk_limited", [](Machine& m) { return m.hold(); }), at);
 }

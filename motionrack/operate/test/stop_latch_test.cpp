@@ -44,14 +44,14 @@ void expect_latched_until_reset(Operated& o, double x) {
     EXPECT_NEAR(o.x(), 30, 0.01);
 }
 
-TEST(TheStopLatch, HoldsAMachineThatDwells) {
+TEST(StopLatch, HoldsAMachineThatDwells) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
     press_and_release(o);
     expect_latched_until_reset(o, 20);
 }
 
-TEST(TheStopLatch, HoldsAMachineThatIsHeld) {
+TEST(StopLatch, HoldsAMachineThatIsHeld) {
     Operated o(two_axes());
     double held = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
@@ -73,7 +73,7 @@ TEST(TheStopLatch, HoldsAMachineThatIsHeld) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
-TEST(TheStopLatch, HoldsAMachineThatWaitsAtM0) {
+TEST(StopLatch, HoldsAMachineThatWaitsAtM0) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM0\nG1 X80\n", "p")); });
     o.at(1.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::hold); });
@@ -81,7 +81,7 @@ TEST(TheStopLatch, HoldsAMachineThatWaitsAtM0) {
     expect_latched_until_reset(o, 20);
 }
 
-TEST(TheStopLatch, HoldsAMachineThatStepsLineByLine) {
+TEST(StopLatch, HoldsAMachineThatStepsLineByLine) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         m.set_single_block(true);
@@ -93,14 +93,14 @@ TEST(TheStopLatch, HoldsAMachineThatStepsLineByLine) {
     expect_latched_until_reset(o, 20);
 }
 
-TEST(TheStopLatch, HoldsAMachineThatWaitsForTheNextLine) {
+TEST(StopLatch, HoldsAMachineThatWaitsForTheNextLine) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X20 F1200", 1)); });
     press_and_release(o);
     expect_latched_until_reset(o, 20);
 }
 
-TEST(TheStopLatch, IsSetByTheStopOrderToo) {
+TEST(StopLatch, IsSetByTheStopOrderToo) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
     o.at(2, [](Machine& m) { m.stop(); });
@@ -138,22 +138,22 @@ void expect_reset_does_not_release(const std::function<void(Machine&)>& later_st
     EXPECT_EQ(o.x(), stood);
 }
 
-TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAStopOrder) {
+TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeAStopOrder) {
     expect_reset_does_not_release([](Machine& m) { m.stop(); });
 }
 
-TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeALimitSwitch) {
+TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeALimitSwitch) {
     expect_reset_does_not_release([](Machine& m) { EXPECT_TRUE(m.wires().force("m.xlmtp", 0)); });
 }
 
-TEST(TheStopLatch, IsNotReleasedByAResetThatCameBeforeAShortPressOfTheButton) {
+TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeAShortPressOfTheButton) {
     expect_reset_does_not_release([](Machine& m) {
         EXPECT_TRUE(m.wires().force("estop", 0));
         EXPECT_TRUE(m.wires().force("estop", 1));
     });
 }
 
-TEST(TheStopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
+TEST(StopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\n", "p")); });
     o.at(1, [](Machine& m) { m.stop(); });
@@ -165,7 +165,7 @@ TEST(TheStopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
 }
 
-TEST(TheStopLatch, StaysSetWhileItsCauseIsThere) {
+TEST(StopLatch, StaysSetWhileItsCauseIsThere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("m.xalarm", 0)); });
     o.at(0.5, [](Machine& m) {
@@ -183,7 +183,7 @@ TEST(TheStopLatch, StaysSetWhileItsCauseIsThere) {
     EXPECT_EQ(o.machine->status().alarms.size(), 1u) << "one alarm a cause";
 }
 
-TEST(TheStopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
+TEST(StopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
     Operated o(two_axes());
     for (int i = 0; i < 30; ++i) {
         if (i == 10) {
@@ -197,7 +197,7 @@ TEST(TheStopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
     EXPECT_LT(o.stood_since, 1.06);
 }
 
-TEST(TheStopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
+TEST(StopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
     Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 12\n"));
     for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 5); });
     o.at(2, [](Machine& m) {
@@ -211,7 +211,7 @@ TEST(TheStopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
     EXPECT_LT(o.x(), 9);
 }
 
-TEST(TheStopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
+TEST(StopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
     for (const bool by_distance : {true, false}) {
         Operated o(two_axes("[axis.Y.switches]\nlimit_plus_mm = 5\n"));
         if (by_distance) o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 200, 20)); });
@@ -226,7 +226,7 @@ TEST(TheStopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
     }
 }
 
-TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
+TEST(StopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         rack::RackConfig config = router();
         config.controller.profile = profile;
@@ -255,7 +255,7 @@ TEST(TheStopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
 
 /// The chip ends the pulses of a path at the end of its segment where one of its axes has reached a switch. No edge
 /// sets the latch, because the switch was active before.
-TEST(AStopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
+TEST(StopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         rack::RackConfig config = router();
         config.controller.profile = profile;
@@ -282,7 +282,7 @@ TEST(AStopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
     }
 }
 
-TEST(TheStopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
+TEST(StopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
     Operated o(router());
     o.at(0.05, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
@@ -297,7 +297,7 @@ TEST(TheStopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesO
     o.run(1);
 }
 
-TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
+TEST(StopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
     Operated o(two_axes(switches));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.run(20);
@@ -305,7 +305,7 @@ TEST(TheStopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
     EXPECT_TRUE(o.machine->status().axes[0].position_valid);
 }
 
-TEST(TheStopLatch, InvalidatesAPositionThatALimitSwitchStopsAtOnceWithTheErrorStop) {
+TEST(StopLatch, InvalidatesAPositionThatALimitSwitchStopsAtOnceWithTheErrorStop) {
     int slipped = 0;
     for (int k = 0; k < 60; ++k) {
         const double at = 1.2 + 0.0023 * k, velocity = 5 + 0.1 * k;

@@ -164,9 +164,9 @@ constexpr Source sources[] = {
 
 using Case = std::tuple<State, Source>;
 
-class AStopInAState : public testing::TestWithParam<Case> {
+class StopInAState : public testing::TestWithParam<Case> {
   protected:
-    AStopInAState() : o_(config()) {}
+    StopInAState() : o_(config()) {}
     static rack::RackConfig config() {
         const rack::RackReading reading = rack::read_rack_text(everything);
         EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
@@ -212,7 +212,7 @@ class AStopInAState : public testing::TestWithParam<Case> {
     Operated o_;
 };
 
-TEST_P(AStopInAState, HoldsUntilAReset) {
+TEST_P(StopInAState, HoldsUntilAReset) {
     if (is_own_affair_of_homing()) GTEST_SKIP() << "a search for home goes to limit switches on purpose";
     double x = 0, y = 0, laser = 0, belt = 0;
     o_.at(0.02, [&](Machine& m) {
@@ -268,11 +268,11 @@ std::vector<Case> all_cases() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryState, AStopInAState, testing::ValuesIn(all_cases()), [](const auto& each) {
+INSTANTIATE_TEST_SUITE_P(EveryState, StopInAState, testing::ValuesIn(all_cases()), [](const auto& each) {
     return std::string(std::get<0>(each.param).name) + "_by_" + std::string(std::get<1>(each.param).name);
 });
 
-TEST(TheTableOfReactions, HasOneAnswerOfEachPartToEachSource) {
+TEST(TableOfReactions, HasOneAnswerOfEachPartToEachSource) {
     std::set<std::string_view> parts;
     for (const rack::StopReaction& reaction : rack::stop_reactions()) parts.insert(reaction.part);
     for (const rack::CardType& type : rack::card_types())
@@ -286,7 +286,7 @@ TEST(TheTableOfReactions, HasOneAnswerOfEachPartToEachSource) {
         }
 }
 
-TEST(TheSafetyPage, NamesTheStatesThatAreTested) {
+TEST(SafetyPage, NamesTheStatesThatAreTested) {
     std::vector<std::string_view> tested, told;
     for (const State& state : states) tested.push_back(state.name);
     for (const rack::StopState& state : rack::stop_states()) told.push_back(state.name);

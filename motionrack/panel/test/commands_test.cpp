@@ -56,7 +56,7 @@ TEST(AskingThePanel, ChecksFieldsWithASentence) {
     a.run(0.4);
 }
 
-TEST(AnOperator, EnablesJogsAndDrivesAProgram) {
+TEST(Operator, EnablesJogsAndDrivesAProgram) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -78,7 +78,7 @@ TEST(AnOperator, EnablesJogsAndDrivesAProgram) {
     EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
 }
 
-TEST(AnOperator, StopsAnythingWithoutAnyRight) {
+TEST(Operator, StopsAnythingWithoutAnyRight) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -89,7 +89,7 @@ TEST(AnOperator, StopsAnythingWithoutAnyRight) {
     EXPECT_EQ(a.machine->state(), operate::MachineState::error_stop);
 }
 
-TEST(AnOperator, SetsSpeedsStepsZeroAndPlaces) {
+TEST(Operator, SetsSpeedsStepsZeroAndPlaces) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -106,7 +106,7 @@ TEST(AnOperator, SetsSpeedsStepsZeroAndPlaces) {
     EXPECT_NEAR(a.x(), 101, 0.01);
 }
 
-TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
+TEST(Operator, SeesAnAlarmAcknowledgesItAndResets) {
     Asked a(two_axes());
     std::vector<std::string> kinds;
     a.panel->on_event([&](const Event& event) { kinds.push_back(event.kind); });
@@ -219,7 +219,7 @@ TEST(CardsByHand, HaveWiresAndFaults) {
     a.run(1);
 }
 
-TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
+TEST(Tables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
     const json& api = Panel::openapi();
     const std::string page = api_reference();
     std::set<std::string_view> names;
@@ -232,12 +232,12 @@ TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
         }
 }
 
-TEST(TheTables, AreThePageOfTheReference) {
+TEST(Tables, AreThePageOfTheReference) {
     EXPECT_EQ(text_of_file("docs/reference/api.md"), api_reference())
         << "make it anew: motionrack describe api --markdown > docs/reference/api.md";
 }
 
-TEST(TheFuzzer, FindsNothingInItsSeeds) {
+TEST(Fuzzer, FindsNothingInItsSeeds) {
     int seeds = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_dir() + "/tests/fuzz/corpus/panel")) {
         EXPECT_EQ(fuzz::check_orders(text_of_file("tests/fuzz/corpus/panel/" + entry.path().filename().string())), "")

@@ -21,7 +21,7 @@ struct Folder {
     std::filesystem::path path;
 };
 
-TEST(AnOrder, IsAnsweredWhenTheJournalHasIt) {
+TEST(Order, IsAnsweredWhenTheJournalHasIt) {
     const Folder folder;
     auto opened = journal::Journal::open((folder.path / "rack.journal").string());
     ASSERT_TRUE(opened) << opened.error().message;
@@ -62,7 +62,7 @@ std::string alarm_of(const Asked& a) {
     return out;
 }
 
-TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
+TEST(JournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     const Folder folder;
     auto opened = journal::Journal::open((folder.path / "rack.journal").string());
     ASSERT_TRUE(opened) << opened.error().message;
@@ -111,7 +111,7 @@ TEST(AJournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     EXPECT_FALSE((*opened)->close());
 }
 
-TEST(AnEvent, TellsWhatThePartsOfTheMachineReport) {
+TEST(Event, TellsWhatThePartsOfTheMachineReport) {
     Asked a(two_axes());
     std::vector<std::string> told;
     a.panel->on_event([&](const Event& event) {

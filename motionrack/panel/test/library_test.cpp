@@ -25,7 +25,7 @@ json call_of(const std::string& function, json arguments = json::object(), const
     return {{"card", card}, {"function", function}, {"arguments", std::move(arguments)}};
 }
 
-TEST(ALibraryOnThePage, IsDeclaredWithRangesAndUnits) {
+TEST(LibraryOnThePage, IsDeclaredWithRangesAndUnits) {
     Asked a(two_cards());
     a.at(0.1, eve, "library", {{"name", "m"}}, [](const Answer& answer) {
         const json& functions = answer.body["functions"];
@@ -49,7 +49,7 @@ TEST(ALibraryOnThePage, IsDeclaredWithRangesAndUnits) {
     a.run(0.3);
 }
 
-TEST(ALibraryOnThePage, NeedsTheRoleControlAndTheService) {
+TEST(LibraryOnThePage, NeedsTheRoleControlAndTheService) {
     Asked a(two_cards());
     a.at(0.1, bert, "call", call_of("ReadLPS", {{"axis", 1}}), is_refused(403, "needs the role maintain"));
     a.at(0.1, anna, "call", call_of("ReadLPS", {{"axis", 1}}), is_refused(409, "Take control first"));
@@ -64,7 +64,7 @@ TEST(ALibraryOnThePage, NeedsTheRoleControlAndTheService) {
     a.run(0.5);
 }
 
-TEST(ALibraryOnThePage, IsCalledAndWrittenDown) {
+TEST(LibraryOnThePage, IsCalledAndWrittenDown) {
     Asked a(two_cards());
     a.good(0.05, "take_control");
     a.good(0.1, "enable", {{"on", true}});
@@ -102,7 +102,7 @@ TEST(ALibraryOnThePage, IsCalledAndWrittenDown) {
     a.run(1.3);
 }
 
-TEST(ALibraryOnThePage, StopsWithTheControlAndTheConnection) {
+TEST(LibraryOnThePage, StopsWithTheControlAndTheConnection) {
     for (const bool leaves : {false, true}) {
         Asked a(two_cards());
         a.good(0.05, "take_control");
@@ -128,7 +128,7 @@ TEST(ALibraryOnThePage, StopsWithTheControlAndTheConnection) {
     }
 }
 
-TEST(ALibraryOnThePage, OfACardThatNothingDrivesNeedsControlOnly) {
+TEST(LibraryOnThePage, OfACardThatNothingDrivesNeedsControlOnly) {
     Asked a(two_cards());
     a.good(0.05, "take_control");
     a.good(0.1, "call", call_of("SetRange", {{"data", 800'000}}, "free"));

@@ -40,7 +40,7 @@ std::string live_text(const json& all, const char* list) {
     return out;
 }
 
-TEST(ARealCardOnThePage, SaysWhereItIsAndShowsNothingOfTheVirtualOne) {
+TEST(RealCardOnThePage, SaysWhereItIsAndShowsNothingOfTheVirtualOne) {
     Asked a(with_bench(), {}, with_live());
     a.at(0.1, eve, "rack", json::object(), [](const Answer& answer) {
         const json& cards = answer.body["cards"];
@@ -63,7 +63,7 @@ TEST(ARealCardOnThePage, SaysWhereItIsAndShowsNothingOfTheVirtualOne) {
 }
 
 /// A service of a real card starts and ends in real time, which can be slow on a busy computer: 5 s are enough.
-TEST(ARealCardOnThePage, IsReadInServiceOnly) {
+TEST(RealCardOnThePage, IsReadInServiceOnly) {
     const live::test::ZeroCard zero;
     Asked a(with_bench(), {}, with_live());
     a.at(0.05, eve, "card", {{"name", "bench"}}, [](const Answer& answer) {
@@ -101,7 +101,7 @@ TEST(ARealCardOnThePage, IsReadInServiceOnly) {
     a.run(10.1);
 }
 
-TEST(ARealCardOnThePage, IsTouchedByNoOrderOfTheVirtualOne) {
+TEST(RealCardOnThePage, IsTouchedByNoOrderOfTheVirtualOne) {
     live::MonotonicClock clock;
     operate::ClockPacer pacer(clock, operate::ClockMode::real, 1);
     PanelSettings settings;

@@ -88,7 +88,7 @@ TEST(Channels, AllCanBeReadAndHaveASentence) {
     a.run(0.3);
 }
 
-TEST(TheRack, IsDescribedWithCardsWiresPartsAndFaults) {
+TEST(RackQueries, IsDescribedWithCardsWiresPartsAndFaults) {
     PanelSettings settings;
     settings.rack_text = "[rack]\n";
     Asked a(demonstration(), std::move(settings));
@@ -127,7 +127,7 @@ TEST(TheRack, IsDescribedWithCardsWiresPartsAndFaults) {
     a.run(0.5);
 }
 
-TEST(TheRack, HasNoFramesWithoutABusAndNoJournalWithoutOne) {
+TEST(RackQueries, HasNoFramesWithoutABusAndNoJournalWithoutOne) {
     Asked a(two_axes());
     a.at(0.1, eve, "frames", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
     a.at(0.1, eve, "journal", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.status, 409); });
@@ -137,7 +137,7 @@ TEST(TheRack, HasNoFramesWithoutABusAndNoJournalWithoutOne) {
     a.run(0.2);
 }
 
-TEST(AProgram, IsPlannedBeforeItRunsAndItsPathIsShown) {
+TEST(Program, IsPlannedBeforeItRunsAndItsPathIsShown) {
     Asked a(two_axes());
     a.at(0.1, eve, "check", {{"name", "p"}, {"text", part}}, [](const Answer& answer) {
         EXPECT_TRUE(answer.body["ok"].get<bool>()) << answer.body;
@@ -166,7 +166,7 @@ TEST(AProgram, IsPlannedBeforeItRunsAndItsPathIsShown) {
     a.run(6);
 }
 
-TEST(TheScope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
+TEST(Scope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -200,7 +200,7 @@ TEST(TheScope, HasEveryEdgeOfAPulseOutputAndSamplesFromBeforeTheTrigger) {
     a.run(3);
 }
 
-TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
+TEST(Scope, TriggersOnANumberRunsAgainAndIsStopped) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -233,7 +233,7 @@ TEST(TheScope, TriggersOnANumberRunsAgainAndIsStopped) {
     a.run(5.5);
 }
 
-TEST(ALaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
+TEST(LaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
     Asked a(demonstration());
     const char* const job = "[drawing]\ntext = \"AB\"\nheight_mm = 4\n[pace]\nmark_speed_mm_s = 200\n";
     a.good(0.1, "take_control");
@@ -266,7 +266,7 @@ TEST(ALaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
     a.run(5);
 }
 
-TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
+TEST(Picture, IsEncodedOnceAndHasWhatThePageShows) {
     Asked a(demonstration());
     a.at(0.2, [&] {
         const auto picture = a.panel->picture();

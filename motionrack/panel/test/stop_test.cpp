@@ -11,9 +11,9 @@ using testing::HasSubstr;
 
 const char* const slow_job = "[drawing]\ntext = \"ABC\"\nheight_mm = 8\n[pace]\nmark_speed_mm_s = 20\n";
 
-class AStopOnThePage : public testing::TestWithParam<bool> {
+class StopOnThePage : public testing::TestWithParam<bool> {
   protected:
-    AStopOnThePage() : a(demonstration()) {
+    StopOnThePage() : a(demonstration()) {
         a.good(0.1, "take_control");
         a.good(0.2, "mark", {{"card", "scan"}, {"job", slow_job}});
         look(1.0, on);
@@ -50,10 +50,10 @@ class AStopOnThePage : public testing::TestWithParam<bool> {
     Seen on, off;
 };
 
-INSTANTIATE_TEST_SUITE_P(By, AStopOnThePage, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(By, StopOnThePage, testing::Bool(),
                          [](const auto& each) { return each.param ? "TheButton" : "TheOrder"; });
 
-TEST_P(AStopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
+TEST_P(StopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     Seen later;
     look(3, later);
     a.run(3.1);
@@ -72,7 +72,7 @@ TEST_P(AStopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     EXPECT_TRUE(later.belt_waits && later.mask_waits);
 }
 
-TEST_P(AStopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
+TEST_P(StopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
     const auto refused = [](const Answer& answer) {
         EXPECT_EQ(answer.status, 409);
         EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), AnyOf(HasSubstr("Reset"), HasSubstr("reset")));

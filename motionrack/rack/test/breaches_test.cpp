@@ -24,7 +24,7 @@ JumpWatch::Jump look(Place place, int& times, Duration period = milliseconds(1))
     return worst;
 }
 
-TEST(AJumpWatch, LetsRampsAndStartsPass) {
+TEST(JumpWatch, LetsRampsAndStartsPass) {
     int times = 0;
     const auto ramp = [](double t) {
         const double v = start_hz / 2 + accel_hz * std::min(t, 0.1);
@@ -36,7 +36,7 @@ TEST(AJumpWatch, LetsRampsAndStartsPass) {
     EXPECT_EQ(look([](double t) { return std::fabs(t - 0.2) * start_hz / 2; }, times).hz, 0) << "and a way back";
 }
 
-TEST(AJumpWatch, FindsAStopAtOnceWhateverThePeriod) {
+TEST(JumpWatch, FindsAStopAtOnceWhateverThePeriod) {
     for (const Duration period : {microseconds(100), microseconds(500), milliseconds(1), milliseconds(2)}) {
         int times = 0;
         const JumpWatch::Jump jump = look([](double t) { return std::min(t, 0.2) * 55'000; }, times, period);
@@ -45,7 +45,7 @@ TEST(AJumpWatch, FindsAStopAtOnceWhateverThePeriod) {
     }
 }
 
-TEST(AJumpWatch, FindsAStopOfASlowAxisAtEachInstantOfItsPeriod) {
+TEST(JumpWatch, FindsAStopOfASlowAxisAtEachInstantOfItsPeriod) {
     constexpr double from_hz = 5'000, slow_accel_hz = 320'000;
     for (double phase = 0; phase < 1e-3; phase += 5e-5) {
         JumpWatch watch(start_hz, slow_accel_hz, milliseconds(1));
@@ -57,12 +57,12 @@ TEST(AJumpWatch, FindsAStopOfASlowAxisAtEachInstantOfItsPeriod) {
     }
 }
 
-TEST(AJumpWatch, FindsNothingInLooksThatAreTooRare) {
+TEST(JumpWatch, FindsNothingInLooksThatAreTooRare) {
     int times = 0;
     EXPECT_EQ(look([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
 }
 
-TEST(ABreach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
+TEST(Breach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
     Breaches breaches;
     Breach jump;
     jump.axis = 0;

@@ -4,13 +4,13 @@
 namespace motionrack::rack::cut {
 namespace {
 
-class ACut : public testing::TestWithParam<Bench> {};
-INSTANTIATE_TEST_SUITE_P(OfEachCard, ACut, testing::ValuesIn(benches()),
+class Cut : public testing::TestWithParam<Bench> {};
+INSTANTIATE_TEST_SUITE_P(OfEachCard, Cut, testing::ValuesIn(benches()),
                          [](const auto& one) { return std::string(one.param.name); });
-INSTANTIATE_TEST_SUITE_P(OfTheMcx314, ACut, testing::ValuesIn(mcx314_benches()),
+INSTANTIATE_TEST_SUITE_P(OfTheMcx314, Cut, testing::ValuesIn(mcx314_benches()),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST_P(ACut, ThroughTimeChangesNothing) {
+TEST_P(Cut, ThroughTimeChangesNothing) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_CUTS", 30);
     for (std::uint64_t i = 0; i < count && !HasFatalFailure(); ++i)
         expect_the_same_however_it_is_cut(GetParam(), first + i);
@@ -18,7 +18,7 @@ TEST_P(ACut, ThroughTimeChangesNothing) {
 
 // While an arc at constant vector speed is skipped, a motor watches another range of the axis: the bound of the skip,
 // the end of the octant, has to be found again afterwards and holds until then.
-TEST(ACutThroughAnArc, AtConstantVectorSpeedChangesNothingWhenAMotorWatchesAnotherRange) {
+TEST(CutThroughAnArc, AtConstantVectorSpeedChangesNothingWhenAMotorWatchesAnotherRange) {
     expect_the_same_however_it_is_cut(mcx314_benches().back(), 709850194);
 }
 

@@ -33,7 +33,7 @@ std::string warnings_of(const JobOutcome& outcome) {
     return out;
 }
 
-TEST(AFollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
+TEST(FollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
     const JobOutcome outcome = run_with("", {"X.encoder.broken_a@0.5s", "X.encoder.broken_a=0@0.57s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_TRUE(outcome.position_valid) << "the pulses are right";
@@ -42,14 +42,14 @@ TEST(AFollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
     EXPECT_THAT(warnings_of(outcome), HasSubstr("above the warning limit of 0.5 mm"));
 }
 
-TEST(AFollowingError, BelowItsWarningLimitIsNotTold) {
+TEST(FollowingError, BelowItsWarningLimitIsNotTold) {
     const JobOutcome outcome =
         run_with("following_error_warning_mm = 0.9\n", {"X.encoder.broken_a@0.5s", "X.encoder.broken_a=0@0.57s"});
     EXPECT_TRUE(outcome.ended);
     EXPECT_THAT(warnings_of(outcome), testing::Not(HasSubstr("following error")));
 }
 
-TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndInvalidatesThePosition) {
+TEST(FollowingError, AboveItsAlarmLimitStopsTheMachineAndInvalidatesThePosition) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0.2\n", {"X.motor.stall@1s"});
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
@@ -61,13 +61,13 @@ TEST(AFollowingError, AboveItsAlarmLimitStopsTheMachineAndInvalidatesThePosition
     EXPECT_LT(to_seconds(outcome.time), 1.2);
 }
 
-TEST(AFollowingError, IsNotLookedAtWhereItsLimitsAreZero) {
+TEST(FollowingError, IsNotLookedAtWhereItsLimitsAreZero) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0\n", {"X.encoder.broken_a@0.5s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_THAT(warnings_of(outcome), testing::Not(HasSubstr("following error")));
 }
 
-TEST(AFollowingError, OfAnAxisWithoutAnEncoderIsNotKnown) {
+TEST(FollowingError, OfAnAxisWithoutAnEncoderIsNotKnown) {
     const JobOutcome outcome = run_with("encoder_counts_per_rev = 0\n", {"X.motor.stall@1s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_FALSE(outcome.position_valid);
@@ -87,15 +87,15 @@ JobOutcome run_carriage(const std::string& keys, const std::vector<std::string>&
     return (*job)->run(nullptr, {});
 }
 
-TEST(AFollowingError, OfAServoThatIsWellIsAFewMillimetresAtMost) {
+TEST(FollowingError, OfAServoThatIsWellIsAFewMillimetresAtMost) {
     const JobOutcome outcome = run_carriage("following_error_warning_mm = 4\n", {});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_THAT(warnings_of(outcome), testing::Not(HasSubstr("following error")));
 }
 
-class AServoThatDoesNotFollow : public testing::TestWithParam<const char*> {};
+class ServoThatDoesNotFollow : public testing::TestWithParam<const char*> {};
 
-TEST_P(AServoThatDoesNotFollow, StopsAtItsLimit) {
+TEST_P(ServoThatDoesNotFollow, StopsAtItsLimit) {
     const JobOutcome outcome = run_carriage("following_error_alarm_mm = 10\n", {std::string(GetParam()) + "@1.5s"});
     ASSERT_FALSE(outcome.ended);
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 10."));
@@ -105,10 +105,10 @@ TEST_P(AServoThatDoesNotFollow, StopsAtItsLimit) {
     EXPECT_FALSE(outcome.position_valid);
 }
 
-INSTANTIATE_TEST_SUITE_P(Faults, AServoThatDoesNotFollow,
+INSTANTIATE_TEST_SUITE_P(Faults, ServoThatDoesNotFollow,
                          testing::Values("X.motor.stall", "X.encoder.broken_a", "X.encoder.swapped", "X.drive=0"));
 
-TEST(AFollowingError, HasLimitsThatFollowFromTheEncoder) {
+TEST(FollowingError, HasLimitsThatFollowFromTheEncoder) {
     const RackConfig fine = good(axis_with("")), coarse = good(axis_with("encoder_counts_per_rev = 4\n")),
                      set = good(axis_with("following_error_alarm_mm = 0.5\n")),
                      none = good(axis_with("encoder_counts_per_rev = 0\n"));
@@ -121,7 +121,7 @@ TEST(AFollowingError, HasLimitsThatFollowFromTheEncoder) {
     EXPECT_EQ(servo.axes[0].following_alarm(), 0.1 * servo.axes[0].max_velocity);
 }
 
-TEST(AFollowingError, IsRefusedALimitThatCannotBe) {
+TEST(FollowingError, IsRefusedALimitThatCannotBe) {
     struct Bad {
         const char *keys, *words;
     };

@@ -118,7 +118,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"),
                 HasSubstr("type 4 needs the encoder's index"));
     EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nsearch_velocity_mm_s = 101\n"),
-                HasSubstr("the speed is 101 mm/s; it must be above 0 and up to 100"));
+                HasSubstr("the velocity is 101 mm/s; it must be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
 }
 

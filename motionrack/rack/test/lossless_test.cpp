@@ -225,7 +225,7 @@ TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
     }
 }
 
-TEST(AHost, ThatComesTooLateIsToldWhereAndHowLate) {
+TEST(Host, ThatComesTooLateIsToldWhereAndHowLate) {
     bool late = false;
     const Path path = spiral(0.2, 200);
     RackConfig config = router();
@@ -278,7 +278,7 @@ TEST_P(Lossless, ALateHostGoesOnAtTheProgrammedFeed) {
     }
 }
 
-TEST(AHost, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
+TEST(Host, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
     RackConfig config = router();
     config.cards[0].mcx314.bus_access_ns = 60;
     constexpr double asked = 0.5;

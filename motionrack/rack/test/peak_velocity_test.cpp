@@ -32,7 +32,7 @@ double top_of_pieces(const std::function<double(double)>& velocity, double piece
     return top.hz();
 }
 
-TEST(APeakVelocity, OfOneLongPieceIsItsRateExactly) {
+TEST(PeakVelocity, OfOneLongPieceIsItsRateExactly) {
     PeakVelocity top(jump_hz, milliseconds(1));
     top.changed(0, 1'280, milliseconds(10));
     top.changed(1'280, 0, milliseconds(1'010));
@@ -40,7 +40,7 @@ TEST(APeakVelocity, OfOneLongPieceIsItsRateExactly) {
     EXPECT_EQ(top.hz(), 1'280);
 }
 
-TEST(APeakVelocity, OfARampIsThatOfItsLastInstant) {
+TEST(PeakVelocity, OfARampIsThatOfItsLastInstant) {
     PeakVelocity top(jump_hz, milliseconds(1));
     double rate = 0;
     for (int i = 1; i <= 3'000; ++i, rate += 10) top.changed(rate, rate + 10, microseconds(16 * i));
@@ -49,7 +49,7 @@ TEST(APeakVelocity, OfARampIsThatOfItsLastInstant) {
     EXPECT_NEAR(top.hz(), 30'000, 30'000.0 / 700);
 }
 
-TEST(APeakVelocity, IsNotThatOfAPieceOfAFewPulses) {
+TEST(PeakVelocity, IsNotThatOfAPieceOfAFewPulses) {
     PeakVelocity top(jump_hz, milliseconds(1));
     top.changed(0, 10'000, Instant{} + milliseconds(1));
     top.changed(10'000, 12'500, Instant{} + milliseconds(501));  // 5 pulses in the time of 4
@@ -59,7 +59,7 @@ TEST(APeakVelocity, IsNotThatOfAPieceOfAFewPulses) {
     EXPECT_EQ(top.hz(), 10'000);
 }
 
-TEST(APeakVelocity, OfShortPiecesIsTheVelocityThatTheyMakeTogether) {
+TEST(PeakVelocity, OfShortPiecesIsTheVelocityThatTheyMakeTogether) {
     for (const double piece : {0.0002, 0.0007, 0.003})
         for (const double truth : {700.0, 9'321.0, 61'234.5}) {
             SCOPED_TRACE(testing::Message() << piece << " s, " << truth << " Hz");
@@ -69,14 +69,14 @@ TEST(APeakVelocity, OfShortPiecesIsTheVelocityThatTheyMakeTogether) {
         }
 }
 
-TEST(APeakVelocity, ThatLastsForMillisecondsOnlyIsFoundInShortPieces) {
+TEST(PeakVelocity, ThatLastsForMillisecondsOnlyIsFoundInShortPieces) {
     const auto bump = [](double t) { return t > 0.5 && t < 0.508 ? 60'000.0 : 20'000.0; };
     const double top = top_of_pieces(bump, 0.0002, 1);
     EXPECT_LE(top, 60'000.0 * 1.0005);
     EXPECT_GE(top, 60'000.0 - 2 / 0.004);
 }
 
-TEST(APeakVelocity, CountsBackwardsToo) {
+TEST(PeakVelocity, CountsBackwardsToo) {
     const double top = top_of_pieces([](double t) { return t < 0.3 ? 5'000.0 : -9'000.0; }, 0.001, 1);
     EXPECT_NEAR(top, 9'000, 10);
 }

@@ -43,7 +43,7 @@ ProgramPart part_of(std::int64_t first, std::int64_t last = 1'000'000, double re
     return {first, last, first, reach_mm};
 }
 
-TEST(AProgrammedPath, KnowsHowFarACornerWasCut) {
+TEST(ProgrammedPath, KnowsHowFarACornerWasCut) {
     Written program({0, 0});
     program.line(10, 0);
     program.line(10, 10);
@@ -54,7 +54,7 @@ TEST(AProgrammedPath, KnowsHowFarACornerWasCut) {
     EXPECT_NEAR(program.path.distance(part_of(0), 5, -0.2, 0.1).mm, std::hypot(0.2, 0.1), 1e-12);
 }
 
-TEST(AProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
+TEST(ProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
     Written program({0, 0});
     program.line(10, 0, PathControl::continuous, 0.5);
     program.line(10, 10, PathControl::exact_path, 0.5);
@@ -65,7 +65,7 @@ TEST(AProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
     EXPECT_EQ(program.path.distance(part_of(1), 9.8, 5, 0).tolerance_mm, 0) << "G61";
 }
 
-TEST(AProgrammedPath, LooksAtTheMovesWhereTheMachineIsAlone) {
+TEST(ProgrammedPath, LooksAtTheMovesWhereTheMachineIsAlone) {
     Written program({0, 0});
     for (int i = 1; i <= 40; ++i) program.line(i, i % 2 == 0 ? 0 : 1);
     program.line(40, 50);
@@ -81,7 +81,7 @@ TEST(AProgrammedPath, LooksAtTheMovesWhereTheMachineIsAlone) {
         << "in a dwell, the end of the move before";
 }
 
-TEST(AProgrammedPath, LooksNoFartherThanTheMachineCanBe) {
+TEST(ProgrammedPath, LooksNoFartherThanTheMachineCanBe) {
     Written program({0, 0});
     program.line(10, 0);
     program.line(10, 30);
@@ -92,7 +92,7 @@ TEST(AProgrammedPath, LooksNoFartherThanTheMachineCanBe) {
 }
 
 /// Same result as from checking all moves one by one.
-TEST(AProgrammedPath, FindsTheNearestOfManyShortMoves) {
+TEST(ProgrammedPath, FindsTheNearestOfManyShortMoves) {
     Written program({0, 0});
     std::vector<control::Point> corners = {{0, 0}};
     for (int i = 1; i <= 3'000; ++i) {
@@ -117,7 +117,7 @@ TEST(AProgrammedPath, FindsTheNearestOfManyShortMoves) {
     }
 }
 
-TEST(AProgrammedPath, WithoutMovesIsNowhereLeft) {
+TEST(ProgrammedPath, WithoutMovesIsNowhereLeft) {
     EXPECT_EQ(ProgrammedPath().distance(part_of(0), 1, 2, 3).mm, 0);
 }
 

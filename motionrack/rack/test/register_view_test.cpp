@@ -89,7 +89,7 @@ TEST_F(RegisterViews, WriteNothingButNopsAndReadCommands) {
     EXPECT_THAT(slot.reads, Not(testing::Contains(mcx314::reg::RR3)));
 }
 
-TEST(ADataBoardsView, ShowsItsStatusItsPositionAndItsRate) {
+TEST(DataBoardsView, ShowsItsStatusItsPositionAndItsRate) {
     Rack rack(*read_rack_text("[card.board]\ntype = \"databoard4002\"\ncard_number = 5\n").config);
     rack.start();
     Card& card = *rack.card("board");

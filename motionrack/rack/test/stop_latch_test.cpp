@@ -47,7 +47,7 @@ void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {
     EXPECT_THAT(summary_json(ran.config, ran.outcome), HasSubstr("\"ok\": false"));
 }
 
-TEST(AStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd) {
+TEST(LatchedStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.2s"});
     expect_stopped(ran, 20, "The emergency stop was pressed at 1.000 s");
     EXPECT_THAT(ran.error(), HasSubstr("in line 3"));
@@ -55,18 +55,18 @@ TEST(AStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd) {
     EXPECT_THAT(ran.error(), HasSubstr("The positions are kept."));
 }
 
-TEST(AStop, InADwellIsSeenHoweverShortTheButtonIsPressed) {
+TEST(LatchedStop, InADwellIsSeenHoweverShortTheButtonIsPressed) {
     expect_stopped(run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.00001s"}), 20, "emergency stop");
 }
 
-TEST(AStop, InADwellOfAJerkLimitedMachineEndsTheProgram) {
+TEST(LatchedStop, InADwellOfAJerkLimitedMachineEndsTheProgram) {
     const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
     expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}), 20, "emergency stop");
     expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}, {"feed=1@0.1s"}), 20,
                    "emergency stop");
 }
 
-TEST(AStop, InADwellOfAServoEndsTheProgram) {
+TEST(LatchedStop, InADwellOfAServoEndsTheProgram) {
     const StoppedRun ran =
         run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P2\nG0 X300\nM2\n", {"estop=0@2s", "estop=1@2.2s"});
     ASSERT_FALSE(ran.outcome.ended);
@@ -75,7 +75,7 @@ TEST(AStop, InADwellOfAServoEndsTheProgram) {
     EXPECT_TRUE(ran.outcome.position_valid) << "its encoder counts on";
 }
 
-TEST(AStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
+TEST(LatchedStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
     const StoppedRun moved = run_stopped(stop_axes, one_move, {}, {"hold@0.5s", "stop@2s"});
     const StoppedRun ran =
         run_stopped(stop_axes, one_move, {"estop=0@1.2s", "estop=1@1.5s"}, {"hold@0.5s", "resume@2s"});
@@ -83,14 +83,14 @@ TEST(AStop, InAHoldEndsTheProgramAndAResumeMovesNothing) {
     EXPECT_TRUE(ran.outcome.position_valid);
 }
 
-TEST(AStop, BetweenHoldAndResumeOfAJerkLimitedMachineEndsTheProgram) {
+TEST(LatchedStop, BetweenHoldAndResumeOfAJerkLimitedMachineEndsTheProgram) {
     const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
     const StoppedRun moved = run_stopped(jerk, one_move, {}, {"hold@0.5s", "stop@2s"});
     expect_stopped(run_stopped(jerk, one_move, {"estop=0@1.2s", "estop=1@1.5s"}, {"hold@0.5s", "resume@2s"}), moved.x(),
                    "emergency stop");
 }
 
-TEST(AStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
+TEST(LatchedStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
     const StoppedRun ran = run_stopped(stop_axes, "G21 G90 F1200\nG1 X80 Y70\nM2\n", {"m.yalarm=0@1s"});
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("The drive of Y reported an alarm at 1.000 s"));
@@ -99,13 +99,13 @@ TEST(AStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
     EXPECT_FALSE(ran.outcome.position_valid) << "a drive that gives up does not follow its pulses";
 }
 
-TEST(AStop, OfADriveAlarmInADwellKeepsThePositions) {
+TEST(LatchedStop, OfADriveAlarmInADwellKeepsThePositions) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {"m.xalarm=0@1s", "m.xalarm=1@1.1s"});
     expect_stopped(ran, 20, "The drive of X reported an alarm");
     EXPECT_TRUE(ran.outcome.position_valid);
 }
 
-TEST(AStop, OfALimitSwitchAtStandstillEndsTheProgram) {
+TEST(LatchedStop, OfALimitSwitchAtStandstillEndsTheProgram) {
     expect_stopped(run_stopped(stop_axes, dwelling, {"Y.limit_plus=0@1s", "Y.limit_plus=1@1.1s"}), 20,
                    "The + limit switch of Y was reached at 1.000 s");
     const StoppedRun moving = run_stopped(stop_axes, one_move, {"Y.limit_plus=0@1s"});
@@ -114,7 +114,7 @@ TEST(AStop, OfALimitSwitchAtStandstillEndsTheProgram) {
     EXPECT_TRUE(moving.outcome.position_valid);
 }
 
-TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
+TEST(LatchedStop, OfAWatchdogInADwellEndsTheProgram) {
     const StoppedRun ran =
         run_stopped(carriage(), "G21 G90\nG0 X200\nG4 P4\nG0 X300\nM2\n", {"board.watchdog.hang@2s"});
     ASSERT_FALSE(ran.outcome.ended);
@@ -124,14 +124,14 @@ TEST(AStop, OfAWatchdogInADwellEndsTheProgram) {
     EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts from 0"));
 }
 
-TEST(AStop, OfTheStopOrderInADwellComesAtOnce) {
+TEST(LatchedStop, OfTheStopOrderInADwellComesAtOnce) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {}, {"stop@1s"});
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_EQ(ran.outcome.ended.error().kind, ErrorKind::stopped);
     EXPECT_LT(to_seconds(ran.outcome.time), 1.1);
 }
 
-TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop) {
+TEST(LatchedStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop) {
     const StoppedRun fast = run_stopped(stop_axes, "G21 G90 F3000\nG1 X80\nM2\n", {"estop=0@1s"});
     EXPECT_FALSE(fast.outcome.ended);
     EXPECT_FALSE(fast.outcome.position_valid);
@@ -140,7 +140,7 @@ TEST(AStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCanStop)
     EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step: it stops within a step";
 }
 
-TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
+TEST(LatchedStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
     std::string on_its_switch = stop_axes;
     on_its_switch.replace(on_its_switch.find("initial_position_mm = 10"), 24,
                           "min_limit_mm = -6\ninitial_position_mm = -5.5");
@@ -150,7 +150,7 @@ TEST(AStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
     EXPECT_EQ(ran.x(), 20) << "the way back stays free";
 }
 
-TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
+TEST(LatchedStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     const StoppedRun ran =
         run_stopped(stop_axes, "G21 G90 F1200\nG1 X80\nM2\n", {"X.limit_minus=0@1s", "X.limit_minus=1@1.2s"});
     ASSERT_FALSE(ran.outcome.ended);
@@ -159,7 +159,7 @@ TEST(AStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     EXPECT_LT(ran.x(), 32);
 }
 
-TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) {
+TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) {
     const std::string fast = "G21 G90\nG1 X200 F6000\nM2\n";
     const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
     ASSERT_FALSE(one_piece.outcome.ended);
@@ -177,7 +177,7 @@ TEST(AStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) 
 }
 
 /// While the chip decelerates, moves queued behind the line must not change the acceleration.
-TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
+TEST(LatchedStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
     std::string slow_y = stop_axes;
     slow_y.replace(slow_y.find("channel = \"y\""), 13,
                    "channel = \"y\"\nmax_accel_mm_s2 = 500\nmax_velocity_mm_s = 50");
@@ -191,7 +191,7 @@ TEST(AStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
     }
 }
 
-TEST(AStop, OfABrokenWireOfACardComesFromItsInput) {
+TEST(LatchedStop, OfABrokenWireOfACardComesFromItsInput) {
     const std::string program = "G21 G90\nG1 X2000 F12000\nM2\n";
     const StoppedRun behind = run_stopped(carriage(), program, {"board.esl.broken@2s"});
     ASSERT_FALSE(behind.outcome.ended) << "the wire of the end stop behind the axis";

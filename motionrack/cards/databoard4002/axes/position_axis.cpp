@@ -55,11 +55,11 @@ tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& 
 
 Result<int> PositionAxis::rate_of(const char* what, double speed) const {
     if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity))
-        return refuse(what, fmt::format("the speed is {} {}/s; it must be above 0 and up to {}", speed, settings_.unit,
-                                        settings_.limits.max_velocity));
+        return refuse(what, fmt::format("the velocity is {} {}/s; it must be above 0 and up to {}", speed,
+                                        settings_.unit, settings_.limits.max_velocity));
     const int rate = settings_.scale.rate_for(speed * settings_.counts_per_unit * (1 + 1e-12));
     if (rate > 0) return rate;
-    return refuse(what, fmt::format("the speed is {} {}/s, but the card's slowest rate gives {:.4g}", speed,
+    return refuse(what, fmt::format("the velocity is {} {}/s, but the card's slowest rate gives {:.4g}", speed,
                                     settings_.unit, settings_.scale.speed(1) / settings_.counts_per_unit));
 }
 

@@ -9,11 +9,11 @@ namespace motionrack::databoard4002::functions {
 using Values = std::span<const std::int64_t>;
 using Call = Result<CallAnswer> (*)(Driver& driver, Values values);
 
-struct FunctionRow {
+struct LibraryRow {
     FunctionInfo info;
     Call call = nullptr;
 };
-std::span<const FunctionRow> function_rows();
+std::span<const LibraryRow> function_rows();
 
 /// A command without an argument.
 template <Result<void> (Driver::*function)()>

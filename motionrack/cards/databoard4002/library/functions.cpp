@@ -119,8 +119,8 @@ Result<CallAnswer> design(Driver& driver, Values v) {
 }
 
 /// A function that is a command of the card; its name is the Driver's.
-FunctionRow row_of(std::string_view name, const CommandInfo& command, Call call,
-                   std::span<const ArgumentInfo> arguments = {}, std::string_view returns = {}) {
+LibraryRow row_of(std::string_view name, const CommandInfo& command, Call call,
+                  std::span<const ArgumentInfo> arguments = {}, std::string_view returns = {}) {
     FunctionInfo info{name, commands, command.meaning, arguments, returns};
     return {info, call};
 }
@@ -144,31 +144,31 @@ const std::array rows = {
            "negative backwards, 0 at standstill"),
     row_of("version", command_named(map::commands, "V"), ask<int, &Driver::version>, {}, "version"),
     row_of("clear_watch_out", command_named(map::commands, "W"), give<&Driver::clear_watch_out>),
-    FunctionRow{{"status", events, "Reads STAT, at any time.", {}, "STAT"}, status},
-    FunctionRow{{"enable_events", events, "Writes the enables (C4) and reads the EVENT word, which it frees.",
-                 enable_data, "EVENT"},
-                enable_events},
-    FunctionRow{
+    LibraryRow{{"status", events, "Reads STAT, at any time.", {}, "STAT"}, status},
+    LibraryRow{{"enable_events", events, "Writes the enables (C4) and reads the EVENT word, which it frees.",
+                enable_data, "EVENT"},
+               enable_events},
+    LibraryRow{
         {"disable_events", events, "Writes no enables (C4) and reads the EVENT word, which it frees.", {}, "EVENT"},
         disable_events},
-    FunctionRow{{"reset", events, "Resets the card (C3).", {}, {}, false, true}, reset},
-    FunctionRow{{"move_to", moves, "Moves to a position with the present rate, mode and slope.", move_to_data, counts,
-                 true, true},
-                move_to},
-    FunctionRow{
+    LibraryRow{{"reset", events, "Resets the card (C3).", {}, {}, false, true}, reset},
+    LibraryRow{{"move_to", moves, "Moves to a position with the present rate, mode and slope.", move_to_data, counts,
+                true, true},
+               move_to},
+    LibraryRow{
         {"move_by", moves, "Moves by a way with the present rate, mode and slope.", move_by_data, counts, true, true},
         move_by},
-    FunctionRow{{"find_zero", moves, "Moves slowly until a mark sets the counter to 0, and stops.", find_zero_data,
-                 counts, true, true},
-                find_zero},
-    FunctionRow{
+    LibraryRow{{"find_zero", moves, "Moves slowly until a mark sets the counter to 0, and stops.", find_zero_data,
+                counts, true, true},
+               find_zero},
+    LibraryRow{
         {"design_slope", slopes, "Writes a slope (S) for a speed and an acceleration.", slope_data, {}, false, true},
         design},
 };
 
 }  // namespace
 
-std::span<const FunctionRow> function_rows() {
+std::span<const LibraryRow> function_rows() {
     return rows;
 }
 

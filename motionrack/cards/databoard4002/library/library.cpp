@@ -21,7 +21,7 @@ DriverSettings library_settings(std::uint8_t select) {
 
 std::vector<FunctionInfo> all_infos() {
     std::vector<FunctionInfo> out;
-    for (const functions::FunctionRow& row : functions::function_rows()) out.push_back(row.info);
+    for (const functions::LibraryRow& row : functions::function_rows()) out.push_back(row.info);
     return out;
 }
 
@@ -32,22 +32,22 @@ std::span<const FunctionInfo> library_functions() {
     return all;
 }
 
-void GuardedPort::out(std::uint8_t port, std::uint8_t value) {
+void GuardedBytePort::out(std::uint8_t port, std::uint8_t value) {
     const bool ends_move = port == ports::CS || (port == ports::C2 && value == command("Q"));
     if (ends_move || !host_.stop_requested()) port_.out(port, value);
 }
 
-Library::Library(BytePort& port, Interrupt& host, std::uint8_t select)
+CommandLibrary::CommandLibrary(BytePort& port, Interrupt& host, std::uint8_t select)
     : guarded_(port, host),
       host_(host),
       driver_(guarded_, host, library_settings(select)),
       stopper_(port, host, library_settings(select)) {}
 
-std::span<const FunctionInfo> Library::functions() const {
+std::span<const FunctionInfo> CommandLibrary::functions() const {
     return library_functions();
 }
 
-Result<void> Library::begin() {
+Result<void> CommandLibrary::begin() {
     if (driver_.status().word != no_card) driver_.reset();
     const Instant until = later(host_.now(), max_start);
     while (!driver_.status().ready() && host_.now() < until && !host_.stop_requested())
@@ -56,20 +56,20 @@ Result<void> Library::begin() {
     return {};
 }
 
-Result<CallAnswer> Library::call(std::size_t function, std::span<const std::int64_t> values) {
-    const functions::FunctionRow& row = functions::function_rows()[function];
+Result<CallAnswer> CommandLibrary::call(std::size_t function, std::span<const std::int64_t> values) {
+    const functions::LibraryRow& row = functions::function_rows()[function];
     MOTIONRACK_ASSERT(values.size() == row.info.arguments.size());
     MOTIONRACK_TRY(CallAnswer answer, row.call(driver_, values));
     if (answer.value && answer.text.empty()) answer.text = fmt::format("{} {}", *answer.value, row.info.returns);
     return answer;
 }
 
-bool Library::moving() {
+bool CommandLibrary::moving() {
     const Result<int> rate = stopper_.rate();
     return !rate || *rate != 0;
 }
 
-void Library::stop_now() {
+void CommandLibrary::stop_now() {
     static_cast<void>(stopper_.quit());
 }
 

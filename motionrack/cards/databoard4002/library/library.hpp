@@ -11,9 +11,9 @@ namespace motionrack::databoard4002 {
 std::span<const FunctionInfo> library_functions();
 
 /// Card access of a driver that a stop ends: it may still end its move with Q; nothing else is written.
-class GuardedPort final : public BytePort {
+class GuardedBytePort final : public BytePort {
   public:
-    GuardedPort(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}
+    GuardedBytePort(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}
     void out(std::uint8_t port, std::uint8_t value) override;
     std::uint8_t in(std::uint8_t port) override { return port_.in(port); }
 
@@ -22,10 +22,10 @@ class GuardedPort final : public BytePort {
     const Interrupt& host_;
 };
 
-class Library final : public FunctionLibrary {
+class CommandLibrary final : public FunctionLibrary {
   public:
     /// Port and host must outlive the library. `select`: the card's number on its bus.
-    Library(BytePort& port, Interrupt& host, std::uint8_t select);
+    CommandLibrary(BytePort& port, Interrupt& host, std::uint8_t select);
 
     std::span<const FunctionInfo> functions() const override;
     /// Resets the card (C3) and connects to it. Errors: machine if no card answers.
@@ -37,7 +37,7 @@ class Library final : public FunctionLibrary {
     void stop_now() override;
 
   private:
-    GuardedPort guarded_;
+    GuardedBytePort guarded_;
     Interrupt& host_;
     Driver driver_;
     Driver stopper_;  ///< not guarded

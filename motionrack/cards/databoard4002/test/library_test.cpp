@@ -45,7 +45,7 @@ class Databoard4002Library : public testing::Test {
 
     Host host;
     StoppingHost time;
-    Library library;
+    CommandLibrary library;
 };
 
 constexpr std::int64_t thousand_hz = 16'384 - 400;
@@ -101,7 +101,7 @@ TEST_F(Databoard4002Library, WritesNothingButTheEndOfItsMoveOnceAStopIsRequested
 }
 
 TEST_F(Databoard4002Library, SaysThatNoCardAnswers) {
-    Library absent(host.port, time, select + 1);
+    CommandLibrary absent(host.port, time, select + 1);
     const Result<void> begun = absent.begin();
     ASSERT_FALSE(begun);
     EXPECT_THAT(begun.error().message, HasSubstr("No card answers under the number 14"));

@@ -50,7 +50,7 @@ tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& wh
 
 Result<void> SingleAxis::check_speed(const char* what, double speed) const {
     if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_velocity) return {};
-    return refuse(what, fmt::format("the speed is {} {}/s; it must be above 0 and up to {}", speed, settings_.unit,
+    return refuse(what, fmt::format("the velocity is {} {}/s; it must be above 0 and up to {}", speed, settings_.unit,
                                     settings_.limits.max_velocity));
 }
 
@@ -170,7 +170,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
     MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, max_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, max_way));
-    MOTIONRACK_CHECK(outside("the slow speed", order.latch_velocity, 1e-9,
+    MOTIONRACK_CHECK(outside("the latch velocity", order.latch_velocity, 1e-9,
                              std::min(order.search_velocity, limits.max_velocity_step)));
     const bool index =
         order.type == control::HomingMethod::index_after_switch || order.type == control::HomingMethod::twice_and_index;

@@ -47,7 +47,7 @@ std::set<std::string> names_of(const std::string& list) {
     return out;
 }
 
-TEST(ADeclaredLibrary, HasTheFunctionsAndArgumentsOfTheHeader) {
+TEST(DeclaredLibrary, HasTheFunctionsAndArgumentsOfTheHeader) {
     std::ifstream in(source_dir() + "/motionrack/frontends/mcx314lib/mcx314lib.h");
     std::ostringstream text;
     text << in.rdbuf();
@@ -69,7 +69,7 @@ TEST(ADeclaredLibrary, HasTheFunctionsAndArgumentsOfTheHeader) {
     EXPECT_EQ(here, there);
 }
 
-TEST(ADeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
+TEST(DeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
     LibraryRig rig;
     for (const FunctionInfo& function : library_functions())
         for (const ArgumentInfo& one : function.arguments)
@@ -83,7 +83,7 @@ TEST(ADeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
             }
 }
 
-TEST(ADeclaredLibrary, TakesWhatAFormBeginsWith) {
+TEST(DeclaredLibrary, TakesWhatAFormBeginsWith) {
     for (const FunctionInfo& function : library_functions()) {
         if (function.waits) continue;
         LibraryRig rig;
@@ -95,7 +95,7 @@ TEST(ADeclaredLibrary, TakesWhatAFormBeginsWith) {
     }
 }
 
-TEST(ADeclaredLibrary, NamesWhatThereIsWhereANameIsWrong) {
+TEST(DeclaredLibrary, NamesWhatThereIsWhereANameIsWrong) {
     LibraryRig rig;
     const auto message = [&](std::string_view name, const Arguments& arguments) {
         const Result<CallAnswer> answer = rig.call(name, arguments);
@@ -113,7 +113,7 @@ TEST(ADeclaredLibrary, NamesWhatThereIsWhereANameIsWrong) {
               "ReadLPS: axis is 3, but must be 1 (X), 2 (Y), 4 (Z), 8 (U). Nothing was done.");
 }
 
-TEST(ADeclaredLibrary, CallsItsFunctionsByTheirNamesInSentencesToo) {
+TEST(DeclaredLibrary, CallsItsFunctionsByTheirNamesInSentencesToo) {
     LibraryRig rig;
     const Result<CallAnswer> early = rig.call("contour_end");
     ASSERT_FALSE(early);
@@ -122,7 +122,7 @@ TEST(ADeclaredLibrary, CallsItsFunctionsByTheirNamesInSentencesToo) {
               "first.");
 }
 
-TEST(ADeclaredLibrary, MovesAndReads) {
+TEST(DeclaredLibrary, MovesAndReads) {
     LibraryRig rig;
     EXPECT_FALSE(rig.call("TCurve_F", {{"axis", 1}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}, {"m_Pulse", 500}}))
         << "no multiple was set";
@@ -152,7 +152,7 @@ TEST(ADeclaredLibrary, MovesAndReads) {
     EXPECT_EQ(rig.value("ReadLPS", 4), 100);
 }
 
-TEST(ADeclaredLibrary, DrivesContoursAndPatterns) {
+TEST(DeclaredLibrary, DrivesContoursAndPatterns) {
     LibraryRig rig;
     ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
     ASSERT_TRUE(rig.call("contour_begin", {{"SV", 100}, {"V", 500}, {"A", 100}, {"D", 0}}));
@@ -174,7 +174,7 @@ TEST(ADeclaredLibrary, DrivesContoursAndPatterns) {
     EXPECT_EQ(rig.value("ReadLPS", 2), -2);
 }
 
-TEST(ADeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
+TEST(DeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     LibraryRig rig;
     std::atomic<bool> stop{false};
     rig.port.set_stop_flag(&stop);
@@ -218,7 +218,7 @@ class StoppedAt final : public RegisterPort {
     std::atomic<bool>& stop_;
 };
 
-TEST(ADeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
+TEST(DeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
     const Arguments order = {{"axis", 1}, {"m_Pulse", 5000}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}};
     bool ended = false;
     for (std::int64_t n = 0; !ended; ++n) {
@@ -244,7 +244,7 @@ TEST(ADeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
     }
 }
 
-TEST(ADeclaredLibrary, TellsHowAHomingFailed) {
+TEST(DeclaredLibrary, TellsHowAHomingFailed) {
     LibraryRig rig;
     ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
     rig.wire("xlmtm", 0);  // at the end of the travel, and at the other one too

@@ -108,7 +108,7 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
         return result ? std::string() : result.error().message;
     };
     EXPECT_THAT(message(rig.x.move_to(301, 10)), HasSubstr("301 mm is outside its travel of 0 to 300"));
-    EXPECT_THAT(message(rig.x.move_to(10, 51)), HasSubstr("the speed is 51 mm/s; it must be above 0 and up to 50"));
+    EXPECT_THAT(message(rig.x.move_to(10, 51)), HasSubstr("the velocity is 51 mm/s; it must be above 0 and up to 50"));
     for (const double bad : {nan, inf, -inf, 0.0, -1.0}) {
         EXPECT_FALSE(rig.x.move_to(10, bad));
         control::HomingRequest o = order();

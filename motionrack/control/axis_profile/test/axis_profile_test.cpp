@@ -235,7 +235,7 @@ TEST(AxisProfile, IsRefusedForWhatIsNoNumber) {
             EXPECT_FALSE(time_optimal_profile({}, {1}, of_none));
 }
 
-TEST(AChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
+TEST(ChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
     Tasks tasks(10);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -246,7 +246,7 @@ TEST(AChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
     }
 }
 
-TEST(AChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
+TEST(ChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
     Tasks tasks(11);
     for (int i = 0; i < 40'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -261,7 +261,7 @@ TEST(AChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
 }
 
 /// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
-TEST(AChangeOfVelocity, IsTheTravelToWhereItEnds) {
+TEST(ChangeOfVelocity, IsTheTravelToWhereItEnds) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -271,7 +271,7 @@ TEST(AChangeOfVelocity, IsTheTravelToWhereItEnds) {
     }
 }
 
-TEST(AStop, EndsAtRestAndIsTheChangeOfVelocityToIt) {
+TEST(StopProfile, EndsAtRestAndIsTheChangeOfVelocityToIt) {
     Tasks tasks(13);
     for (int i = 0; i < 5000; ++i) {
         const Task t = tasks.outside();

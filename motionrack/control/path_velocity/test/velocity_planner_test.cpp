@@ -320,7 +320,7 @@ TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
                     .empty());  // above the limit at the start
 }
 
-TEST(ACell, ThatDeceleratesAndAcceleratesAgainTakesItsTime) {
+TEST(Cell, ThatDeceleratesAndAcceleratesAgainTakesItsTime) {
     const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).velocity, 2, 1e-9);

@@ -71,7 +71,7 @@ Seconds seconds_of(const std::vector<Move>& moves, const MachineLimits& limits, 
     return out;
 }
 
-TEST(AnAccelBound, OfALineIsItsTrapezoid) {
+TEST(AccelBound, OfALineIsItsTrapezoid) {
     const MachineLimits limits = machine();
     const auto bound = [&](const Move& move) { return seconds_of({move}, limits).bound; };
     Move slow = line_to({50, 0}), traverse = line_to({30, 40});
@@ -84,7 +84,7 @@ TEST(AnAccelBound, OfALineIsItsTrapezoid) {
 
 /// No axis can pass the circle faster than sqrt(2 acceleration radius); at sqrt(acceleration radius) both can hold the
 /// velocity.
-TEST(AnAccelBound, OfACircleIsNearTheVelocityOfItsBend) {
+TEST(AccelBound, OfACircleIsNearTheVelocityOfItsBend) {
     const MachineLimits limits = with_jerk(1e6);
     const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
     EXPECT_LT(seconds, 1.02 * (2 * pi * 20 / std::sqrt(2000.0 * 20) + 200.0 / 2000));
@@ -92,7 +92,7 @@ TEST(AnAccelBound, OfACircleIsNearTheVelocityOfItsBend) {
 }
 
 /// The reference checks both ends of its steps, the bound the middle of its cells: the true value is near both.
-TEST(AnAccelBound, IsWhatTheRefereeFinds) {
+TEST(AccelBound, IsWhatTheRefereeFinds) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
         for (const double chord : {0.1, 0.25})
@@ -107,7 +107,7 @@ TEST(AnAccelBound, IsWhatTheRefereeFinds) {
 }
 
 /// Chords that are too long for a smooth curvature bend the curve in steps; there the two differ more.
-TEST(AnAccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
+TEST(AccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
         for (const auto& shape : {circle(1), sine(1), spiral(1)}) {
@@ -117,7 +117,7 @@ TEST(AnAccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
         }
 }
 
-TEST(AnAccelBound, IsNoShorterWithTighterLimits) {
+TEST(AccelBound, IsNoShorterWithTighterLimits) {
     MachineLimits limits = machine();
     const std::vector<Move> moves = ProgramMaker(8).program(4);
     double last = 0;
@@ -129,7 +129,7 @@ TEST(AnAccelBound, IsNoShorterWithTighterLimits) {
     }
 }
 
-TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
+TEST(AccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::uint64_t fold = 0;
     for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
         fold = (fold ^ std::bit_cast<std::uint64_t>(

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(AHostileRequest, IsRefusedWithAReason) {
+TEST(HostileRequest, IsRefusedWithAReason) {
     Running running;
     struct Case {
         const char* text;
@@ -39,7 +39,7 @@ TEST(AHostileRequest, IsRefusedWithAReason) {
     EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
 }
 
-TEST(AHostileRequest, ThatIsTooLongIsToldSoWhileItStillComes) {
+TEST(HostileRequest, ThatIsTooLongIsToldSoWhileItStillComes) {
     Running running;
     WebClient client = running.client();
     const WebAnswer answer = client.ask("POST", "/api/pair", std::string(2'000'000, ' '));
@@ -52,7 +52,7 @@ TEST(AHostileRequest, ThatIsTooLongIsToldSoWhileItStillComes) {
     EXPECT_EQ(chunked.answer().status, 413);
 }
 
-TEST(AHostileRequest, ThatDoesNotEndIsEndedByTheServer) {
+TEST(HostileRequest, ThatDoesNotEndIsEndedByTheServer) {
     Running running([](ServerSettings& settings) {
         settings.limits.header = settings.limits.body = settings.limits.idle = std::chrono::milliseconds(20);
     });
@@ -66,7 +66,7 @@ TEST(AHostileRequest, ThatDoesNotEndIsEndedByTheServer) {
     EXPECT_TRUE(idle.ended());
 }
 
-TEST(AHostileRequest, OfWhichThereAreTooManyIsRefusedButStopIsNot) {
+TEST(HostileRequest, OfWhichThereAreTooManyIsRefusedButStopIsNot) {
     Running running([](ServerSettings& settings) {
         settings.limits.requests_at_once = 5;
         settings.limits.requests_per_second = 1e-6;
@@ -80,7 +80,7 @@ TEST(AHostileRequest, OfWhichThereAreTooManyIsRefusedButStopIsNot) {
     for (int i = 0; i < 20; ++i) EXPECT_EQ(client.ask("POST", "/api/stop").status, 200);
 }
 
-TEST(AHostileStream, IsRefusedOrEndedWithAReason) {
+TEST(HostileStream, IsRefusedOrEndedWithAReason) {
     Running running;
     const auto code_after = [&](const std::function<void(WebClient&)>& offend) {
         WebClient client = running.stream("");
@@ -114,7 +114,7 @@ TEST(AHostileStream, IsRefusedOrEndedWithAReason) {
               426);
 }
 
-TEST(AHostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
+TEST(HostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
     const Running running;
     const std::string head =
         "GET /api/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
@@ -151,7 +151,7 @@ TEST(AHostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
     EXPECT_EQ(client.answer().status, 101);
 }
 
-TEST(AHostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
+TEST(HostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
     Running running([](ServerSettings& settings) {
         settings.limits.messages_at_once = 3;
         settings.limits.messages_per_second = 1e-6;
@@ -165,7 +165,7 @@ TEST(AHostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
     EXPECT_TRUE(client.exchange({{"command", "stop"}}).value("done", false));
 }
 
-TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
+TEST(HostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
     Running running([](ServerSettings& settings) {
         settings.limits.requests_at_once = 4;
         settings.limits.requests_per_second = 1e-6;
@@ -179,7 +179,7 @@ TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
     EXPECT_TRUE(one.exchange({{"command", "stop"}}).value("done", false));
 }
 
-TEST(AHostileStream, ThatReadsNoAnswersIsLetGo) {
+TEST(HostileStream, ThatReadsNoAnswersIsLetGo) {
     Running running([](ServerSettings& settings) { settings.limits.texts_waiting = 50; });
     WebClient client(running.port(), false, true);
     ASSERT_EQ(client.upgrade().status, 101);
@@ -225,7 +225,7 @@ std::vector<std::array<std::int64_t, 3>> path_of_the_job(int connections, int& r
     return running.path();
 }
 
-TEST(AThousandConnections, AreRefusedAboveTheLimitAndDisturbNoMotion) {
+TEST(ThousandConnections, AreRefusedAboveTheLimitAndDisturbNoMotion) {
     rlimit files = {};
     ::getrlimit(RLIMIT_NOFILE, &files);
     files.rlim_cur = std::min<rlim_t>(files.rlim_max, 8192);

@@ -17,13 +17,13 @@ std::string bearer(const std::string& token) {
     return "Authorization: Bearer " + token + "\r\n";
 }
 
-class AServer : public testing::Test {
+class PageServer : public testing::Test {
   protected:
     Running running;
     WebClient client = running.client();
 };
 
-TEST_F(AServer, GivesAPageThatRunsNothingFromElsewhere) {
+TEST_F(PageServer, GivesAPageThatRunsNothingFromElsewhere) {
     const WebAnswer page = client.ask("GET", "/");
     EXPECT_EQ(page.status, 200);
     EXPECT_THAT(page.body, HasSubstr("its page has not been built"));
@@ -37,7 +37,7 @@ TEST_F(AServer, GivesAPageThatRunsNothingFromElsewhere) {
     EXPECT_EQ(head.status, 404);
 }
 
-TEST_F(AServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
+TEST_F(PageServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
     EXPECT_EQ(client.ask("HEAD", "/").status, 200);
     EXPECT_THAT(client.ask("GET", "/").body, HasSubstr("its page has not been built"));
     client.send("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\nGET /api/status HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -51,7 +51,7 @@ TEST_F(AServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
     EXPECT_EQ(client.receive().kind, -1) << "nothing comes behind it";
 }
 
-TEST_F(AServer, GivesABrokenHeadRequestNoBody) {
+TEST_F(PageServer, GivesABrokenHeadRequestNoBody) {
     for (const std::string& request :
          {std::string("HEAD / HTTP/1.1\r\nHost localhost\r\n\r\n"),
           "HEAD / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(9000, 'x') + "\r\n\r\n"}) {
@@ -64,7 +64,7 @@ TEST_F(AServer, GivesABrokenHeadRequestNoBody) {
     }
 }
 
-TEST_F(AServer, AnswersQueriesOfThisComputerWithoutAToken) {
+TEST_F(PageServer, AnswersQueriesOfThisComputerWithoutAToken) {
     const WebAnswer status = client.ask("GET", "/api/status");
     ASSERT_EQ(status.status, 200) << status.body;
     EXPECT_TRUE(status.json()["done"]);
@@ -72,7 +72,7 @@ TEST_F(AServer, AnswersQueriesOfThisComputerWithoutAToken) {
     EXPECT_EQ(client.ask("GET", "/api/openapi.json").json()["openapi"].get<std::string>().substr(0, 2), "3.");
 }
 
-TEST_F(AServer, TakesNoOrdersWithoutAToken) {
+TEST_F(PageServer, TakesNoOrdersWithoutAToken) {
     for (const char* command : {"enable", "take_control", "invite", "home"}) {
         const WebAnswer answer = client.ask("POST", std::string("/api/") + command, "{}");
         EXPECT_EQ(answer.status, 403) << command;
@@ -81,7 +81,7 @@ TEST_F(AServer, TakesNoOrdersWithoutAToken) {
     EXPECT_TRUE(running.audited("enable", 403));
 }
 
-TEST_F(AServer, PairsByACodeAndTakesOrdersWithItsToken) {
+TEST_F(PageServer, PairsByACodeAndTakesOrdersWithItsToken) {
     const std::string code = running.served->door().start_code();
     const WebAnswer paired = client.ask("POST", "/api/pair", nlohmann::json{{"code", code}, {"name", "anna"}}.dump());
     ASSERT_EQ(paired.status, 200) << paired.body;
@@ -96,7 +96,7 @@ TEST_F(AServer, PairsByACodeAndTakesOrdersWithItsToken) {
     EXPECT_TRUE(running.audited("pair", 403));
 }
 
-TEST_F(AServer, SlowsDownWhoTriesCodes) {
+TEST_F(PageServer, SlowsDownWhoTriesCodes) {
     WebAnswer answer;
     for (int i = 0; i < 6; ++i) answer = client.ask("POST", "/api/pair", "{\"code\":\"AAAA-AAAA\",\"name\":\"eve\"}");
     EXPECT_EQ(answer.status, 429);
@@ -104,7 +104,7 @@ TEST_F(AServer, SlowsDownWhoTriesCodes) {
     EXPECT_EQ(client.ask("POST", "/api/pair", "{\"name\":\"eve\"}").status, 400);
 }
 
-TEST_F(AServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
+TEST_F(PageServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
     EXPECT_EQ(client.ask("GET", "/api/status", "", bearer(std::string(64, '0'))).status, 401);
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Authorization: Basic YTpi\r\n").status, 401);
     const std::string anna = running.token("anna"), bert = running.token("bert", Role::observe);
@@ -120,7 +120,7 @@ TEST_F(AServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
     EXPECT_TRUE(running.audited("token", 401));
 }
 
-TEST_F(AServer, InvitesWithTheRoleThatWasAskedFor) {
+TEST_F(PageServer, InvitesWithTheRoleThatWasAskedFor) {
     const std::string anna = running.token("anna");
     const WebAnswer invited = client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(anna));
     ASSERT_EQ(invited.status, 200) << invited.body;
@@ -130,7 +130,7 @@ TEST_F(AServer, InvitesWithTheRoleThatWasAskedFor) {
     EXPECT_EQ(client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(paired.json()["token"])).status, 403);
 }
 
-TEST_F(AServer, StopsForEverybody) {
+TEST_F(PageServer, StopsForEverybody) {
     EXPECT_EQ(client.ask("POST", "/api/stop").status, 200);
     EXPECT_EQ(client.ask("POST", "/api/stop", "no JSON at all", bearer("nonsense")).status, 200);
     EXPECT_TRUE(running.audited("stop", 200));
@@ -138,7 +138,7 @@ TEST_F(AServer, StopsForEverybody) {
     EXPECT_EQ(other.ask("GET", "/api/stop").status, 405);
 }
 
-TEST_F(AServer, SaysWhatIsWrongWithARequest) {
+TEST_F(PageServer, SaysWhatIsWrongWithARequest) {
     const std::string anna = bearer(running.token("anna"));
     EXPECT_EQ(client.ask("GET", "/api/nothing").status, 404);
     const WebAnswer former = client.ask("POST", "/api/begin", "", anna);
@@ -158,7 +158,7 @@ TEST_F(AServer, SaysWhatIsWrongWithARequest) {
                 HasSubstr("nested deeper"));
 }
 
-TEST_F(AServer, IsAskedByItsOwnPagesOnly) {
+TEST_F(PageServer, IsAskedByItsOwnPagesOnly) {
     const auto with = [&](const std::string& host, const std::string& origin) {
         client.host = host;
         return client.ask("GET", "/api/status", "", origin.empty() ? "" : "Origin: " + origin + "\r\n").status;
@@ -182,7 +182,7 @@ TEST_F(AServer, IsAskedByItsOwnPagesOnly) {
     EXPECT_EQ(stranger.upgrade("Origin: http://rack.example\r\n").status, 403);
 }
 
-TEST(AServersGuard, TakesNamesAndOriginsThatItIsTold) {
+TEST(ServersGuard, TakesNamesAndOriginsThatItIsTold) {
     Running running([](ServerSettings& settings) {
         settings.hosts = {"Rack.Example"};
         settings.origins = {"http://localhost:5173"};
@@ -194,21 +194,21 @@ TEST(AServersGuard, TakesNamesAndOriginsThatItIsTold) {
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Origin: http://rack.example:1234\r\n").status, 200);
 }
 
-class APageFolder : public testing::Test {
+class PageFolder : public testing::Test {
   protected:
-    APageFolder() : folder(fs::temp_directory_path() / ("page-" + std::to_string(::getpid()))) {
+    PageFolder() : folder(fs::temp_directory_path() / ("page-" + std::to_string(::getpid()))) {
         fs::create_directories(folder / "page/assets");
         write("page/index.html", "<!doctype html>");
         write("page/assets/a.js", "1");
         write("secret.txt", "secret");
         fs::create_symlink(folder / "secret.txt", folder / "page/assets/link.txt");
     }
-    ~APageFolder() override { fs::remove_all(folder); }
+    ~PageFolder() override { fs::remove_all(folder); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
     fs::path folder;
 };
 
-TEST_F(APageFolder, IsServedFromMemoryByWholeNames) {
+TEST_F(PageFolder, IsServedFromMemoryByWholeNames) {
     Running running({}, *Page::read(folder / "page"));
     WebClient client = running.client();
     EXPECT_EQ(client.ask("GET", "/").body, "<!doctype html>");
@@ -225,7 +225,7 @@ TEST_F(APageFolder, IsServedFromMemoryByWholeNames) {
         EXPECT_EQ(other.ask("GET", path).status, 404) << path;
 }
 
-TEST_F(APageFolder, IsServedBelowAFolderOfAnotherPage) {
+TEST_F(PageFolder, IsServedBelowAFolderOfAnotherPage) {
     Page page;
     page.mount("/docs", *Page::read(folder / "page"));
     Running running({}, page);
@@ -239,7 +239,7 @@ TEST_F(APageFolder, IsServedBelowAFolderOfAnotherPage) {
         EXPECT_EQ(client.ask("GET", path).status, 404) << path;
 }
 
-TEST_F(APageFolder, IsServedWithoutARackToThisComputerAlone) {
+TEST_F(PageFolder, IsServedWithoutARackToThisComputerAlone) {
     auto site = *SiteServer::open(*Page::read(folder / "page"), 0);
     std::atomic<bool> done{false};
     std::thread thread([&] {
@@ -259,12 +259,12 @@ TEST_F(APageFolder, IsServedWithoutARackToThisComputerAlone) {
     thread.join();
 }
 
-TEST_F(APageFolder, WithoutAnIndexIsNoPage) {
+TEST_F(PageFolder, WithoutAnIndexIsNoPage) {
     EXPECT_THAT(Page::read(folder / "page/assets").error().message, HasSubstr("no index.html"));
     EXPECT_FALSE(Page::read(folder / "nowhere"));
 }
 
-TEST(AServersAddress, IsLoopbackUnlessThereIsTls) {
+TEST(ServersAddress, IsLoopbackUnlessThereIsTls) {
     try {
         Running running([](ServerSettings& settings) { settings.address = "0.0.0.0"; });
         FAIL() << "it was served";
@@ -279,7 +279,7 @@ TEST(AServersAddress, IsLoopbackUnlessThereIsTls) {
     }
 }
 
-TEST(AServersPort, ThatIsTakenIsToldWithWhatToDo) {
+TEST(ServersPort, ThatIsTakenIsToldWithWhatToDo) {
     Running running;
     try {
         Running second([&](ServerSettings& settings) { settings.port = running.port(); });

@@ -43,14 +43,14 @@ void make_certificate(const fs::path& certificate_file, const fs::path& key_file
     ::EVP_PKEY_free(key);
 }
 
-class ATlsServer : public testing::Test {
+class TlsServer : public testing::Test {
   protected:
-    ATlsServer() : folder(fs::temp_directory_path() / ("tls-" + std::to_string(::getpid()))) {
+    TlsServer() : folder(fs::temp_directory_path() / ("tls-" + std::to_string(::getpid()))) {
         fs::create_directories(folder);
         make_certificate(folder / "cert.pem", folder / "key.pem");
         make_certificate(folder / "other.pem", folder / "other_key.pem");
     }
-    ~ATlsServer() override { fs::remove_all(folder); }
+    ~TlsServer() override { fs::remove_all(folder); }
     Running::Change tls(const std::string& certificate = "cert.pem", const std::string& key = "key.pem") const {
         return [this, certificate, key](ServerSettings& settings) {
             settings.tls = TlsFiles{(folder / certificate).string(), (folder / key).string()};
@@ -60,7 +60,7 @@ class ATlsServer : public testing::Test {
     fs::path folder;
 };
 
-TEST_F(ATlsServer, ServesOtherAddressesToWhoIsPaired) {
+TEST_F(TlsServer, ServesOtherAddressesToWhoIsPaired) {
     Running running(tls());
     EXPECT_EQ(running.served->server().url().substr(0, 8), "https://");
     WebClient client(running.port(), true);
@@ -76,7 +76,7 @@ TEST_F(ATlsServer, ServesOtherAddressesToWhoIsPaired) {
     EXPECT_TRUE(stream.receive_until([](const json& message) { return message.contains("seq"); }).is_object());
 }
 
-TEST_F(ATlsServer, SaysNothingToWhoSpeaksWithoutTls) {
+TEST_F(TlsServer, SaysNothingToWhoSpeaksWithoutTls) {
     Running running(tls());
     WebClient client(running.port());
     EXPECT_EQ(client.ask("GET", "/").status, 0);
@@ -84,7 +84,7 @@ TEST_F(ATlsServer, SaysNothingToWhoSpeaksWithoutTls) {
     EXPECT_EQ(good.ask("POST", "/api/stop").status, 200);
 }
 
-TEST_F(ATlsServer, HearsStopInAFloodOfHandshakesThatEndNowhere) {
+TEST_F(TlsServer, HearsStopInAFloodOfHandshakesThatEndNowhere) {
     Running running(tls());
     const std::string half_a_hello("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
     for (const std::string& says : {std::string(), half_a_hello, std::string("GET / HTTP/1.1\r\n\r\n")})
@@ -95,7 +95,7 @@ TEST_F(ATlsServer, HearsStopInAFloodOfHandshakesThatEndNowhere) {
         }
 }
 
-TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
+TEST_F(TlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
     const auto why = [&](const Running::Change& change) -> std::string {
         try {
             Running running(change);
@@ -109,7 +109,7 @@ TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
     EXPECT_THAT(why(tls("key.pem", "key.pem")), HasSubstr("The certificate cannot be used"));
 }
 
-TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
+TEST_F(TlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
     fs::permissions(folder / "key.pem", fs::perms::others_read, fs::perm_options::add);
     try {
         Running running(tls());
@@ -121,7 +121,7 @@ TEST_F(ATlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
 }
 
 /// A client from another computer: its address is not a loopback address.
-TEST_F(ATlsServer, GivesNothingButThePageAndStopToUnauthenticatedClients) {
+TEST_F(TlsServer, GivesNothingButThePageAndStopToUnauthenticatedClients) {
     Running running(tls());
     PanelService service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
                          std::make_shared<NetworkExecutor>([](const std::function<void()>& work) { work(); }));

@@ -164,7 +164,7 @@ TEST(UnknownSender, SendsShortMessagesOnly) {
     }
 }
 
-TEST(AToken, IsVoidOnceItsBrowserWasForgotten) {
+TEST(Token, IsVoidOnceItsBrowserWasForgotten) {
     Running running;
     const std::string bearer = "Authorization: Bearer " + running.token("anna") + "\r\n";
     EXPECT_EQ(running.client().ask("GET", "/api/forget", "", bearer).status, 405);
