@@ -112,9 +112,17 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
     // V is the largest value within the widest range; R is then reduced until V gives the requested speed, rounded to
     // reach it.
     const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_drive_units);
-    const double range =
-        std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.min), widest);
-    return with_range(scale, drive, static_cast<std::int64_t>(range));
+    const auto with_v = [&](double units) {
+        const double range = std::floor(clock_hz * units / (drive.speed * pulses));
+        return with_range(scale, drive,
+                          static_cast<std::int64_t>(std::clamp(range, static_cast<double>(param::R.min), widest)));
+    };
+    // At the end of R, V cannot be reached by reducing R further: the next V in the widest range may be nearer.
+    RealSetting out = with_v(v);
+    if (RealSetting next = with_v(v + 1);
+        std::fabs(next.speed.error()) < std::fabs(out.speed.error()) && out.R == param::R.min)
+        out = std::move(next);
+    return out;
 }
 
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range) {

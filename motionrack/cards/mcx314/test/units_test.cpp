@@ -3,6 +3,7 @@
 #include <rapidcheck.h>
 
 #include <cmath>
+#include <limits>
 #include <motionrack/cards/mcx314/driver/real_axis.hpp>
 #include <motionrack/cards/mcx314/test/driver_rig.hpp>
 
@@ -21,6 +22,16 @@ void near(const Rounded& value, double unit, std::int64_t least, std::int64_t gr
     RC_ASSERT(std::fabs(value.real - static_cast<double>(value.value) * unit) <= 1e-9 * value.real);
     if (value.value > least && value.value < greatest)
         RC_ASSERT(std::fabs(value.real - value.asked) <= unit * 0.5000001);
+}
+
+/// The smallest relative excess over a speed (pulses/s) of any V and R up to `widest`.
+double least_excess(double speed, double widest) {
+    double out = std::numeric_limits<double>::infinity();
+    for (double v = 1; v <= 8'000; ++v) {
+        const double range = std::min(std::floor(8e6 * v / speed), widest);
+        if (range >= 16'000) out = std::min(out, 8e6 * v / range / speed - 1);
+    }
+    return out;
 }
 
 TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
@@ -43,17 +54,18 @@ TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
         near(set->acceleration, 125 * unit, 1, 8'000);
         near(set->deceleration, 125 * unit, 1, 8'000);
         if (set->s_curve) RC_ASSERT(set->jerk.value >= 1 && set->jerk.value <= 65'535);
-        // The speed is reached, with an excess of at most one step of R (unless even V = 1 is too fast).
-        RC_ASSERT(set->speed.error() >= -1e-9);
-        if (set->speed.value > 1) RC_ASSERT(set->speed.error() <= 1.0 / 15'999);
+        const double least = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
+                                       drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
+                                       drive.jerk * pulses / 62.5e6});
+        // The speed is reached, with an excess of at most one step of R; where no V and R reach it so, it is as near.
+        const double excess = least_excess(drive.speed * pulses, std::floor(8e6 / least));
+        RC_ASSERT(set->speed.error() <= std::max(excess, 1.0 / 15'999) + 1e-9);
+        RC_ASSERT(set->speed.error() >= -std::max(excess - 1.0 / 15'999, 0.0) - 1e-9);
         // Every requested value is within reach.
         for (const Rounded* value : {&set->start_speed, &set->acceleration, &set->deceleration})
             RC_ASSERT(value->value < 8'000 || value->error() > -1e-4);
         // A multiple finer by 1/4,000 would not suffice: V, or another value, would exceed its range, or the range is
         // at its end.
-        const double least = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
-                                       drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
-                                       drive.jerk * pulses / 62.5e6});
         if (set->speed.value > 1'000) RC_ASSERT(multiple <= least * 1.0012);
     }));
 }
