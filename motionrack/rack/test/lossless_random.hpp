@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <motionrack/rack/test/lossless_support.hpp>
 #include <random>
 
@@ -230,11 +231,50 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
+/// A host that is late at random instants: its axes stop dead there and lose steps, but the card sends each pulse of
+/// the program, and goes on in about its time. Where another axis has to lead the chain, it goes at least at 0.7 of it.
+inline void drive_late(std::uint64_t seed) {
+    ChordMaker random(seed, Arcs::some);
+    if (random.probes()) return;
+    const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
+    const ChordMaker::Program program = random.make();
+    RackConfig config = rack_of(random, profile);
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;
+    const double undisturbed = to_seconds(drive_with(config, program.text, {}).outcome.time);
+    Chance late(seed + 0x1a7e);
+    std::vector<std::pair<double, double>> waits(static_cast<std::size_t>(1 + late.pick(4)));
+    double waited = 0;
+    for (auto& [at, length] : waits) {
+        at = late.number(0.1, undisturbed);
+        length = late.even_on_log(0.001, 0.05);
+        waited += length + 0.3;
+    }
+    std::sort(waits.begin(), waits.end());
+    std::string told;
+    for (const auto& [at, length] : waits) told += fmt::format(" {:.4f} s at {:.4f} s", length, at);
+    SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} latency {} us, access {} ns, late{}", seed, profile,
+                             config.cards[0].mcx314.host_latency_us, config.cards[0].mcx314.bus_access_ns, told));
+    std::size_t next = 0;
+    const Driven driven = drive_with(config, program.text, {}, [&](Rack& rack) {
+        if (next == waits.size() || to_seconds(rack.kernel().now()) < waits[next].first) return;
+        rack.cards().front()->host().pass(from_seconds(waits[next++].second));
+    });
+    expect_end(driven, program.x, program.y);
+    EXPECT_LT(to_seconds(driven.outcome.time), 1.45 * undisturbed + waited);
+    for (const AxisOutcome& axis : driven.outcome.axes) {
+        EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start);
+        EXPECT_LE(axis.top.peak_velocity, 1.01 * axis.limits.max_velocity) << "axis " << axis.index;
+    }
+}
+
 /// A share of the programs, so that several processes run: every `shares`th from `share`, up to the first failure.
-inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise) {
+inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise,
+                        const std::function<void(std::uint64_t seed)>& drive) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", otherwise);
-    for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares)
-        drive_one(first + i, Arcs::some);
+    for (std::uint64_t i = share; i < count && !testing::Test::HasFailure(); i += shares) drive(first + i);
+}
+inline void drive_disturbed(std::uint64_t seed) {
+    drive_one(seed, Arcs::some);
 }
 
 }  // namespace motionrack::rack

@@ -9,7 +9,11 @@ class LosslessAtRandom : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Share, LosslessAtRandom, testing::Range<std::uint64_t>(0, shares));
 
 TEST_P(LosslessAtRandom, NoAxisExceedsItsMaxVelocityStepWhateverIsCommandedOnTheWay) {
-    drive_share(GetParam(), shares, 200);
+    drive_share(GetParam(), shares, 200, drive_disturbed);
+}
+
+TEST_P(LosslessAtRandom, ALateHostCostsTimeAndNoPulse) {
+    drive_share(GetParam(), shares, 40, drive_late);
 }
 
 // A segment of two pulses that is cut for a deceleration may have one of them by rounding. That pulse is over before

@@ -38,7 +38,7 @@ bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
 }
 
 unsigned axes_of(const Segment& segment) {
-    unsigned out = segment.auxiliary_channel >= 0 ? 1u << segment.auxiliary_channel : 0;
+    unsigned out = segment.auxiliary_pulses != 0 ? 1u << segment.auxiliary_channel : 0;
     for (std::size_t i = 0; i < segment.axis_count; ++i) out |= 1u << segment.axes[i];
     return out;
 }
@@ -48,6 +48,26 @@ bool was_stopped(Driver& driver, unsigned axes) {
     for (int c = 0; c < channel_count; ++c)
         if ((axes >> c & 1) != 0 && !driver.axis_status(c).why_stopped().empty()) return true;
     return false;
+}
+
+/// Returns true if the chip has all pulses before this segment, and none beyond it.
+bool is_within(Driver& driver, const Pulses4& start, const Segment& segment, int auxiliary) {
+    Pulses4 end = start;
+    for (std::size_t i = 0; i < segment.axis_count; ++i) end[segment.axes[i]] += segment.moves[i];
+    for (int c = 0; c < channel_count; ++c) {
+        if (c == auxiliary) continue;
+        const auto [low, high] = std::minmax(start[static_cast<std::size_t>(c)], end[static_cast<std::size_t>(c)]);
+        if (const std::int64_t here = driver.ReadLPS(c); here < low || here > high) return false;
+    }
+    return true;
+}
+
+/// The chip takes a segment whose last word comes after its standstill as a chain of its own, which the segment's first
+/// axis drives: slowly, until that is noticed.
+Result<void> prepare_to_drive(Driver& driver, unsigned axis) {
+    driver.SetSCurve(axis, false);
+    MOTIONRACK_CHECK(driver.SetSV(axis, 1));
+    return driver.SetV(axis, 1);
 }
 
 }  // namespace
@@ -139,6 +159,7 @@ Result<void> ChipAxisGroup::play_pause(const Segment& segment) {
 
 Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
+    prepared_ = 1u << generator_;
     chain_axes_ = 0;
     catches_up_ = false;
     s_curve_ = segment.s_curve;
@@ -164,6 +185,10 @@ Result<void> ChipAxisGroup::start_chain(const Segment& segment) {
 /// Queues the segment behind the running one. If the host is late, the chip is stationary at the junction, and the
 /// segment starts from there.
 Result<void> ChipAxisGroup::queue(const Segment& segment) {
+    if (const unsigned first = 1u << segment.axes[0]; (prepared_ & first) == 0) {
+        MOTIONRACK_CHECK(prepare_to_drive(driver_, first));
+        prepared_ |= first;
+    }
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
     if (was_stopped(driver_, chain_axes_) || (probing_ && probe_hit())) return stopped_by_machine();
@@ -181,9 +206,7 @@ Result<void> ChipAxisGroup::restart_late(const Segment& segment) {
     clear_interrupts();
     chain_axes_ = 0;
     catches_up_ = true;
-    if (generator_ == segment.axes[0]) return {};
-    generator_ = segment.axes[0];
-    written_speed_ = written_acceleration_ = 0;
+    if (std::exchange(generator_, segment.axes[0]) != segment.axes[0]) written_speed_ = written_acceleration_ = 0;
     MOTIONRACK_CHECK(driver_.SetSV(1u << generator_, segment.rest_speed));
     return write_speed(segment);
 }
@@ -211,11 +234,13 @@ Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
             // A segment that runs at once may have started from standstill: the chip may have stopped before the last
             // word arrived.
             if (!first || (driver_.read_interrupts(generator_) & field("RR3", "DEND").mask) == 0) return {};
-            if (was_stopped(driver_, chain_axes_ & ~axes_of(queued))) return stopped_by_machine();
+            if (was_stopped(driver_, chain_axes_ & ~axes_of(queued)) ||
+                !is_within(driver_, expected_, queued, auxiliary_))
+                return stopped_by_machine();
             return restart_late(queued);
         }
         if (!status.interpolating()) {
-            if (status.error(xyzu)) return stopped_by_machine();
+            if (was_stopped(driver_, chain_axes_ | axes_of(queued))) return stopped_by_machine();
             ran_alone_ = true;  // it has already run and ended
             return {};
         }

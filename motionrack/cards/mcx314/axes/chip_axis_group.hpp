@@ -97,6 +97,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::int32_t written_acceleration_ = 0;
     std::int32_t braking_acceleration_ = 1;  ///< A of the running segment for a requested stop
     int generator_ = 0;
+    unsigned prepared_ = 0;        ///< channels that may drive the running chain; see prepare_to_drive
     unsigned chain_axes_ = 0;      ///< channels of the running chain's segments so far
     std::int32_t rest_speed_ = 1;  ///< V from which the running segment may stop at once
     bool s_curve_ = false;         ///< the running chain is an S-curve

@@ -9,7 +9,11 @@ class ThousandsOfPrograms : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Share, ThousandsOfPrograms, testing::Range<std::uint64_t>(0, shares));
 
 TEST_P(ThousandsOfPrograms, NoAxisExceedsItsMaxVelocityStepWhateverIsCommandedOnTheWay) {
-    drive_share(GetParam(), shares, 10'000);
+    drive_share(GetParam(), shares, 10'000, drive_disturbed);
+}
+
+TEST_P(ThousandsOfPrograms, ALateHostCostsTimeAndNoPulse) {
+    drive_share(GetParam(), shares, 1'000, drive_late);
 }
 
 }  // namespace
