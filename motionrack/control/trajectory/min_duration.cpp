@@ -16,6 +16,9 @@ constexpr double no_cap = 1e200;
 /// Cells of a curved segment, and their approximate number for a whole curve.
 constexpr double min_cells = 16, max_cells = 256, cells_of_curve = 2000;
 constexpr double much = 0.2;
+/// A segment below this share of the curve, which may be left over where blends meet, costs no time, and its curvature
+/// is rounding.
+constexpr double negligible = 1e-8;
 
 /// A part of a segment. In its middle an axis' acceleration is from * (w at its start) + to * (w at its end).
 struct Cell {
@@ -45,6 +48,7 @@ struct Grid {
 
   private:
     void add(const CubicSegment& piece, const MachineLimits& limits, double curve_length) {
+        if (piece.length < negligible * curve_length) return;
         const bool straight = is_straight(piece);
         const int count = straight
                               ? 1

@@ -22,6 +22,12 @@ TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAMoveBarelyMove
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
+/// Between the blends of moves of nanometres, 1e-15 mm of the curve are left over.
+TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAlmostNothingIsLeftOfAMove) {
+    const ride_test::Fault fault = ride_test::fault_of(ride_test::WildMaker(58884117).program());
+    EXPECT_EQ(fault.name, "") << fault.text;
+}
+
 /// The move of X is far below a pulse, so that the next move makes it, too. The feed of that one is degrees per second,
 /// although X moves a little.
 TEST(OfflineTrajectoryOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
