@@ -76,6 +76,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"databoard4002/map", {"base"}},
     {"databoard4002/model", {"base", "sim", "databoard4002/map"}},
     {"databoard4002/driver", {"base", "databoard4002/map"}},
+    {"databoard4002/library", {"base", "databoard4002/map", "databoard4002/driver"}},
     {"ioflex02/map", {"base"}},
     {"ioflex02/model", {"base", "sim", "ioflex02/map"}},
     {"ioflex02/driver", {"base", "ioflex02/map"}},
@@ -102,6 +103,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
       "databoard4002/map",
       "databoard4002/model",
       "databoard4002/driver",
+      "databoard4002/library",
       "databoard4002/axes",
       "ioflex02/map",
       "ioflex02/model",
@@ -137,8 +139,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
     {"python",
      {"base", "sim", "control", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library",
-      "databoard4002/map", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
-      "rtc5/model"}},
+      "databoard4002/map", "databoard4002/driver", "databoard4002/library", "ioflex02/driver", "grating_bus/model",
+      "grating_bus/driver", "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {

@@ -43,8 +43,8 @@ struct ChannelResult {
     std::string name, a, b, z;  ///< z: "" if absent
     std::int64_t count = 0;
     std::uint64_t up = 0, down = 0, illegal = 0, indexes = 0;
-    double seconds = 0;        ///< from the channel's first sample to the last
-    double mean_per_s = 0;     ///< count / seconds; 0 for no duration
+    double seconds = 0;                ///< from the channel's first sample to the last
+    double mean_per_s = 0;             ///< count / seconds; 0 for no duration
     std::optional<VelocityPeak> peak;  ///< absent if the capture is shorter than a window
     std::vector<IllegalAt> first_illegal;
     std::vector<IndexAt> first_indexes;

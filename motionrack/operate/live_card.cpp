@@ -120,7 +120,7 @@ void LiveCard::keep_up() {
 }
 
 void LiveCard::heed_stop() {
-    if (!stop_requested()) return;
+    if (stopping_ || !stop_requested()) return;
     if (!stopped_) stopped_ = now();
     gives_up_ = ++stop_waits_ > min_stop_waits && now() - *stopped_ > stop_patience;
 }
@@ -149,12 +149,13 @@ bool LiveCard::stands_after_stop(FunctionLibrary& library) {
 
 LiveStop LiveCard::stop(FunctionLibrary& library) {
     gives_up_ = false;
+    stopping_ = true;
     const std::optional<Error> refused = lost_;
     if (!refused && stands_after_stop(library)) return {true, ""};
     const std::string why = lost_ ? lost_->message : "";
     if (why.empty())
         return {false, fmt::format("An axis of card {} at {} still moves after {} polls, although the quick stop of "
-                                   "all axes was written before each. {}Begin the service again at standstill.",
+                                   "all axes was commanded before each. {}Begin the service again at standstill.",
                                    place_.card, place_.place, max_live_looks, by_its_wires)};
     const Result<void> opened = open_port();
     if (opened && stands_after_stop(library))

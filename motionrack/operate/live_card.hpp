@@ -105,6 +105,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     std::optional<Instant> stopped_;  ///< since when a function has waited with a stop in force
     int stop_waits_ = 0;              ///< waits since then
     bool gives_up_ = false;           ///< the wait was too long: an axis does not stop
+    bool stopping_ = false;           ///< the stop itself waits for the card
 };
 
 }  // namespace motionrack::operate

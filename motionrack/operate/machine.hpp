@@ -227,7 +227,6 @@ class Machine {
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
     std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
-    Service service_{*this};
     // status and listeners
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;
@@ -235,6 +234,7 @@ class Machine {
     std::int64_t next_alarm_ = 1;
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;
+    Service service_{*this};  ///< destroyed first: the stop of a real card takes time, in which slices run
 };
 
 /// Returns the rack's time and interrupt line for waits.

@@ -169,22 +169,23 @@ class Databoard4002Card final : public MotionCard {
             fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
     Result<control::Axis*> axis(const RackConfig& config, char letter) override {
-        if (axis_) return axis_.get();
+        if (axis_ && !given_away_) return axis_.get();
         const RackAxis* found = config.axis(letter);
         MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
         const Databoard4002Settings& own = config.card(name_)->databoard4002;
         db::DriverSettings settings;
         settings.select = static_cast<std::uint8_t>(own.select);
-        driver_ = std::make_unique<db::Driver>(port_, port_, settings);
-        auto made = std::make_unique<db::PositionAxis>(*driver_, port_, axis_settings(config, *found, own.counting));
+        auto driver = std::make_unique<db::Driver>(port_, port_, settings);
+        auto made = std::make_unique<db::PositionAxis>(*driver, port_, axis_settings(config, *found, own.counting));
         MOTIONRACK_CHECK(made->set_up());
         axis_ = std::move(made);
+        driver_ = std::move(driver);
+        given_away_ = false;
         return axis_.get();
     }
     std::span<const FunctionInfo> library_functions() const override { return db::library_functions(); }
     std::unique_ptr<FunctionLibrary> take_library() override {
-        axis_.reset();
-        driver_.reset();
+        given_away_ = true;  // the axis group keeps this axis until the next one is made
         return std::make_unique<db::CommandLibrary>(port_, port_, static_cast<std::uint8_t>(select_));
     }
     double accel_reserve() const override { return 0; }
@@ -213,7 +214,8 @@ class Databoard4002Card final : public MotionCard {
     sim::VirtualBytePort port_;
     std::unique_ptr<db::Driver> driver_;
     std::unique_ptr<db::PositionAxis> axis_;
-    bool ideal_ = false;  // an ideal motor follows its pulses
+    bool given_away_ = false;  // to a library
+    bool ideal_ = false;       // an ideal motor follows its pulses
 };
 
 }  // namespace

@@ -50,7 +50,7 @@ class PanelOnADataBoard : public PanelOnACard {
 TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_THAT(served->said, HasSubstr("real     bench at " + card.place));
     begin();
-    good("version", json::object(), "1 version");
+    good("version", json::object(), "32 version of its program");
     good("move_to", {{"counts", 250}, {"milliseconds", 10'000}}, "The card is at 250 counts.");
     good("move_by", {{"counts", -290}, {"milliseconds", 10'000}}, "The card is at -40 counts.");
     good("position", json::object(), "-40 counts");
@@ -58,7 +58,7 @@ TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     const json shown = served->get("card?name=bench");
     EXPECT_EQ(shown["values"][0], (json{{"name", "POSITION"}, {"value", -40}})) << shown;
     EXPECT_EQ(shown["registers"][0]["name"], "STAT") << shown;
-    EXPECT_THAT(call("move_to", {{"counts", 9'000'000}, {"milliseconds", 1000}})["error"]["message"],
+    EXPECT_THAT(call("move_to", {{"counts", 9'000'000}, {"milliseconds", 1000}})["error"]["message"].get<std::string>(),
                 HasSubstr("counts is 9000000, but must be -8388608 to 8388607 counts"));
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
     EXPECT_TRUE(alarm(*served).is_null());
@@ -116,6 +116,15 @@ TEST_F(PanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
     EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
     EXPECT_EQ(rate(), 0);
     EXPECT_FALSE(alarm(*served)["active"]);
+}
+
+TEST_F(PanelOnADataBoard, IsStoppedThroughAPortThatWasOpenedAgain) {
+    drive();
+    card.refuse(1);
+    until("an alarm", [&] { return !alarm(*served).is_null(); });
+    EXPECT_THAT(alarm(*served)["text"].get<std::string>(),
+                AllOf(HasSubstr("No such device"), HasSubstr("was opened again"), HasSubstr("they stand")));
+    EXPECT_EQ(rate(), 0);
 }
 
 }  // namespace

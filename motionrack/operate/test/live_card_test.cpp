@@ -58,7 +58,7 @@ MachineSettings settings_of(const CardFile& file) {
 
 /// A machine of two axes, and a real card beside it.
 struct Real : Operated {
-    explicit Real(const CardFile& file) : Operated(two_axes(beside), settings_of(file)) {}
+    explicit Real(const CardFile& file, const char* more = beside) : Operated(two_axes(more), settings_of(file)) {}
     void call(double seconds, const std::string& function, const Arguments& arguments) {
         at(seconds, [=, this](Machine& m) {
             const Result<void> taken = m.service().call(
@@ -89,7 +89,7 @@ TEST(RealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         EXPECT_THAT(m.status().reason,
                     HasSubstr("card bench is in service by dora; it is a real one, at " + file.place()));
         EXPECT_TRUE(m.status().axes[0].position_valid) << "it is another card's";
-        const auto second = live::CardPort::open(m.service().live()->place().spec, m.rack().card("bench")->map());
+        const auto second = live::open_card(m.service().live()->place().spec, m.rack().card("bench")->map());
         ASSERT_FALSE(second);
         EXPECT_EQ(second.error().kind, ErrorKind::refused) << "no other program drives it meanwhile";
     });
@@ -98,11 +98,22 @@ TEST(RealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
         EXPECT_EQ(m.service().live(), nullptr);
         EXPECT_FALSE(m.status().real);
         EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_TRUE(live::CardPort::open(m.service().live_place("bench")->spec, m.rack().card("bench")->map()));
+        EXPECT_TRUE(live::open_card(m.service().live_place("bench")->spec, m.rack().card("bench")->map()));
     });
     o.run(0.5);
     EXPECT_THAT(o.said, ElementsAre("Written.", "0 pulses", "The service of card bench has ended."));
     EXPECT_TRUE(o.alarms().empty());
+}
+
+TEST(RealCard, WithBytePortsIsNotTakenWhileItIsNotReady) {
+    CardFile file("/dev/zero");  // STAT is 0
+    Real o(file, "[card.bench]\ntype = \"databoard4002\"\n");
+    o.call(0.05, "position", {});
+    o.run(0.8);
+    ASSERT_EQ(o.said.size(), 1U);
+    EXPECT_THAT(o.said[0], HasSubstr("Card 13 was not Ready for P within 127 ms"));
+    EXPECT_TRUE(o.alarms().empty());
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
 TEST(RealCard, LeavesTheVirtualOneAndTheMachineAlone) {

@@ -100,6 +100,25 @@ TEST(Service, OfACardThatPositionsItsAxisGivesItBack) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
+TEST(Service, OfACardThatPositionsItsAxisEndsAtALimitSwitch) {
+    Served o(carriage());
+    o.begin(0.05, "board");
+    o.call(0.15, "set_rate", {{"rate", 16'000}}, "board");
+    o.call(0.2, "move_by", {{"counts", 100'000}, {"milliseconds", 60'000}}, "board");
+    o.at(0.5, [](Machine& m) {
+        EXPECT_NE(m.status().axes[0].velocity, 0);
+        EXPECT_TRUE(m.wires().force("X.limit_plus", 0));
+    });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_FALSE(m.service().on());
+        EXPECT_EQ(m.status().axes[0].velocity, 0);
+    });
+    o.run(1.2);
+    ASSERT_EQ(o.said.size(), 3U);
+    EXPECT_NE(o.said[2].find("Stopped on request"), std::string::npos) << o.said[2];
+}
+
 TEST(Service, DrivesNothingElse) {
     Served o;
     o.begin(0.05);

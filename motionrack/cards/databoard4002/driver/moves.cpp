@@ -22,8 +22,9 @@ Result<Events> Driver::enable_events(std::uint8_t enables) {
 Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting how) {
     const Instant until = later(interrupt_.now(), timeout);
     while (true) {
+        const bool stop = interrupt_.stop_requested();
         const StatusByte now = status();
-        if (now.event()) {
+        if (now.event() && !stop) {
             MOTIONRACK_TRY(const Events seen, enable_events(enables_));
             if (seen.was_reset())
                 return fail(ErrorKind::machine,
@@ -33,7 +34,7 @@ Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting
             if (seen.word & wanted) return seen;
             continue;
         }
-        if (interrupt_.stop_requested()) {
+        if (stop) {
             MOTIONRACK_CHECK(quit());
             return fail(ErrorKind::stopped,
                         fmt::format("Stopped on request; the move of card {} was ended by Q.", settings_.select));

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <deque>
 #include <motionrack/cards/databoard4002/driver/slope.hpp>
 #include <motionrack/cards/databoard4002/library/calls.hpp>
 #include <string>
@@ -121,8 +122,9 @@ Result<CallAnswer> design(Driver& driver, Values v) {
 /// A function that is a command of the card; its name is the Driver's.
 LibraryRow row_of(std::string_view name, const CommandInfo& command, Call call,
                   std::span<const ArgumentInfo> arguments = {}, std::string_view returns = {}) {
-    FunctionInfo info{name, commands, command.meaning, arguments, returns};
-    return {info, call};
+    static std::deque<std::string> meanings;  // where a string stays in its place
+    meanings.push_back(fmt::format("Command {}. {}.", command.name, command.meaning));
+    return {{name, commands, meanings.back(), arguments, returns}, call};
 }
 
 const std::array rows = {
@@ -142,7 +144,7 @@ const std::array rows = {
     row_of("set_rate", command_named(map::commands, "R"), set<int, &Driver::set_rate>, rate_data),
     row_of("rate", command_named(map::commands, "R"), ask<int, &Driver::rate>, {},
            "negative backwards, 0 at standstill"),
-    row_of("version", command_named(map::commands, "V"), ask<int, &Driver::version>, {}, "version"),
+    row_of("version", command_named(map::commands, "V"), ask<int, &Driver::version>, {}, "version of its program"),
     row_of("clear_watch_out", command_named(map::commands, "W"), give<&Driver::clear_watch_out>),
     LibraryRow{{"status", events, "Reads STAT, at any time.", {}, "STAT"}, status},
     LibraryRow{{"enable_events", events, "Writes the enables (C4) and reads the EVENT word, which it frees.",

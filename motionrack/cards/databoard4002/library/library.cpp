@@ -1,6 +1,8 @@
 // Start, calls and stop.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <motionrack/cards/databoard4002/library/calls.hpp>
 
 namespace motionrack::databoard4002 {
@@ -33,8 +35,10 @@ std::span<const FunctionInfo> library_functions() {
 }
 
 void GuardedBytePort::out(std::uint8_t port, std::uint8_t value) {
-    const bool ends_move = port == ports::CS || (port == ports::C2 && value == command("Q"));
-    if (ends_move || !host_.stop_requested()) port_.out(port, value);
+    constexpr std::array harmless = {command("D"), command("P"), command("Q"), command("R"), command("V")};
+    const bool passes = port == ports::CS || port == ports::C4 ||
+                        (port == ports::C2 && std::find(harmless.begin(), harmless.end(), value) != harmless.end());
+    if (passes || !host_.stop_requested()) port_.out(port, value);
 }
 
 CommandLibrary::CommandLibrary(BytePort& port, Interrupt& host, std::uint8_t select)

@@ -10,7 +10,8 @@ namespace motionrack::databoard4002 {
 /// The card's commands, one each, then status and events, complete moves and the slope.
 std::span<const FunctionInfo> library_functions();
 
-/// Card access of a driver that a stop ends: it may still end its move with Q; nothing else is written.
+/// Card access of a driver that a stop ends: it may still end its move with Q, free events and read; no argument and no
+/// other command is written.
 class GuardedBytePort final : public BytePort {
   public:
     GuardedBytePort(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}

@@ -53,8 +53,10 @@ constexpr std::int64_t thousand_hz = 16'384 - 400;
 TEST_F(Databoard4002Library, HasEachCommandOfTheCard) {
     std::string meanings;
     for (const FunctionInfo& function : library.functions()) meanings += std::string(function.meaning) + '\n';
-    for (const CommandInfo& command : map::commands)
-        if (command.name != "S") EXPECT_THAT(meanings, HasSubstr(std::string(command.meaning)));
+    for (const CommandInfo& command : map::commands) {
+        if (command.name == "S") continue;  // written by design_slope
+        EXPECT_THAT(meanings, HasSubstr(std::string(command.meaning)));
+    }
 }
 
 TEST_F(Databoard4002Library, MovesAndTellsWhereItIs) {
@@ -75,10 +77,11 @@ TEST_F(Databoard4002Library, FollowsASlopeThatItDesigns) {
     EXPECT_THAT(text("design_slope", {10'000, 100'000, 1000, 0}), HasSubstr("48 intervals up to 10000 counts/s"));
     EXPECT_EQ(text("on_regulation"), "Given.");
     EXPECT_EQ(text("move_to", {5000, 2000}), "The card is at 5000 counts.");
-    EXPECT_THAT(text("design_slope", {400'001, 100'000, 1000, 0}), HasSubstr("Nothing"));
+    EXPECT_THAT(text("design_slope", {400'001, 100'000, 1000, 0}), HasSubstr("No table was made"));
 }
 
 TEST_F(Databoard4002Library, ReadsStatusAndEvents) {
+    time.pass(milliseconds(1));  // the card works on the last access
     EXPECT_THAT(text("status"), HasSubstr("READY: the card takes an access"));
     EXPECT_EQ(text("enable_events", {event::POSITION}), "EVENT 00h. No event had happened.");
     EXPECT_EQ(text("set_rate", {thousand_hz}), "Written.");
