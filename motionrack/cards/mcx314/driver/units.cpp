@@ -118,11 +118,10 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
                           static_cast<std::int64_t>(std::clamp(range, static_cast<double>(param::R.min), widest)));
     };
     // At the end of R, V cannot be reached by reducing R further: the next V in the widest range may be nearer.
-    RealSetting out = with_v(v);
-    if (RealSetting next = with_v(v + 1);
-        std::fabs(next.speed.error()) < std::fabs(out.speed.error()) && out.R == param::R.min)
-        out = std::move(next);
-    return out;
+    const RealSetting own = with_v(v);
+    if (own.R > param::R.min) return own;
+    const RealSetting next = with_v(v + 1);
+    return std::fabs(next.speed.error()) < std::fabs(own.speed.error()) ? next : own;
 }
 
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range) {
