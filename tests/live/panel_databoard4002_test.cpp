@@ -41,8 +41,14 @@ class PanelOnADataBoard : public PanelOnACard {
         good("go", json::object(), "Given.");
         good("rate", json::object(), std::to_string(thousand_hz) + " negative backwards, 0 at standstill");
     }
+    void expect_standing_after_another_service() const {
+        begin();
+        end_service();
+        EXPECT_EQ(rate(), 0);
+        EXPECT_FALSE(alarm(*served)["active"]);
+    }
     void until_stopped(ServedLink& link) const {
-        until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
+        until_service_ended(link);
         EXPECT_EQ(rate(), 0);
     }
 };
@@ -60,7 +66,7 @@ TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_EQ(shown["registers"][0]["name"], "STAT") << shown;
     EXPECT_THAT(call("move_to", {{"counts", 9'000'000}, {"milliseconds", 1000}})["error"]["message"].get<std::string>(),
                 HasSubstr("counts is 9000000, but must be -8388608 to 8388607 counts"));
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    end_service();
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
@@ -82,7 +88,7 @@ TEST_F(PanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
 
 TEST_F(PanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
     drive();
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    end_service();
     until_stopped(*served);
     drive();
     EXPECT_EQ(served->end(SIGTERM), 0);
@@ -98,10 +104,7 @@ TEST_F(PanelOnADataBoard, AlarmsWhereItsPortVanishes) {
                 AllOf(HasSubstr("No such device"), HasSubstr("was not written"),
                       HasSubstr("press the emergency stop that cuts the motors' power")));
     card.refuse(0);
-    begin();
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
-    EXPECT_EQ(rate(), 0);
-    EXPECT_FALSE(alarm(*served)["active"]);
+    expect_standing_after_another_service();
 }
 
 TEST_F(PanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
@@ -112,10 +115,7 @@ TEST_F(PanelOnADataBoard, AlarmsWhereItsSlotIsEmpty) {
     EXPECT_THAT(alarm(*served)["text"].get<std::string>(), HasSubstr("No card answers under the number 13"));
     EXPECT_TRUE(alarm(*served)["active"]);
     card.remove(false);
-    begin();
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
-    EXPECT_EQ(rate(), 0);
-    EXPECT_FALSE(alarm(*served)["active"]);
+    expect_standing_after_another_service();
 }
 
 TEST_F(PanelOnADataBoard, IsStoppedThroughAPortThatWasOpenedAgain) {

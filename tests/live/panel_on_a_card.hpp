@@ -85,6 +85,12 @@ class PanelOnACard : public testing::Test {
         const nlohmann::json answer = call(function, arguments);
         EXPECT_EQ(answer.value("text", ""), text) << function << ": " << answer;
     }
+    void end_service() const {
+        EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    }
+    static void until_service_ended(ServedLink& link) {
+        until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
+    }
     static void until(const std::string& what, const std::function<bool()>& is) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
         while (!is()) {

@@ -33,7 +33,7 @@ class PanelOnARealCard : public PanelOnACard {
         ASSERT_EQ(drives(), x_drives);
     }
     void until_stopped(ServedLink& link) const {
-        until("the service has ended", [&] { return link.status().value("service", "?").empty(); });
+        until_service_ended(link);
         EXPECT_EQ(drives(), 0U);
     }
 };
@@ -59,7 +59,7 @@ TEST_F(PanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(ended.contains("done")) << ended;
     good("ReadLPS", {{"axis", 1}}, "1500 pulses");
     good("ReadLPS", {{"axis", 2}}, "100 pulses");
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    end_service();
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
@@ -146,7 +146,7 @@ TEST_F(PanelOnARealCard, AlarmsWhereItsPortVanishes) {
     EXPECT_THAT(refused["error"]["message"].get<std::string>(), HasSubstr("No such device"));
     card.refuse(0);
     good("ReadLPS", {{"axis", 1}}, "0 pulses");
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    end_service();
     EXPECT_EQ(drives(), 0U);
     EXPECT_FALSE(alarm(*served)["active"]);
 }
@@ -165,7 +165,7 @@ TEST_F(PanelOnARealCard, AlarmsWhereItsSlotIsEmpty) {
     EXPECT_TRUE(alarm(*served)["active"]);
     card.remove(false);
     good("ReadLPS", {{"axis", 1}}, "0 pulses");
-    EXPECT_TRUE(served->post("service", {{"card", "bench"}, {"on", false}}).contains("done"));
+    end_service();
     EXPECT_EQ(drives(), 0U);
     EXPECT_FALSE(alarm(*served)["active"]);
 }
