@@ -20,8 +20,8 @@ struct Task {
 /// Random tasks: limits within an order of magnitude, velocities up to `moving` of the limit.
 std::vector<Task> tasks(double moving) {
     std::mt19937_64 random(20261122);
-    const auto between = [&](double least, double most) {
-        return least + (most - least) * static_cast<double>(random() >> 11) * 0x1p-53;
+    const auto between = [&](double min, double max) {
+        return min + (max - min) * static_cast<double>(random() >> 11) * 0x1p-53;
     };
     std::vector<Task> out(task_count);
     for (Task& t : out) {
@@ -31,8 +31,8 @@ std::vector<Task> tasks(double moving) {
         for (KinematicState* state : {&t.from, &t.to}) {
             state->position = between(-100, 100);
             // limits acceleration so that half of the velocity remains
-            const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.velocity * t.limits.jerk));
-            state->accel = moving * between(-most, most);
+            const double max_accel = std::fmin(t.limits.accel, std::sqrt(t.limits.velocity * t.limits.jerk));
+            state->accel = moving * between(-max_accel, max_accel);
             const double room = t.limits.velocity - 0.5 * state->accel * state->accel / t.limits.jerk;
             state->velocity = moving * between(-room, room);
         }

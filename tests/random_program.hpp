@@ -85,7 +85,7 @@ class ProgramMaker {
         if (half < 0.005) return;
         const double radius = rounded(half * number(1.02, 3) + 0.002);
         // R > 0: at most half a turn, bulging by less than the half chord; R < 0: more than half a turn.
-        const bool most = half < 5 && pick(3) == 0;
+        const bool major_arc = half < 5 && pick(3) == 0;
         out_.text +=
             fmt::format("G{} G{} {}{:.3f} {}{:.3f}", 17 + plane, 2 + pick(2), "XYZ"[first], a, "XYZ"[second], b);
         at_[first] = a;
@@ -100,7 +100,7 @@ class ProgramMaker {
             out_.text += fmt::format(" A{:.3f}", at_[3]);
             out_.chords = true;
         }
-        out_.text += fmt::format(" R{:.3f} F{}\n", most ? -radius : radius, feed());
+        out_.text += fmt::format(" R{:.3f} F{}\n", major_arc ? -radius : radius, feed());
         out_.curves = true;
     }
 

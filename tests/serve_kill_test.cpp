@@ -50,9 +50,7 @@ TEST_F(RackServer, LosesNothingAcknowledgedInAHundredKills) {
     const auto seed = static_cast<std::uint32_t>(seed_from_environment());
     SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);
-    const auto among = [&](int least, int greatest) {
-        return std::uniform_int_distribution<int>(least, greatest)(random);
-    };
+    const auto among = [&](int min, int max) { return std::uniform_int_distribution<int>(min, max)(random); };
     std::vector<std::string> acknowledged;
     std::string ran;
     const auto kills = static_cast<int>(cases("MOTIONRACK_KILLS", 100));

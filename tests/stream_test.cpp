@@ -281,14 +281,14 @@ TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMo
             if (step.kind == control::gcode::CanonCallKind::output)
                 at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         });
-        double slowest = 1e9;
+        double min_velocity = 1e9;
         w.on_slice = [&] {
             const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
-            if (x > 8 && x < 12) slowest = std::min(slowest, w.rack.axes()[0].machine->velocity());
+            if (x > 8 && x < 12) min_velocity = std::min(min_velocity, w.rack.axes()[0].machine->velocity());
         };
         seconds_of(w, "G21 G90 F1200\nG1 X10\n" + between + "\nG1 X20\nM2\n");
         EXPECT_EQ(at.size(), 1u);
-        return std::pair(slowest, at.at(0));
+        return std::pair(min_velocity, at.at(0));
     };
     const auto [at_once, at_once_place] = run("M64 P1");
     EXPECT_LT(at_once, 5);

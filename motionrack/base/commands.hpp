@@ -37,8 +37,8 @@ constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) 
             return {"the command ", command.name, " has a table of data, which has no range"};
         if (command.min > command.max) return {"the range of the command ", command.name, " is upside down"};
         const std::int64_t values = std::int64_t{1} << (table ? 0 : 8 * command.data_bytes);
-        const std::int64_t least = command.data_bytes == 0 ? 0 : -values / 2;
-        if (command.min < least || command.max >= values)
+        const std::int64_t min_value = command.data_bytes == 0 ? 0 : -values / 2;
+        if (command.min < min_value || command.max >= values)
             return {"the range of the command ", command.name, " does not fit its bytes of data"};
     }
     return {};

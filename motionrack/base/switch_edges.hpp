@@ -28,7 +28,7 @@ struct EdgeConflict {
     }
 
   private:
-    std::string said(std::string_view way, std::string_view most) const;
+    std::string said(std::string_view way, std::string_view max_distance) const;
 };
 
 class SwitchEdges {

@@ -12,9 +12,9 @@ namespace {
 constexpr int widest_window = 1'000'000;
 constexpr double path_rounding = 1e-9;
 
-std::uint64_t power_of_two_from(std::uint64_t least) {
+std::uint64_t power_of_two_from(std::uint64_t min_size) {
     std::uint64_t size = 1;
-    while (size < least) size *= 2;
+    while (size < min_size) size *= 2;
     return size;
 }
 
@@ -251,8 +251,9 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         PlannedMove& planned = slot(ready_);
         double exit = std::min(after, entry + here.reach);
         // After change_feeds() a junction may need a lower velocity than the move can decelerate to.
-        if (const double slowest = min_exit(here, entry * here.gain.braking); slowest - exit > path_rounding * entry)
-            exit = slowest;
+        if (const double min_velocity = min_exit(here, entry * here.gain.braking);
+            min_velocity - exit > path_rounding * entry)
+            exit = min_velocity;
         double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         // From standstill to standstill within the constant-velocity length of the hardware: a pulse or two.
         if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);

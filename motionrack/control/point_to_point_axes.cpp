@@ -36,10 +36,10 @@ Result<void> PointToPointAxes::begin() {
 }
 
 double PointToPointAxes::velocity_of(const PlannedMove& move, std::size_t axis) const {
-    const double most = limits_[axis].max_velocity;
-    if (move.move.kind == MoveKind::rapid) return most;
+    const double max_velocity = limits_[axis].max_velocity;
+    if (move.move.kind == MoveKind::rapid) return max_velocity;
     const double feed = move.move.feed_mode == FeedMode::inverse_time ? move.move.feed * move.length : move.move.feed;
-    return std::min(feed, most);
+    return std::min(feed, max_velocity);
 }
 
 /// Starts every axis of the move; if one refuses, stops the others.

@@ -47,15 +47,15 @@ double length_on_arc(const Geometry& path, const Point& place, const PulsesPerUn
     const WeighedPart beside = part_beside_plane(path, place, pulses);
     const double along = path.radius * whole * std::max(pulses[path.first], pulses[path.second]);
     const double in_plane = std::max(along * along, min_length_mm);
-    double best = 0, least = std::numeric_limits<double>::infinity();
+    double best = 0, min_off = std::numeric_limits<double>::infinity();
     for (const double turned : {angle, angle - 2 * pi}) {
         const double by_angle = turned / whole, by_others = beside.part;
         const double part =
             std::clamp((by_angle * in_plane + by_others * beside.weight) / (in_plane + beside.weight), 0.0, 1.0);
         const double off =
             in_plane * (by_angle - part) * (by_angle - part) + beside.weight * (by_others - part) * (by_others - part);
-        if (off >= least) continue;
-        least = off;
+        if (off >= min_off) continue;
+        min_off = off;
         best = part;
     }
     return path.length * best;

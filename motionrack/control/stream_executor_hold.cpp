@@ -30,7 +30,7 @@ void StreamExecutor::keep_rest_of_path() {
     std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
     known += blocks_.size() > 1 ? blocks_[1] : 0;
     std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance = std::numeric_limits<double>::infinity();
     Geometry path;  // the nearest path
     for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
         if (!entries_[i].is_move()) continue;
@@ -38,8 +38,8 @@ void StreamExecutor::keep_rest_of_path() {
         const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
         const double off = nearest_point(here, place, pulses).distance;
         // A return stroke is as near as the outward one, of which nothing may be skipped.
-        if (off >= (turns_back(path, here, pulses) ? least - beside_pulses : least)) continue;
-        least = off;
+        if (off >= (turns_back(path, here, pulses) ? min_distance - beside_pulses : min_distance)) continue;
+        min_distance = off;
         nearest = i;
         path = here;
     }

@@ -56,16 +56,16 @@ std::uint32_t check_of(const Sample& sample) {
 }
 
 Result<void> check_bus_name(std::string_view name) {
-    static constexpr std::size_t most = 64;
+    static constexpr std::size_t max_length = 64;
     const auto good = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     };
-    if (name.empty() || name.size() > most)
+    if (name.empty() || name.size() > max_length)
         return fail(
             ErrorKind::invalid_input,
             fmt::format(
                 "The bus name has {} characters, but must have 1 to {}. Nothing was opened; choose another name.",
-                name.size(), most));
+                name.size(), max_length));
     const auto bad = std::find_if_not(name.begin(), name.end(), good);
     if (bad != name.end())
         return fail(ErrorKind::invalid_input,

@@ -129,7 +129,7 @@ void ChannelDecoder::keep_indexes(std::uint64_t edges, const WordMasks& masks, s
                                   std::uint64_t sample) {
     indexes_ += static_cast<std::uint64_t>(std::popcount(edges));
     for (; edges != 0 && index_events_.size() < settings_.indexes_kept; edges &= edges - 1) {
-        const std::uint64_t lowest = edges & (0 - edges), until = lowest | (lowest - 1);
+        const std::uint64_t first_edge = edges & (0 - edges), until = first_edge | (first_edge - 1);
         index_events_.push_back({sample + static_cast<std::uint64_t>(std::countr_zero(edges)),
                                  count + std::popcount(masks.up & until) - std::popcount(masks.down & until)});
     }

@@ -153,10 +153,10 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     for (Row row; rows.size() < rows_looked_at && next_row(row);) rows.push_back(row);
     if (text_.error()) return tl::unexpected(in_file(*text_.error()));
     if (rows.empty()) return refuse("The file has no rows. Nothing was decoded.", {});
-    std::ptrdiff_t most = 0;
+    std::ptrdiff_t max_count = 0;
     for (const char candidate : {',', ';', '\t'}) {
         const auto found = std::count(rows[0].text.begin(), rows[0].text.end(), candidate);
-        if (found > most) most = found, separator_ = candidate;
+        if (found > max_count) max_count = found, separator_ = candidate;
     }
     split(rows[0].text);
     width_ = cells_.size();

@@ -43,8 +43,8 @@ void MonotonicClock::sleep(Duration duration) {
 
 bool MonotonicClock::wait_readable(int descriptor, Duration timeout) {
     pollfd file{descriptor, POLLIN, 0};
-    const timespec most = timespec_of(timeout < Duration{0} ? Duration{0} : timeout);
-    return ::ppoll(&file, 1, &most, nullptr) == 1 && (file.revents & POLLIN) != 0;
+    const timespec max_wait = timespec_of(timeout < Duration{0} ? Duration{0} : timeout);
+    return ::ppoll(&file, 1, &max_wait, nullptr) == 1 && (file.revents & POLLIN) != 0;
 }
 
 }  // namespace motionrack::live

@@ -143,10 +143,10 @@ Result<void> MarkingHost::find_edges() {
                 fmt::format("Part {} does not reach the sensor within {:g} s: the belt moves {:.6g} until then, the "
                             "part is {:.6g} away. Nothing was marked; use fewer parts or a faster belt.",
                             i + 1, max_seconds, gone(high), way));
-        std::int64_t least = low;
-        while (least < high) {
-            const std::int64_t middle = least + (high - least) / 2;
-            gone(middle) >= way ? high = middle : least = middle + 1;
+        std::int64_t min_tick = low;
+        while (min_tick < high) {
+            const std::int64_t middle = min_tick + (high - min_tick) / 2;
+            gone(middle) >= way ? high = middle : min_tick = middle + 1;
         }
         edges_.push_back(low = high);
     }

@@ -49,7 +49,7 @@ double size_of(const Box& box) {
 /// Returns the nearest point of the drawing.
 Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
     Spot best = p;
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance2 = std::numeric_limits<double>::infinity();
     for (const parts::DrawnSegment& s : segments) {
         const Spot way{s.to.x - s.from.x, s.to.y - s.from.y};
         const double length2 = way.x * way.x + way.y * way.y;
@@ -57,7 +57,7 @@ Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
             length2 > 0 ? std::clamp(((p.x - s.from.x) * way.x + (p.y - s.from.y) * way.y) / length2, 0.0, 1.0) : 0;
         const Spot on{s.from.x + t * way.x, s.from.y + t * way.y};
         const double off = (on.x - p.x) * (on.x - p.x) + (on.y - p.y) * (on.y - p.y);
-        if (off < least) least = off, best = on;
+        if (off < min_distance2) min_distance2 = off, best = on;
     }
     return best;
 }
@@ -104,22 +104,22 @@ struct Scene {
     Scene(const Prepared& p, const MarkingOutcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
         if (drawing.empty()) return;
         box = mark::box_of(std::span<const StrokePoint>(drawing));
-        const Box most = grown(box, 3 * size_of(box));
+        const Box max_box = grown(box, 3 * size_of(box));
         for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
             if (m != nullptr && !m->points.empty()) box = joined(box, mark::box_of(marks_of(*m)));
-        box = {{std::max(box.low.x, most.low.x), std::max(box.low.y, most.low.y)},
-               {std::min(box.high.x, most.high.x), std::min(box.high.y, most.high.y)}};
+        box = {{std::max(box.low.x, max_box.low.x), std::max(box.low.y, max_box.low.y)},
+               {std::min(box.high.x, max_box.high.x), std::min(box.high.y, max_box.high.y)}};
     }
     bool wide() const { return box.high.x - box.low.x > wide_from * (box.high.y - box.low.y); }
 };
 
 /// Overflows with the laser on, at the actual or the intended position.
 std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, const auto& place) {
-    constexpr std::size_t most = 200;
+    constexpr std::size_t max_crosses = 200;
     std::string out;
     std::size_t drawn = 0;
     for (const Overflow& o : overflows)
-        if (o.marking && drawn++ < most)
+        if (o.marking && drawn++ < max_crosses)
             out += plot.cross(place(o), fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
     return out;
 }

@@ -74,22 +74,22 @@ class FitSearch {
         : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, MarkingOutcome& out) {
-        const double greatest = std::min(1000.0, parts::max_track_velocity / peak_velocity());
-        const double least = std::max(1e-3, now.ticks * 1e-5 / max_seconds);
+        const double max_factor = std::min(1000.0, parts::max_track_velocity / peak_velocity());
+        const double min_factor = std::max(1e-3, now.ticks * 1e-5 / max_seconds);
         double low = 1, high = 1;
         out.starts_limit = now.beyond_mm <= 0;
         if (!now.fits() && !out.drawing_in_field) return out.fits_factor = 0, Result<void>{};
         if (now.fits()) {
-            for (bool good = true; good && high <= greatest;) {
+            for (bool good = true; good && high <= max_factor;) {
                 low = high, high *= 2;
-                if (high > greatest) break;
+                if (high > max_factor) break;
                 MOTIONRACK_TRY(good, fits(high, out));
             }
-            if (high > greatest) return out.fits_factor = low, out.fits_any = true, Result<void>{};
+            if (high > max_factor) return out.fits_factor = low, out.fits_any = true, Result<void>{};
         } else {
             for (bool good = false; !good;) {
                 high = low, low /= 2;
-                if (low < least) return out.fits_factor = 0, Result<void>{};
+                if (low < min_factor) return out.fits_factor = 0, Result<void>{};
                 MOTIONRACK_TRY(good, fits(low, out));
             }
         }

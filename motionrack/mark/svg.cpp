@@ -15,7 +15,7 @@ namespace motionrack::mark {
 
 namespace {
 
-constexpr int deepest = 64;
+constexpr int max_groups = 64;
 constexpr double max_scale = 1e9;
 constexpr std::array<std::string_view, 13> passed_over = {
     "title",   "desc",   "metadata",       "defs",           "symbol", "clipPath", "mask",
@@ -168,7 +168,7 @@ class SvgReader {
     }
     /// Style sheets use selectors, which are not supported: rejects a sheet that could change the lines.
     Result<void> sheets(const pugi::xml_node& node, int depth) const {
-        if (depth > deepest) return {};
+        if (depth > max_groups) return {};
         for (const pugi::xml_node child : node.children()) {
             if (svg_name(child) == "style") {
                 if (const std::string_view found = deciding_property(child.text().get()); !found.empty())
@@ -188,7 +188,8 @@ class SvgReader {
         if (name.empty() || name == "style" ||
             std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end())
             return {};
-        if (around.depth > deepest) return wrong(offset(node), fmt::format("more than {} nested groups", deepest));
+        if (around.depth > max_groups)
+            return wrong(offset(node), fmt::format("more than {} nested groups", max_groups));
         const Visibility seen = visibility_of(node, around.visible);
         if (!seen.displayed) return {};
         MOTIONRACK_CHECK(drawable(node));

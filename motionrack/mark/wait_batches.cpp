@@ -68,14 +68,14 @@ std::vector<double> crossings(Spot at, const Element& e, Spot direction, double 
 
 /// Cuts the stroke at the planes.
 void cut(const Stroke& stroke, Spot direction, double origin, double cell, std::vector<Stroke>& out) {
-    constexpr double least = 1e-6;  // fraction of an element
+    constexpr double min_part = 1e-6;  // fraction of an element
     out.push_back({stroke.from, {}});
     Spot at = stroke.from;
     for (const Element& e : stroke.elements) {
         double done = 0;
         const Spot begin = at;
         for (const double part : crossings(begin, e, direction, origin, cell)) {
-            if (part - done < least || 1 - part < least) continue;
+            if (part - done < min_part || 1 - part < min_part) continue;
             Spot to = between(begin, e.to, part);
             if (e.sweep != 0) {
                 const SinCos t = sin_cos(e.sweep * part);

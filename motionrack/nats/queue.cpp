@@ -116,13 +116,13 @@ class JetStreamQueue final : public Queue {
     }
 
     Result<void> offer(const std::string& sweep, const std::string& key, std::string_view text) override {
-        if (const auto most = natsConnection_GetMaxPayload(connection_.get());
-            static_cast<std::int64_t>(text.size()) > most)
+        if (const auto max_payload = natsConnection_GetMaxPayload(connection_.get());
+            static_cast<std::int64_t>(text.size()) > max_payload)
             return fail(ErrorKind::refused,
                         fmt::format("A point of the sweep has {} bytes, and the server takes messages of at most {}. "
                                     "Nothing was queued; set max_payload of nats-server "
                                     "higher, or shorten the program.",
-                                    text.size(), most));
+                                    text.size(), max_payload));
         return put(points_subject(sweep, key), text, "A point cannot be queued");
     }
 

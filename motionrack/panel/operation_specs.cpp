@@ -22,8 +22,8 @@ constexpr FieldSpec integer(std::string_view name, double min, double max, std::
                             bool required = true) {
     return {name, ParameterType::integer, required, min, max, {}, {}, text};
 }
-constexpr FieldSpec text(std::string_view name, double longest, std::string_view about, bool required = true) {
-    return {name, ParameterType::text, required, 0, longest, {}, {}, about};
+constexpr FieldSpec text(std::string_view name, double max_bytes, std::string_view about, bool required = true) {
+    return {name, ParameterType::text, required, 0, max_bytes, {}, {}, about};
 }
 constexpr FieldSpec choice(std::string_view name, std::string_view words, std::string_view about,
                            bool required = true) {
@@ -32,12 +32,12 @@ constexpr FieldSpec choice(std::string_view name, std::string_view words, std::s
 constexpr FieldSpec flag(std::string_view name, std::string_view about, bool required = true) {
     return {name, ParameterType::flag, required, 0, 0, {}, {}, about};
 }
-constexpr FieldSpec texts(std::string_view name, double most, std::string_view about, bool required = true) {
-    return {name, ParameterType::texts, required, 0, most, {}, {}, about};
+constexpr FieldSpec texts(std::string_view name, double max_count, std::string_view about, bool required = true) {
+    return {name, ParameterType::texts, required, 0, max_count, {}, {}, about};
 }
 
-constexpr FieldSpec numbers(std::string_view name, double most, std::string_view about, bool required = true) {
-    return {name, ParameterType::numbers, required, 0, most, {}, {}, about};
+constexpr FieldSpec numbers(std::string_view name, double max_count, std::string_view about, bool required = true) {
+    return {name, ParameterType::numbers, required, 0, max_count, {}, {}, about};
 }
 
 constexpr FieldSpec one_axis = text("axis", 1, "letter of an axis");

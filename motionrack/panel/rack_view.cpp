@@ -99,7 +99,7 @@ json rack_facts(operate::Machine& machine) {
     return out;
 }
 
-Result<json> workpiece_now(operate::Machine& machine, const std::string& name, std::size_t most) {
+Result<json> workpiece_now(operate::Machine& machine, const std::string& name, std::size_t max_kept) {
     const rack::RunningScanner* scanner = machine.rack().scanner(name);
     if (scanner == nullptr) {
         std::string known;
@@ -111,7 +111,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
     const parts::MarkingStation& station = scanner->station();
     const std::span<const parts::MarkedPoint> points = station.workpiece().points();
     // Reduces the points to every nth, but keeps the first and last of each stroke.
-    const std::size_t step = points.size() / std::max<std::size_t>(most, 2) + 1;
+    const std::size_t step = points.size() / std::max<std::size_t>(max_kept, 2) + 1;
     json strokes = json::array();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool last = i + 1 == points.size() || points[i + 1].first;

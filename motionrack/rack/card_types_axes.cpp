@@ -220,14 +220,14 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
                             other.name, card.name, own.select)};
     if (const auto trim = databoard4002::trim_from_text(own.trim); !trim)
         return CardFlaw{"trim", fmt::format("Card {}: {}", card.name, trim.error().message)};
-    const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2   ? 1
-                              : own.counting == Databoard4002Counting::quadrature_1 ? 3
-                                                                                    : 0;
-    if (own.first_pair <= most) return std::nullopt;
+    const std::int64_t max_pair = own.counting == Databoard4002Counting::quadrature_2   ? 1
+                                  : own.counting == Databoard4002Counting::quadrature_1 ? 3
+                                                                                        : 0;
+    if (own.first_pair <= max_pair) return std::nullopt;
     return CardFlaw{"first_pair",
                     fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name,
                                 own.first_pair, databoard4002_countings[static_cast<std::size_t>(own.counting)],
-                                most == 0 ? "0" : fmt::format("0 .. {}", most))};
+                                max_pair == 0 ? "0" : fmt::format("0 .. {}", max_pair))};
 }
 
 }  // namespace

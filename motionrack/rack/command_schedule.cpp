@@ -30,10 +30,10 @@ Result<CommandSchedule::ScheduledCommand> CommandSchedule::read(const ScheduledT
         out.kind = kind;
         return equals == std::string_view::npos;
     };
-    const auto part = [&](CommandKind kind, double most) {
+    const auto part = [&](CommandKind kind, double max_value) {
         out.kind = kind;
         out.value = equals == std::string_view::npos ? std::nan("") : number_of(action.substr(equals + 1));
-        return out.value >= 0.01 && out.value <= most;
+        return out.value >= 0.01 && out.value <= max_value;
     };
     const bool good = (name == "stop" && plain(CommandKind::stop)) || (name == "hold" && plain(CommandKind::hold)) ||
                       (name == "resume" && plain(CommandKind::resume)) ||

@@ -162,13 +162,13 @@ class AxisCheck {
     /// Moves do not depend on homing, so settings that `motionrack home` will refuse are warnings here.
     void homing() {
         const RackHoming& h = axis_.homing;
-        const auto above = [&](std::string_view key, const std::optional<double>& value, double most,
+        const auto above = [&](std::string_view key, const std::optional<double>& value, double max,
                                std::string_view limit) {
-            if (!value || *value <= most || !source_.sound({key})) return;
+            if (!value || *value <= max || !source_.sound({key})) return;
             warn(key, "homing",
                  fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed.",
                              with_unit(key, axis_.unit()), axis_.letter, number_text(*value),
-                             with_unit(limit, axis_.unit()), number_text(most)));
+                             with_unit(limit, axis_.unit()), number_text(max)));
         };
         above("search_velocity_{u}_s", h.search_velocity, axis_.max_velocity, "max_velocity_{u}_s");
         above("latch_velocity_{u}_s", h.latch_velocity, axis_.max_velocity_step, "max_velocity_step_{u}_s");
@@ -265,17 +265,18 @@ class AxisCheck {
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
                               "saturation_velocity_{}_s or encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.saturation()), u, short_text(counts), u));
-        const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
-        if (axis_.max_velocity_step <= slowest)
+        const double min_velocity = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
+        if (axis_.max_velocity_step <= min_velocity)
             warn("max_velocity_step_{u}_s", {},
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
-                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(slowest)));
-        if (const double most = servo.current_limit_accel / (1 + servo.load); axis_.max_accel > most)
+                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(min_velocity)));
+        if (const double max_servo_accel = servo.current_limit_accel / (1 + servo.load);
+            axis_.max_accel > max_servo_accel)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
-                             u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
+                             u, axis_.letter, number_text(axis_.max_accel), short_text(max_servo_accel)));
         const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.velocity_per_volt);
         if (axis_.max_velocity > reach * rounding)
             warn("max_velocity_{u}_s", {},
@@ -296,8 +297,8 @@ class AxisCheck {
 
     void chip(const RackCard& card, const CardType& type) {
         if (!pulses_known()) return;
-        const double fastest = type.max_pulse_hz(card);
-        too_fast_for_chip("max_velocity_{u}_s", axis_.max_velocity, "pulses/s", fastest, card);
+        const double max_pulse_hz = type.max_pulse_hz(card);
+        too_fast_for_chip("max_velocity_{u}_s", axis_.max_velocity, "pulses/s", max_pulse_hz, card);
         too_fast_for_chip("max_accel_{u}_s2", axis_.max_accel, "pulses/s2", type.max_accel_hz_s(card), card);
         const std::string_view u = axis_.unit();
         if (source_.sound({"max_velocity_{u}_s"}) && axis_.max_pulse_hz() < 1) {
@@ -331,16 +332,16 @@ class AxisCheck {
     /// Checks that positions fit the card's counters.
     void counter_range(const CardType& type) {
         if (!source_.sound({"min_limit_{u}", "max_limit_{u}"})) return;
-        const auto most = static_cast<double>(type.max_position);
+        const auto max_counts = static_cast<double>(type.max_position);
         const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
         for (const auto& [key, position] :
              {std::pair{"min_limit_{u}", axis_.min_position}, std::pair{"max_limit_{u}", axis_.max_position}}) {
-            if (std::fabs(position) * per_unit <= most) continue;
+            if (std::fabs(position) * per_unit <= max_counts) continue;
             error(key, {},
                   fmt::format("{} of axis {} is {}, that is {} pulses or counts; the position counters hold {:.0f} at "
                               "most, {} {} here.",
                               with_unit(key, axis_.unit()), axis_.letter, number_text(position),
-                              short_text(std::fabs(position) * per_unit), most, short_text(most / per_unit),
+                              short_text(std::fabs(position) * per_unit), max_counts, short_text(max_counts / per_unit),
                               axis_.unit()));
         }
     }

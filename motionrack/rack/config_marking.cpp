@@ -204,15 +204,16 @@ class MarkingReader {
             refuse(*node_->find("parts"), with_unit("length_{u}", unit_),
                    fmt::format("a part is {} {} long, but the next one comes after {}.",
                                number_text(track.passing->length), unit_, number_text(track.passing->every)));
-        double fastest = std::fabs(track.velocity);
-        if (!track.profile.empty()) fastest = 0;
-        for (const parts::VelocityPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.velocity));
-        if (fastest > track.max_velocity())
+        double peak_velocity = std::fabs(track.velocity);
+        if (!track.profile.empty()) peak_velocity = 0;
+        for (const parts::VelocityPoint& point : track.profile)
+            peak_velocity = std::max(peak_velocity, std::fabs(point.velocity));
+        if (peak_velocity > track.max_velocity())
             refuse(*node_, with_unit("velocity_{u}_s", unit_),
                    fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
                                "{3:.0f} counts a second, or "
                                "more than {4:.0f} parts a second would come.",
-                               number_text(fastest), unit_, track.max_velocity(), max_track_counts, max_parts));
+                               number_text(peak_velocity), unit_, track.max_velocity(), max_track_counts, max_parts));
     }
 
     /// Two conveyors at one pin would drive against each other.
@@ -236,12 +237,12 @@ class MarkingReader {
         const TomlNode& table = *node_->find("sender");
         if (s.bits_per_mm == 0)
             return refuse(table, with_unit("bits_per_{u}", unit_), "a sender needs bits other than 0.");
-        const double most = static_cast<double>(parts::SerialWordSource::max_under_way - 1) * s.period_us;
-        if (!(s.delay_us < most))
+        const double max_delay_us = static_cast<double>(parts::SerialWordSource::max_under_way - 1) * s.period_us;
+        if (!(s.delay_us < max_delay_us))
             return refuse(
                 table, "delay_us",
                 fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
-                            number_text(s.delay_us), number_text(s.period_us), number_text(most)));
+                            number_text(s.delay_us), number_text(s.period_us), number_text(max_delay_us)));
         const parts::Conveyor made = *parts::Conveyor::make(track.settings());
         if (const auto sender = parts::SerialPositionSource::make(made, s); !sender)
             refuse(*node_, "sender", sender.error().message + ".");

@@ -244,7 +244,7 @@ class RackReader {
     void add_ideal_axes() {
         const RackCard& card = config_.cards[0];
         const CardType& type = *find_card_type(card.type);
-        const double fastest = type.max_pulse_hz(card);
+        const double max_pulse_hz = type.max_pulse_hz(card);
         constexpr std::string_view letters = "XYZA";
         for (std::size_t i = 0; i < std::min(type.channels.size(), letters.size()); ++i) {
             RackAxis axis = default_axis(letters[i]);
@@ -254,12 +254,12 @@ class RackReader {
             axis.lead_mm = 1;
             axis.gear_ratio = 360;
             axis.encoder_counts_per_rev = axis.pulses_per_rev();
-            axis.max_velocity = fastest / axis.pulses_per_unit();
+            axis.max_velocity = max_pulse_hz / axis.pulses_per_unit();
             axis.max_accel = 100'000;
             axis.max_jerk = 0;
             axis.min_position = -2'000'000;
             axis.max_position = 2'000'000;
-            axis.motor = {fastest, fastest};
+            axis.motor = {max_pulse_hz, max_pulse_hz};
             config_.axes.push_back(std::move(axis));
             sources_.emplace_back();
         }

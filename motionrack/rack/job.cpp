@@ -18,10 +18,10 @@ constexpr Duration slice = milliseconds(50);
 double allowed_deviation(const RackConfig& config) {
     constexpr double pulses = 3.5, rounding_mm = 1e-4;
     if (config.point_to_point()) return 0;
-    double longest = 0;
+    double max_pulse_mm = 0;
     for (const RackAxis& axis : config.axes)
-        if (axis.index() < 3) longest = std::max(longest, 1 / axis.pulses_per_unit());
-    return longest > 0 ? pulses * longest + config.controller.arc_tolerance_mm + rounding_mm : 0;
+        if (axis.index() < 3) max_pulse_mm = std::max(max_pulse_mm, 1 / axis.pulses_per_unit());
+    return max_pulse_mm > 0 ? pulses * max_pulse_mm + config.controller.arc_tolerance_mm + rounding_mm : 0;
 }
 
 /// Delay after which the effect of an immediate stop on a fast motor shows.

@@ -35,7 +35,7 @@ struct AxisTrack {
     bool moves = false;
 };
 
-double greatest(double a, double b, double c) {
+double max_magnitude(double a, double b, double c) {
     return std::max({std::fabs(a), std::fabs(b), std::fabs(c)});
 }
 
@@ -96,7 +96,7 @@ class Looks {
 
     void add(double time, const control::TrajectoryPoint& state) {
         const control::Point& v = state.velocity;
-        path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : greatest(v[3], v[4], v[5]));
+        path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : max_magnitude(v[3], v[4], v[5]));
         driven.push_back({state.place[0], state.place[1], state.place[2]});
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const auto part = [](double value, double limit) {
@@ -210,9 +210,10 @@ trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves
     const int height =
         std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : max_path_height,
                    min_path_height, max_path_height);
-    const double most = static_cast<double>(*std::max_element(plan.path.velocity.begin(), plan.path.velocity.end()));
+    const double peak_velocity =
+        static_cast<double>(*std::max_element(plan.path.velocity.begin(), plan.path.velocity.end()));
     return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false},
-                            {plan.path.velocity, most, "mm/s"}),
+                            {plan.path.velocity, peak_velocity, "mm/s"}),
             height};
 }
 

@@ -133,11 +133,11 @@ Result<void> set_track_quantity(Rack& rack, const RunningConveyor& track, std::s
     if (name != velocity)
         return fail(ErrorKind::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.",
                                                     track.config.name, velocity, in_quotes(name)));
-    const double greatest = track.config.max_velocity();
-    if (!(std::fabs(value) <= greatest))
+    const double max_velocity = track.config.max_velocity();
+    if (!(std::fabs(value) <= max_velocity))
         return fail(ErrorKind::refused,
                     fmt::format("{}.{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
-                                track.config.name, velocity, value, -greatest, greatest));
+                                track.config.name, velocity, value, -max_velocity, max_velocity));
     return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
 }
 
@@ -159,9 +159,9 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
                                 "at once. Nothing was done.",
                                 name, value, push, max_push));
     // A rotor in step springs back unless it is pushed past the middle of an electrical cycle.
-    const double least =
+    const double min_push =
         machine.in_step() && !axis.servo ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
-    if (std::fabs(push) < least) return {};
+    if (std::fabs(push) < min_push) return {};
     return inject_fault(rack, fmt::format("motor.push={:.0f}", push), name_of(axis));
 }
 
@@ -206,9 +206,9 @@ std::vector<QuantityRange> quantity_ranges(Rack& rack) {
     const Instant now = rack.kernel().now();
     std::vector<QuantityRange> out;
     const auto add = [&](const std::string& part, std::string_view name, std::string_view doc, ValueKind values) {
-        const double least = values == amount || values == yes_no ? 0 : -infinity;
+        const double min = values == amount || values == yes_no ? 0 : -infinity;
         out.push_back(
-            {fmt::format("{}.{}", part, name), doc, unit_of_quantity(name), least, values == yes_no ? 1 : infinity});
+            {fmt::format("{}.{}", part, name), doc, unit_of_quantity(name), min, values == yes_no ? 1 : infinity});
     };
     each_part(rack, [&](auto& part) {
         each_quantity(part, [&](const std::string& name, const auto& row) {

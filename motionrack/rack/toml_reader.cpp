@@ -45,11 +45,11 @@ std::vector<Error> Problems::take(std::vector<Error>& list) {
     return std::exchange(list, {});
 }
 
-std::string printable(std::string_view text, std::size_t longest) {
+std::string printable(std::string_view text, std::size_t max_bytes) {
     std::string out;
     std::size_t end = text.size();
-    if (end > longest) {
-        end = longest;
+    if (end > max_bytes) {
+        end = max_bytes;
         while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // not inside a character
     }
     for (const char c : text.substr(0, end)) {
@@ -94,14 +94,14 @@ std::string lower(std::string_view text) {
 
 /// Formats small numbers without an exponent if the digits stay the same.
 std::string small_number_text(double value) {
-    const std::string shortest = fmt::format("{}", value);
+    const std::string exact_text = fmt::format("{}", value);
     for (int digits = 5; digits <= 12 && std::fabs(value) < 1e-4; ++digits) {
         const std::string plain = fmt::format("{:.{}f}", value, digits);
         double back = 0;
         std::from_chars(plain.data(), plain.data() + plain.size(), back);
         if (back == value) return plain;
     }
-    return shortest;
+    return exact_text;
 }
 
 }  // namespace

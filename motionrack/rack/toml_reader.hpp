@@ -73,8 +73,8 @@ class Problems {
     std::vector<Error> warnings_;
 };
 
-/// Formats an external text for a message: without control characters, cut after `longest` bytes.
-std::string printable(std::string_view text, std::size_t longest);
+/// Formats an external text for a message: without control characters, cut after `max_bytes` bytes.
+std::string printable(std::string_view text, std::size_t max_bytes);
 /// Quotes the user's text for a message: printable, cut after 60 bytes.
 std::string in_quotes(std::string_view text);
 

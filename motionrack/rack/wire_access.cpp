@@ -220,12 +220,12 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
                                 max_volts, max_volts));
     }
     if (wire->bits > 1) {
-        const double greatest = std::ldexp(1.0, wire->bits - 1);
-        if (value >= -greatest && value < greatest && value == std::floor(value)) return {};
+        const double half_range = std::ldexp(1.0, wire->bits - 1);
+        if (value >= -half_range && value < half_range && value == std::floor(value)) return {};
         return fail(
             ErrorKind::refused,
             fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
-                        name, value, -greatest, greatest - 1));
+                        name, value, -half_range, half_range - 1));
     }
     if (value != 0 && value != 1)
         return fail(ErrorKind::refused,

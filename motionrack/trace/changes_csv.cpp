@@ -9,19 +9,19 @@
 namespace motionrack::trace {
 
 bool read_ps(std::string_view seconds, std::int64_t& ps) {
-    static constexpr std::int64_t a_second = 1'000'000'000'000, most = 8'640'000;
+    static constexpr std::int64_t a_second = 1'000'000'000'000, max_seconds = 8'640'000;
     std::int64_t whole = 0, part = 0, place = a_second;
     std::size_t i = 0;
-    for (; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9' && whole <= most; ++i)
+    for (; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9' && whole <= max_seconds; ++i)
         whole = whole * 10 + (seconds[i] - '0');
-    if (i == 0 || whole > most) return false;
+    if (i == 0 || whole > max_seconds) return false;
     if (i < seconds.size() && seconds[i] == '.')
         for (++i; i < seconds.size() && seconds[i] >= '0' && seconds[i] <= '9'; ++i)
             part += (place /= 10) * (seconds[i] - '0');
     ps = whole * a_second + part;
     if (i == seconds.size()) return true;
     const double value = number_of(seconds);  // "1e-05"
-    if (!(value >= 0 && value <= static_cast<double>(most))) return false;
+    if (!(value >= 0 && value <= static_cast<double>(max_seconds))) return false;
     ps = static_cast<std::int64_t>(std::floor(value * 1e12 + 0.5));
     return true;
 }

@@ -82,12 +82,12 @@ Indices thin_series(std::span<const double> seconds, std::span<const float> valu
     for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
         const std::size_t begin = good.size() / buckets * bucket + good.size() % buckets * bucket / buckets;
         const std::size_t end = good.size() / buckets * (bucket + 1) + good.size() % buckets * (bucket + 1) / buckets;
-        std::size_t least = begin, greatest = begin;
+        std::size_t min_index = begin, max_index = begin;
         for (std::size_t i = begin; i < end; ++i) {
-            if (values[good[i]] < values[good[least]]) least = i;
-            if (values[good[i]] > values[good[greatest]]) greatest = i;
+            if (values[good[i]] < values[good[min_index]]) min_index = i;
+            if (values[good[i]] > values[good[max_index]]) max_index = i;
         }
-        std::array<std::size_t, 4> four = {begin, least, greatest, end - 1};
+        std::array<std::size_t, 4> four = {begin, min_index, max_index, end - 1};
         std::sort(four.begin(), four.end());
         for (std::size_t i = 0; i < 4; ++i) {
             if (i == 0 || four[i] != four[i - 1]) kept.push_back(good[four[i]]);
@@ -97,7 +97,7 @@ Indices thin_series(std::span<const double> seconds, std::span<const float> valu
 }
 
 DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
-                        std::size_t most) {
+                        std::size_t max_kept) {
     DecimatedPath path;
     Indices& kept = path.kept;
     std::size_t bound = 0;
@@ -108,15 +108,15 @@ DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<
     }
     if (kept.size() < 3) return path;
     const std::vector<bool> none;
-    const std::vector<bool>& corners = bound + 2 <= most ? fixed : none;
+    const std::vector<bool>& corners = bound + 2 <= max_kept ? fixed : none;
     for (int round = 0; round < 60; ++round) {
         kept = thin_once(points, kept, corners, tolerance);
         path.within += tolerance;
-        if (kept.size() <= most) return path;
+        if (kept.size() <= max_kept) return path;
         tolerance = tolerance > 0 ? tolerance * 2 : 1e-9;
     }
     Indices some;  // coordinates too irregular for any tolerance
-    for (std::size_t i = 0; i + 1 < most; ++i) some.push_back(kept[i * (kept.size() - 1) / (most - 1)]);
+    for (std::size_t i = 0; i + 1 < max_kept; ++i) some.push_back(kept[i * (kept.size() - 1) / (max_kept - 1)]);
     some.push_back(kept.back());
     return {some, -1};
 }

@@ -22,10 +22,10 @@ struct DecimatedPath {
     double within = 0;              ///< maximum distance of dropped points from the chords; < 0: unknown
 };
 
-/// Simplifies a path: dropped points lie within `tolerance` of the chord that replaces them, if at most `most` (>= 2)
-/// points suffice. Otherwise the tolerance grows until they do. Keeps points with `fixed` true as far as `most` allows
-/// (`fixed` empty: none). Drops non-finite points.
+/// Simplifies a path: dropped points lie within `tolerance` of the chord that replaces them, if at most `max_kept`
+/// (>= 2) points suffice. Otherwise the tolerance grows until they do. Keeps points with `fixed` true as far as
+/// `max_kept` allows (`fixed` empty: none). Drops non-finite points.
 DecimatedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
-                        std::size_t most);
+                        std::size_t max_kept);
 
 }  // namespace motionrack::trace

@@ -20,13 +20,13 @@ template <class T>
 class Buffered {
   public:
     Buffered() = default;
-    Buffered(hdf5::Hdf5File& file, const std::string& path, std::size_t chunk, std::size_t most,
+    Buffered(hdf5::Hdf5File& file, const std::string& path, std::size_t chunk, std::size_t max_waiting,
              const std::string& unit, double scale = 1)
-        : writer_(file.make_column(path, {hdf5::type_of<T>, 0, chunk, unit, scale})), most_(most) {}
+        : writer_(file.make_column(path, {hdf5::type_of<T>, 0, chunk, unit, scale})), max_waiting_(max_waiting) {}
 
     bool add(T value) {
         waiting_.push_back(value);
-        return waiting_.size() < most_ || write();
+        return waiting_.size() < max_waiting_ || write();
     }
     bool write() {
         const bool good = writer_.append(waiting_.data(), waiting_.size());
@@ -37,7 +37,7 @@ class Buffered {
   private:
     hdf5::Writer writer_;
     std::vector<T> waiting_;
-    std::size_t most_ = 1;
+    std::size_t max_waiting_ = 1;
 };
 
 }  // namespace
@@ -90,10 +90,10 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const R
     file.write_text("run/program", head.program);
     file.write_text("run/rack", head.rack);
     file.write_text("run/head", head_json(head));
-    std::size_t longest = 64;
-    for (const RecordedInput& input : head.inputs) longest = std::max(longest, input.text.size());
+    std::size_t max_length = 64;
+    for (const RecordedInput& input : head.inputs) max_length = std::max(max_length, input.text.size());
     out.input_times_ = file.make_column("inputs/time", {hdf5::Type::int64, 0, 256, "s", tick_s});
-    out.input_texts_ = file.make_column("inputs/text", {hdf5::Type::text, longest, 64, "", 1});
+    out.input_texts_ = file.make_column("inputs/text", {hdf5::Type::text, max_length, 64, "", 1});
     out.flushed_ = file.make_column("run/flushed", {hdf5::Type::int64, 0, 64, "s", tick_s});
     out.tell_axes(head);
     out.make_signals(head);
@@ -120,16 +120,16 @@ void RecordingWriter::make_signals(const RecordingHead& head) {
     signals_.reserve(head.signals.size());
     for (const RecordedSignal& signal : head.signals) {
         const bool edges = signal.kind != SignalKind::levels;
-        const std::size_t chunk = edges ? edge_chunk : level_chunk, most = edges ? edge_buffer : level_buffer;
+        const std::size_t chunk = edges ? edge_chunk : level_chunk, max_waiting = edges ? edge_buffer : level_buffer;
         Signal one;
         one.kind = signal.kind;
         one.last = signal.initial;
-        one.times = {file_, signal.path + "/time", chunk, most, "s", tick_s};
+        one.times = {file_, signal.path + "/time", chunk, max_waiting, "s", tick_s};
         const std::string column = signal.path + "/" + value_column(signal.kind);
         if (signal.kind == SignalKind::steps)
-            one.directions = {file_, column, chunk, most, signal.unit};
+            one.directions = {file_, column, chunk, max_waiting, signal.unit};
         else
-            one.values = {file_, column, chunk, most, signal.unit, signal.scale};
+            one.values = {file_, column, chunk, max_waiting, signal.unit, signal.scale};
         file_.set(signal.path, "initial", signal.initial);
         signals_.push_back(std::move(one));
     }

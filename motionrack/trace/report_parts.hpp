@@ -16,8 +16,8 @@ inline constexpr std::size_t max_rows = 2000;        ///< rows of every other ta
 inline constexpr std::size_t max_text_bytes = 2000;  ///< displayed bytes of any text of the run
 inline constexpr std::size_t max_source_bytes = 200'000;
 
-/// Truncates `text` to `most` bytes with "..." and escapes it.
-std::string shown(const std::string& text, std::size_t most = max_text_bytes);
+/// Truncates `text` to `max_bytes` bytes with "..." and escapes it.
+std::string shown(const std::string& text, std::size_t max_bytes = max_text_bytes);
 
 /// Charts of the page: position, velocity and acceleration of each axis that has them, then the deviation and other
 /// series.

@@ -16,9 +16,9 @@ std::string cell(const std::string& html, const char* kind = "n") {
 }
 
 /// Truncates at a character boundary.
-std::string cut_text(const std::string& text, std::size_t most) {
-    if (text.size() <= most) return text;
-    std::size_t end = most;
+std::string cut_text(const std::string& text, std::size_t max_bytes) {
+    if (text.size() <= max_bytes) return text;
+    std::size_t end = max_bytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
     return text.substr(0, end) + "...";
 }
@@ -93,8 +93,8 @@ std::string section(const char* id, const char* title, const std::string& inside
 
 }  // namespace
 
-std::string shown(const std::string& text, std::size_t most) {
-    return escaped(cut_text(text, most));
+std::string shown(const std::string& text, std::size_t max_bytes) {
+    return escaped(cut_text(text, max_bytes));
 }
 
 std::optional<Xyz> driven_at(const ReportData& data, double seconds) {

@@ -37,8 +37,8 @@ BoundingBox frame_of(const ReportData& data);
 
 /// Colours the actual path by value, with a scale.
 struct SvgShade {
-    std::span<const float> values;  ///< one per point of the actual path; 0 .. most; empty: one colour
-    double most = 1;
+    std::span<const float> values;  ///< one per point of the actual path; 0 .. max_value; empty: one colour
+    double max_value = 1;
     std::string unit;  ///< "mm/s"
 };
 

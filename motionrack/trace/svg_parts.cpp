@@ -110,7 +110,7 @@ BoundingBox frame_of(const ReportData& data) {
     return frame;
 }
 
-PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolerance) {
+PlannedPath thin_planned(const ReportData& data, std::size_t max_kept, double tolerance) {
     PlannedPath all;
     std::vector<bool> corner;
     for (const ReportSegment& segment : data.planned) {
@@ -131,7 +131,7 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
     for (const Xyz& p : all.points) points.push_back({p[0], p[1], p[2], 0});
     PlannedPath thin;
     std::size_t before = 0;
-    const DecimatedPath path = thin_path(points, corner, tolerance, most);
+    const DecimatedPath path = thin_path(points, corner, tolerance, max_kept);
     thin.within = path.within;
     for (const std::size_t i : path.kept) {
         bool starts = all.starts[i];

@@ -36,7 +36,7 @@ struct PlannedPath {
     double within = 0;         ///< maximum distance of dropped points from the edges, mm; < 0: unknown
 };
 
-/// Simplifies the planned path to at most `most` points; keeps the ends of segments as far as possible.
-PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolerance);
+/// Simplifies the planned path to at most `max_kept` points; keeps the ends of segments as far as possible.
+PlannedPath thin_planned(const ReportData& data, std::size_t max_kept, double tolerance);
 
 }  // namespace motionrack::trace

@@ -183,10 +183,10 @@ std::string shaded_line(const ReportData& data, const Projection& at, const SvgS
     std::vector<PathPoint> points;
     for (std::size_t i = 0; i < data.driven.size(); ++i) {
         const Xyz& p = data.driven[i];
-        points.push_back({p[0], p[1], p[2], 0.02 * size * static_cast<double>(shade.values[i]) / shade.most});
+        points.push_back({p[0], p[1], p[2], 0.02 * size * static_cast<double>(shade.values[i]) / shade.max_value});
     }
     const auto step_at = [&](std::size_t a, std::size_t b) {
-        const double part = 0.5 * static_cast<double>(shade.values[a] + shade.values[b]) / shade.most;
+        const double part = 0.5 * static_cast<double>(shade.values[a] + shade.values[b]) / shade.max_value;
         return std::clamp(static_cast<int>(part * shade_steps), 0, shade_steps - 1);
     };
     const std::vector<std::size_t> kept = thin_path(points, {}, size / 3000, max_points).kept;
@@ -213,7 +213,7 @@ std::string shade_scale(const SvgShade& shade, const SvgLook& look) {
         out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
                            coordinate(left + step * i), y, step + 0.3, high, shade_colour(i));
     return out + svg_text(left - 5, y + high, "end", "0") +
-           svg_text(look.width - 12.0, y + high + 13, "end", number(shade.most) + " " + shade.unit);
+           svg_text(look.width - 12.0, y + high + 13, "end", number(shade.max_value) + " " + shade.unit);
 }
 
 std::string planned_lines(const ReportData& data, const Projection& at) {
@@ -263,7 +263,7 @@ std::string svg_path(const ReportData& data, PathView view, const SvgLook& look,
     std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
     out += grid(frame, extent_of_path(data).low[2], at, view, look);
     out += travel_box(extent_of_travel(data), at, view);
-    const bool shaded = !shade.values.empty() && shade.values.size() == data.driven.size() && shade.most > 0;
+    const bool shaded = !shade.values.empty() && shade.values.size() == data.driven.size() && shade.max_value > 0;
     out += planned_lines(data, at) +
            (shaded ? shaded_line(data, at, shade) + shade_scale(shade, look) : driven_line(data, at)) + marks(data, at);
     if (plan) {

@@ -107,8 +107,8 @@ class Scatter {
 
     /// Truncates a name to the available space.
     static std::string fitted(const std::string& name, double room) {
-        const auto most = static_cast<std::size_t>(std::max(3.0, room / letter_width));
-        return name.size() <= most ? name : name.substr(0, most - 2) + "..";
+        const auto max_letters = static_cast<std::size_t>(std::max(3.0, room / letter_width));
+        return name.size() <= max_letters ? name : name.substr(0, max_letters - 2) + "..";
     }
 
     std::string line(const SvgDots& series) const {

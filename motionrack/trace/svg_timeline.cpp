@@ -42,8 +42,8 @@ Stretch stretch_of(std::span<const SvgChart> charts) {
 /// Positions of the names: at the middle of their spans, moved apart until none overlap.
 std::vector<double> spread(std::vector<double> at, double left, double right) {
     for (std::size_t i = 1; i < at.size(); ++i) at[i] = std::max(at[i], at[i - 1] + spacing);
-    double most = right;
-    for (std::size_t i = at.size(); i-- > 0; most -= spacing) at[i] = std::max(left, std::min(at[i], most));
+    double max_at = right;
+    for (std::size_t i = at.size(); i-- > 0; max_at -= spacing) at[i] = std::max(left, std::min(at[i], max_at));
     return at;
 }
 
@@ -52,9 +52,9 @@ std::vector<double> spread(std::vector<double> at, double left, double right) {
 std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
                          const SvgLook& look) {
     const Stretch stretch = stretch_of(charts);
-    std::size_t longest = 0;
-    for (const SvgSpan& span : spans) longest = std::max(longest, span.name.size());
-    const double names = spans.empty() ? 0 : band + leader + letter_width * static_cast<double>(longest) + 6;
+    std::size_t max_length = 0;
+    for (const SvgSpan& span : spans) max_length = std::max(max_length, span.name.size());
+    const double names = spans.empty() ? 0 : band + leader + letter_width * static_cast<double>(max_length) + 6;
     const double each = (look.height - heading - names) / std::max<double>(1, static_cast<double>(charts.size()));
     std::string out = svg_head(look, title);
     out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", chart_left, escaped(title));

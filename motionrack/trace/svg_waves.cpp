@@ -56,8 +56,8 @@ std::string bands_of(const SvgWave& wave, const Scale& scale, double low) {
 
 std::string unit_of(double span, double& factor) {
     static constexpr std::pair<double, const char*> units[] = {{1e-6, "ns"}, {1e-3, "us"}, {1, "ms"}};
-    for (const auto& [most, unit] : units)
-        if (span < 2 * most) return factor = 1e3 / most, unit;
+    for (const auto& [max_span, unit] : units)
+        if (span < 2 * max_span) return factor = 1e3 / max_span, unit;
     return factor = 1, "s";
 }
 

@@ -49,10 +49,12 @@ class _Open:
 class Recording(_Open):
     """Samples of signals of a rack; see :meth:`Rack.record`."""
 
-    def __init__(self, world: _core.RackHandle, signals: Iterable[str], period: int, most: int, title: str) -> None:
+    def __init__(
+        self, world: _core.RackHandle, signals: Iterable[str], period: int, max_samples: int, title: str
+    ) -> None:
         self._title = title
         self._trace: Trace | None = None
-        world.begin_samples(list(signals), period, most)
+        world.begin_samples(list(signals), period, max_samples)
         super().__init__(world)
 
     def __enter__(self) -> Recording:

@@ -275,7 +275,7 @@ void Invariants::see_braking(double seconds, const Sight& now) {
     if (!heard) linear_moves_ = linear > 0 || (now.latched && linear_moves_);
     const double velocity = std::sqrt(linear_moves_ ? linear : rotary);
     if (!heard) {
-        lowest_ = std::max(now.latched ? lowest_ : 0, velocity);
+        min_velocity_ = std::max(now.latched ? min_velocity_ : 0, velocity);
         if (now.latched && linear + rotary > 0)
             stands_by_ = latched_at_ + from_seconds(0.3 + to_seconds(settings_.obeyed) + 2 * settings_.jerk_time_s +
                                                     2.5 * std::sqrt(linear + rotary) / min_accel);
@@ -289,11 +289,11 @@ void Invariants::see_braking(double seconds, const Sight& now) {
     const bool driven =
         std::any_of(now.axes.begin(), now.axes.end(), [](const AxisSight& axis) { return axis.driven; });
     if (linear + rotary == 0 && !driven) stood_ = true;
-    if (velocity > lowest_ * 1.02 + noise)
+    if (velocity > min_velocity_ * 1.02 + noise)
         found(Rule::stop_slows, now.at,
               fmt::format("{:.3f} s after a stop the velocity grew from {:g} to {:g} a second",
-                          to_seconds(now.at - latched_at_), lowest_, velocity));
-    lowest_ = std::min(lowest_, velocity);
+                          to_seconds(now.at - latched_at_), min_velocity_, velocity));
+    min_velocity_ = std::min(min_velocity_, velocity);
     if (!stood_ && stands_by_ != never && now.at > stands_by_)
         found(Rule::stop_slows, now.at,
               fmt::format("{:.3f} s after a stop it still moves at {:g} a second", to_seconds(now.at - latched_at_),

@@ -150,7 +150,7 @@ class Invariants {
     bool braked_ = false, was_braked_ = false;  ///< a stop was active in this interval, in the previous one
     // a stop
     Instant latched_at_{}, stands_by_{};
-    double lowest_ = 0;
+    double min_velocity_ = 0;
     bool stood_ = false;
     bool linear_moves_ = false;
     int unheeded_ = 0;  ///< snapshots of an idle machine during a stop

@@ -38,8 +38,8 @@ static_assert(std::atomic<std::uint32_t>::is_always_lock_free);
 
 /// Sleeps while the word has that value, at most two seconds; async-signal-safe.
 inline void sleep_while(std::atomic<std::uint32_t>& word, std::uint32_t value) {
-    const timespec most{2, 0};
-    ::syscall(SYS_futex, &word, FUTEX_WAIT, value, &most, nullptr, 0);
+    const timespec max_wait{2, 0};
+    ::syscall(SYS_futex, &word, FUTEX_WAIT, value, &max_wait, nullptr, 0);
 }
 
 inline void wake(std::atomic<std::uint32_t>& word) {

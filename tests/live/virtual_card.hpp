@@ -35,10 +35,10 @@ class VirtualCard {
         const std::lock_guard lock(mutex_);
         pass_locked(duration);
     }
-    /// Advances time until the interrupt line is active, `most` at most; returns true if it is.
-    bool run_to_interrupt(Duration most) {
+    /// Advances time until the interrupt line is active, `max_duration` at most; returns true if it is.
+    bool run_to_interrupt(Duration max_duration) {
         const std::lock_guard lock(mutex_);
-        const bool active = host().wait(most);
+        const bool active = host().wait(max_duration);
         now_ = kernel_.now().count();
         return active;
     }

@@ -23,10 +23,10 @@ inline int chosen() {
 
 /// Each number once a process, without a lock: a mistake may sit where nothing may wait.
 inline void reach(int number) {
-    constexpr int most = 1 << 16;
-    static std::atomic<bool> reached[most];
+    constexpr int max_numbers = 1 << 16;
+    static std::atomic<bool> reached[max_numbers];
     static const char* const path = std::getenv("MOTIONRACK_REACHED");
-    if (!path || number >= most || reached[number].exchange(true)) return;
+    if (!path || number >= max_numbers || reached[number].exchange(true)) return;
     char line[16];
     char* const end = std::to_chars(line, line + sizeof line - 1, number).ptr;
     *end = '\n';

@@ -5,7 +5,7 @@ import { status } from '../link/state';
 import { percent } from '../parts/numbers';
 import { Button, Panel } from '../parts/ui';
 
-function Override(props: { name: 'feed' | 'rapid'; label: string; most: number }): JSX.Element {
+function Override(props: { name: 'feed' | 'rapid'; label: string; max: number }): JSX.Element {
   const value = status.value?.overrides[props.name] ?? 1;
   const why = mayOperate();
   const set = (part: number): void =>
@@ -16,7 +16,7 @@ function Override(props: { name: 'feed' | 'rapid'; label: string; most: number }
       <input
         type="range"
         min="0"
-        max={props.most * 100}
+        max={props.max * 100}
         step="5"
         value={Math.round(value * 100)}
         disabled={why !== ''}
@@ -35,8 +35,8 @@ function Override(props: { name: 'feed' | 'rapid'; label: string; most: number }
 export function Overrides(): JSX.Element {
   return (
     <Panel title="Overrides" class="overrides">
-      <Override name="feed" label="Feed" most={2} />
-      <Override name="rapid" label="Rapid" most={1} />
+      <Override name="feed" label="Feed" max={2} />
+      <Override name="rapid" label="Rapid" max={1} />
     </Panel>
   );
 }

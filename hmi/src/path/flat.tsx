@@ -103,7 +103,7 @@ class Painter {
   driven(a: number, b: number, isDark: boolean): void {
     const { pen } = this;
     const points = driven.peek();
-    const most = maxError.peek();
+    const max = maxError.peek();
     pen.lineWidth = 2.4;
     pen.lineJoin = pen.lineCap = 'round';
     let colour = -1;
@@ -111,7 +111,7 @@ class Painter {
       const from = points[i - 1];
       const to = points[i];
       if (from === undefined || to === undefined) continue;
-      const step = Math.round((to.error / most) * STEPS_SHOWN);
+      const step = Math.round((to.error / max) * STEPS_SHOWN);
       if (step !== colour) {
         if (colour >= 0) pen.stroke();
         colour = step;

@@ -18,10 +18,10 @@ interface Travel {
 /** Margin around the picture, px. */
 export const MARGIN = 34;
 
-/** Smallest of 1, 2 or 5 times a power of ten that is not below `least`. */
-export function niceStep(least: number): number {
-  const power = 10 ** Math.floor(Math.log10(least));
-  for (const factor of [1, 2, 5]) if (power * factor >= least) return power * factor;
+/** Smallest of 1, 2 or 5 times a power of ten that is not below `min`. */
+export function niceStep(min: number): number {
+  const power = 10 ** Math.floor(Math.log10(min));
+  for (const factor of [1, 2, 5]) if (power * factor >= min) return power * factor;
   return power * 10;
 }
 

@@ -75,10 +75,10 @@ class View {
     this.real.geometry.dispose();
     this.real.geometry = geometry(points.map((one) => one.place));
     const colours = new Float32Array(points.length * 3);
-    const most = maxError.value;
+    const max = maxError.value;
     points.forEach((one, i) =>
       colours.set(
-        errorColour(one.error / most, dark.value).map((c) => (c / 255) ** 2.2),
+        errorColour(one.error / max, dark.value).map((c) => (c / 255) ** 2.2),
         i * 3,
       ),
     );

@@ -114,7 +114,7 @@ export function Scope(): JSX.Element {
       </Panel>
       <div class="column">
         <Panel title="Channels">
-          <Picker chosen={settings.value.channels} most={MAX_CHANNELS} onChange={(channels) => set({ channels })} />
+          <Picker chosen={settings.value.channels} max={MAX_CHANNELS} onChange={(channels) => set({ channels })} />
         </Panel>
         <Trigger />
       </div>

@@ -11,14 +11,14 @@ const SHOWN = 30;
 
 export function Picker(props: {
   chosen: readonly string[];
-  most: number;
+  max: number;
   onChange(chosen: string[]): void;
 }): JSX.Element {
   const filter = useSignal('');
   const fits = matching(channelList.value, props.chosen, filter.value);
   const add = (name: string): void => {
-    if (props.chosen.length >= props.most)
-      notice('refused', `${props.most} channels are the most at once. Take one away first.`);
+    if (props.chosen.length >= props.max)
+      notice('refused', `${props.max} channels are the most at once. Take one away first.`);
     else props.onChange([...props.chosen, name]);
   };
   return (

@@ -43,7 +43,7 @@ class SlopeTable {
     constexpr std::uint8_t byte(int i) const { return bytes_[static_cast<std::size_t>(i)]; }
     constexpr void set_byte(int i, std::uint8_t value) { bytes_[static_cast<std::size_t>(i)] = value; }
 
-    /// A rate and the distances over which it holds: least <= distance <= greatest.
+    /// A rate and the distances over which it holds: min <= distance <= max.
     struct Step {
         int rate = 0;
         std::int64_t min = 0;
@@ -70,14 +70,14 @@ class SlopeTable {
   private:
     /// The first of 24 entries with distance < position + reach: it holds up to position - 1 + reach.
     constexpr Step find(int first, std::int64_t distance, std::int64_t reach) const {
-        std::int64_t least = 0;
+        std::int64_t min_distance = 0;
         for (int i = first; i < first + half; ++i) {
             const SlopeEntry here = entry(i);
             const std::int64_t end = here.position + reach;
-            if (distance < end) return {here.rate, least, end - 1};
-            if (end > least) least = end;
+            if (distance < end) return {here.rate, min_distance, end - 1};
+            if (end > min_distance) min_distance = end;
         }
-        return {entry(entries - 1).rate, least, no_end};
+        return {entry(entries - 1).rate, min_distance, no_end};
     }
 
     std::array<std::uint8_t, size> bytes_{};

@@ -65,16 +65,16 @@ inline std::int64_t near(std::int64_t q) {
 
 // ---- lines
 
-/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0); n * p is
+/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `max_p` (> 0); n * p is
 /// below 2^63 for all values that the chip accepts.
-constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t longest) {
-    const std::int64_t done = n * p / longest, rest = n * p - done * longest;
-    return 2 * rest >= longest ? done + 1 : done;
+constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t max_p) {
+    const std::int64_t done = n * p / max_p, rest = n * p - done * max_p;
+    return 2 * rest >= max_p ? done + 1 : done;
 }
 
 /// The basic pulse at which that axis makes pulse number `steps` (>= 1, <= p).
-constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t longest) {
-    const auto way = static_cast<std::uint64_t>(2 * steps - 1) * static_cast<std::uint64_t>(longest);
+constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t max_p) {
+    const auto way = static_cast<std::uint64_t>(2 * steps - 1) * static_cast<std::uint64_t>(max_p);
     const auto twice = static_cast<std::uint64_t>(2 * p);
     return static_cast<std::int64_t>((way + twice - 1) / twice);
 }

@@ -32,10 +32,10 @@ Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
                     fmt::format("{}: {} is {}; it must be {}; the command was not added to the list", info.name, name,
                                 value, range));
     };
-    const auto up_to = [&](int param, double greatest) -> Result<void> {
+    const auto up_to = [&](int param, double max) -> Result<void> {
         const double value = c.p[static_cast<std::size_t>(param)];
-        if (value <= greatest) return {};
-        return refuse(info.params[static_cast<std::size_t>(param)].name, value, fmt::format("0 to {}", greatest));
+        if (value <= max) return {};
+        return refuse(info.params[static_cast<std::size_t>(param)].name, value, fmt::format("0 to {}", max));
     };
     switch (c.op) {
         case Op::store_encoder:
@@ -94,12 +94,12 @@ Result<Command> list_command(Op op, std::span<const double> parameters) {
     return out;
 }
 
-Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
-                             double greatest, std::string_view unit) {
-    if (value >= least && value <= greatest) return {};
+Result<void> check_parameter(std::string_view command, std::string_view name, double value, double min, double max,
+                             std::string_view unit) {
+    if (value >= min && value <= max) return {};
     return fail(ErrorKind::refused,
                 fmt::format("{}{}{} is {}; it must be {} to {}{}{}; nothing was changed", command,
-                            command.empty() ? "" : ": ", name, value, least, greatest, unit.empty() ? "" : " ", unit));
+                            command.empty() ? "" : ": ", name, value, min, max, unit.empty() ? "" : " ", unit));
 }
 
 std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits) {

@@ -39,9 +39,9 @@ inline Result<Command> list_command(Op op, std::initializer_list<double> paramet
 }
 
 /// Validates a parameter of a control command. Errors: refused (with command, if given, parameter, number and range) if
-/// it is not a number, or is outside `least` to `greatest` or the range of its kind.
-Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
-                             double greatest, std::string_view unit = "");
+/// it is not a number, or is outside `min` to `max` or the range of its kind.
+Result<void> check_parameter(std::string_view command, std::string_view name, double value, double min, double max,
+                             std::string_view unit = "");
 inline Result<void> check_parameter(std::string_view command, std::string_view name, double value, Kind kind) {
     const KindInfo range = kind_info(kind);
     return check_parameter(command, name, value, range.min, range.max, range.unit);

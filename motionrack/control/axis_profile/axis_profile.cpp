@@ -77,8 +77,8 @@ class AxisProfileBuilder {
     /// Returns the maximum velocity for the following phases, which the start may exceed by rounding.
     double bring_velocity_within() {
         const double last = velocity_at_last(velocity_, accel_);
-        const double most = std::max(std::fabs(last), std::fabs(velocity_));
-        if (most <= scale_.top * to_roundings) return std::max(most, scale_.top);
+        const double max_velocity = std::max(std::fabs(last), std::fabs(velocity_));
+        if (max_velocity <= scale_.top * to_roundings) return std::max(max_velocity, scale_.top);
         if (std::fabs(last) > scale_.top) {
             brake(last > 0 ? 1 : -1);
         } else {

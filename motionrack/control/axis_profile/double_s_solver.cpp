@@ -30,26 +30,26 @@ double noise_of(double way, double sensitive, double accel) {
     return 8 * relative_rounding * (way + std::min(512 * way, sensitive / accel));
 }
 
-/// Finds the root of a function that is below 0 at `least` and above at `most`, with a single crossing. Uses Halley
+/// Finds the root of a function that is below 0 at `min` and above at `max`, with a single crossing. Uses Halley
 /// steps from `guess`, and a bisection where a step would leave the bracket. `at(x)` returns the function and its first
 /// two derivatives.
 struct Jet {
     double value, first, second;
 };
 template <class Function>
-double crossing(double least, double most, double guess, Function at) {
-    double x = std::max(least, std::min(guess, most));
+double crossing(double min, double max, double guess, Function at) {
+    double x = std::max(min, std::min(guess, max));
     for (int step = 0; step < 200; ++step) {
         const Jet f = at(x);
-        (f.value < 0 ? least : most) = x;
+        (f.value < 0 ? min : max) = x;
         const double change = 2 * f.value * f.first / (2 * f.first * f.first - f.value * f.second);
         double next = x - change;
         // remaining error of a third-order step, once the second derivative term is small beside the first
         const bool near = std::fabs(change * f.second) < 1e-4 * f.first;
-        if (near && std::fabs(change) <= 1e-6 * std::fabs(x)) return std::max(least, std::min(next, most));
-        if (!(next > least && next < most)) {
-            if (f.value == 0 || most - least <= 2 * relative_rounding * std::fabs(x)) return x;
-            next = 0.5 * (least + most);
+        if (near && std::fabs(change) <= 1e-6 * std::fabs(x)) return std::max(min, std::min(next, max));
+        if (!(next > min && next < max)) {
+            if (f.value == 0 || max - min <= 2 * relative_rounding * std::fabs(x)) return x;
+            next = 0.5 * (min + max);
         }
         x = next;
     }
@@ -69,9 +69,9 @@ DirectVelocityChange direct_velocity_change(const BoundaryConditions& c) {
     const double sign = mirrored ? -1 : 1;
     const double a = sign * c.start_accel, b = sign * c.end_accel;
     const double height = sign * c.change + 0.5 * (a * a + b * b);
-    const double least = std::max(a, b);
+    const double min_peak = std::max(a, b);
     if (height > 1) return {mirrored, 1 - a, height - 1, 1 - b};
-    const double peak = std::max(least, std::sqrt(std::max(0.0, height)));
+    const double peak = std::max(min_peak, std::sqrt(std::max(0.0, height)));
     return {mirrored, peak - a, 0, peak - b};
 }
 
@@ -85,10 +85,10 @@ DoubleSSolver::DoubleSSolver(const BoundaryConditions& c, double top)
       reach_(c.distance - (c.end_velocity * c.end_accel - cube_third(c.end_accel)) +
              (c.start_velocity * c.start_accel - cube_third(c.start_accel))),
       top_(top),
-      least_(-c.end_accel) {
+      min_s_(-c.end_accel) {
     if (rise_ < 0 && end_accel_ < 0) {
         swapped_ = true;
-        least_ = std::sqrt(std::max(0.0, squared(end_accel_) + rise_));
+        min_s_ = std::sqrt(std::max(0.0, squared(end_accel_) + rise_));
         std::swap(start_foot_, end_foot_);
         rise_ = -rise_;
         floor_ = squared(end_accel_);
@@ -130,28 +130,28 @@ double DoubleSSolver::first_crest() const {
 }
 
 bool DoubleSSolver::find(double slack, double sensitive) {
-    double least = least_;
-    const bool may_meet_gap = least < 0 && gap_ > 0;
-    if (may_meet_gap) least = std::min(least, -gap_);
+    double min_s = min_s_;
+    const bool may_meet_gap = min_s < 0 && gap_ > 0;
+    if (may_meet_gap) min_s = std::min(min_s, -gap_);
     const double before_gap = may_meet_gap ? -gap_ : 0;
-    if (least < 0 && end_foot_ < 0.07 && flow_at(least) > 0) {
+    if (min_s < 0 && end_foot_ < 0.07 && flow_at(min_s) > 0) {
         const double crest = first_crest();
-        if (crest > least && crest < before_gap) {
+        if (crest > min_s && crest < before_gap) {
             if (reach_ <= reach_at(crest)) {
-                find_between(least, crest);
+                find_between(min_s, crest);
                 return true;
             }
-            least = crest;
+            min_s = crest;
         }
     }
     if (!may_meet_gap) {
-        find_above(least);
+        find_above(min_s);
         return true;
     }
     // depth of the acceleration valley at both sides of the gap
     const double noise = slack + noise_of(std::fabs(reach_), sensitive, gap_);
     if (reach_ <= reach_at(-gap_) + noise) {
-        find_between(least, -gap_);
+        find_between(min_s, -gap_);
         return true;
     }
     const double beyond = reach_ - reach_at(gap_);
@@ -168,38 +168,38 @@ void DoubleSSolver::find_beyond_gap() {
     find_above(gap_);
 }
 
-/// The reach crosses the required one once above `least`, or the maximum velocity is met before.
-void DoubleSSolver::find_above(double least) {
-    const double most = std::max(least, std::sqrt(std::max(0.0, top_ - end_foot_)));
-    const double more = reach_ - reach_at(most);
+/// The reach crosses the required one once above `min_s`, or the maximum velocity is met before.
+void DoubleSSolver::find_above(double min_s) {
+    const double max_s = std::max(min_s, std::sqrt(std::max(0.0, top_ - end_foot_)));
+    const double more = reach_ - reach_at(max_s);
     if (!(more < 0)) {
-        s_ = most;
+        s_ = max_s;
         cruise_ = more / top_;
         return;
     }
-    find_between(least, most);
+    find_between(min_s, max_s);
 }
 
-/// The reach crosses the required one once between `least` and `most`.
-void DoubleSSolver::find_between(double least, double most) {
-    if (most > 1 && (least >= 1 || reach_at(1) < reach_)) {
-        s_ = std::clamp(with_both_holds(), std::max(1.0, least), most);
+/// The reach crosses the required one once between `min_s` and `max_s`.
+void DoubleSSolver::find_between(double min_s, double max_s) {
+    if (max_s > 1 && (min_s >= 1 || reach_at(1) < reach_)) {
+        s_ = std::clamp(with_both_holds(), std::max(1.0, min_s), max_s);
         return;
     }
-    most = std::min(most, 1.0);
+    max_s = std::min(max_s, 1.0);
     if (!(rise_ < 1)) {
-        s_ = with_hold(least, most);
+        s_ = with_hold(min_s, max_s);
         return;
     }
     // |s| at which the peak is exactly 1
     const double edge = std::sqrt(1 - rise_);
     const auto reach_at_edge = [&](double s) { return both_ + s * s + (2 * end_foot_ + s * s) * s; };
-    if (most > edge && (least >= edge || reach_at_edge(edge) < reach_)) {
-        s_ = with_hold(std::max(least, edge), most);
-    } else if (least < -edge && (most <= -edge || reach_at_edge(-edge) >= reach_)) {
-        s_ = with_hold(least, std::min(most, -edge));
+    if (max_s > edge && (min_s >= edge || reach_at_edge(edge) < reach_)) {
+        s_ = with_hold(std::max(min_s, edge), max_s);
+    } else if (min_s < -edge && (max_s <= -edge || reach_at_edge(-edge) >= reach_)) {
+        s_ = with_hold(min_s, std::min(max_s, -edge));
     } else {
-        s_ = without_hold(std::max(least, -edge), std::min(most, edge));
+        s_ = without_hold(std::max(min_s, -edge), std::min(max_s, edge));
     }
 }
 
@@ -213,13 +213,13 @@ double DoubleSSolver::with_both_holds() const {
 }
 
 /// Peak at 1: u^4 - 2 u^3 + (1 + 2 end_foot) u^2 + c = 0 of u = 1 + s.
-double DoubleSSolver::with_hold(double least, double most) const {
+double DoubleSSolver::with_hold(double min_s, double max_s) const {
     const double twice = 2 * end_foot_;
     const double c = both_ * (1 + rise_) - twice - 2 * reach_;
-    const double middle = 0.5 * (least + most);
+    const double middle = 0.5 * (min_s + max_s);
     const double guess_square = -c / (twice + middle * middle);
     const double guess = guess_square > 0 ? std::sqrt(guess_square) : 1 + middle;
-    const double u = crossing(1 + least, 1 + most, guess, [&](double x) {
+    const double u = crossing(1 + min_s, 1 + max_s, guess, [&](double x) {
         const double s = x - 1;
         const double inner = s * s + twice;
         return Jet{x * x * inner + c, 2 * x * (inner + x * s), 2 * (inner + x * (4 * s + x))};
@@ -228,12 +228,12 @@ double DoubleSSolver::with_hold(double least, double most) const {
 }
 
 /// d^4 + 4 both d^2 - 4 reach d - rise^2 = 0 of d = P + s, the duration of the phases with jerk -1.
-double DoubleSSolver::without_hold(double least, double most) const {
+double DoubleSSolver::without_hold(double min_s, double max_s) const {
     const auto fall_at = [&](double s) {
         const double peak = std::sqrt(rise_ + s * s);
         return s < 0 ? (peak - s > 0 ? rise_ / (peak - s) : 0) : peak + s;
     };
-    const double low = fall_at(least), high = fall_at(most);
+    const double low = fall_at(min_s), high = fall_at(max_s);
     const double b = 4 * both_, c = 4 * reach_, rise_square = rise_ * rise_;
     double guess = 0;
     if (both_ > 0 && reach_ > 0) {
@@ -286,8 +286,8 @@ TimeOptimalSolution solve_time_optimal(const BoundaryConditions& given, double t
     const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
     const double velocities = std::fabs(course.start_velocity) + std::fabs(course.end_velocity);
     const double sensitive = velocities * velocities + (velocities + a * a + b * b) * (std::fabs(a) + std::fabs(b));
-    const double most = std::max(a + direct.rise, std::max(std::fabs(a), std::fabs(b)));
-    const double noise = slack + noise_of(parts, sensitive, most);
+    const double max_accel = std::max(a + direct.rise, std::max(std::fabs(a), std::fabs(b)));
+    const double noise = slack + noise_of(parts, sensitive, max_accel);
     if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;
     DoubleSSolver solver(backwards ? course.backwards() : course, top);

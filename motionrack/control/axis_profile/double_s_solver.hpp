@@ -84,11 +84,11 @@ class DoubleSSolver {
     double reach_at(double s) const;
     double flow_at(double s) const;
     double first_crest() const;
-    void find_above(double least);
-    void find_between(double least, double most);
-    double with_hold(double least, double most) const;
+    void find_above(double min_s);
+    void find_between(double min_s, double max_s);
+    double with_hold(double min_s, double max_s) const;
     double with_both_holds() const;
-    double without_hold(double least, double most) const;
+    double without_hold(double min_s, double max_s) const;
 
     double start_accel_, end_accel_;
     double start_foot_, end_foot_;
@@ -96,7 +96,7 @@ class DoubleSSolver {
     double both_;   ///< sum of the feet
     double reach_;  ///< required
     double top_;
-    double least_;          ///< s of the direct change
+    double min_s_;          ///< s of the direct change
     bool swapped_ = false;  ///< peak and valley, and the feet, are swapped so that the feet rise
     double floor_ = 0;      ///< minimum of P^2, because the acceleration starts there
     double gap_ = 0;        ///< no solution has |s| below it: its first phase would have a negative duration

@@ -55,20 +55,20 @@ PlanePoint CubicBezier::tangent(double t, bool before) const {
     const PlanePoint a = points[1] - points[0];
     const PlanePoint b = points[2] - points[1];
     const PlanePoint c = points[3] - points[2];
-    const double least = polygon_length(points) * no_direction;
+    const double min_length = polygon_length(points) * no_direction;
     PlanePoint first = interpolated(interpolated(a, b, t), interpolated(b, c, t), t);
-    if (length(first) <= least) {
+    if (length(first) <= min_length) {
         const PlanePoint second = interpolated(b - a, c - b, t);
         first = before ? second * -1 : second;
     }
-    if (length(first) <= least) first = (c - b) - (b - a);
+    if (length(first) <= min_length) first = (c - b) - (b - a);
     return first * (1 / length(first));
 }
 
-void CubicBezier::range(double PlanePoint::*coordinate, double& least, double& greatest) const {
+void CubicBezier::range(double PlanePoint::*coordinate, double& min, double& max) const {
     const double start = points[0].*coordinate, end = points[3].*coordinate;
-    least = std::min(start, end);
-    greatest = std::max(start, end);
+    min = std::min(start, end);
+    max = std::max(start, end);
     // The derivative is a t^2 + 2 b t + c.
     const double c = points[1].*coordinate - start;
     const double middle = points[2].*coordinate - points[1].*coordinate;
@@ -80,8 +80,8 @@ void CubicBezier::range(double PlanePoint::*coordinate, double& least, double& g
     for (const double t : {a != 0 ? q / a : 0.0, q != 0 ? c / q : 0.0}) {
         if (!(t > 0 && t < 1)) continue;
         const double value = at(t).*coordinate;
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
+        min = std::min(min, value);
+        max = std::max(max, value);
     }
 }
 

@@ -23,7 +23,7 @@ struct CubicBezier {
     /// Returns the unit tangent before or after t, which differ at a cusp. Requires at least two different points.
     PlanePoint tangent(double t, bool before) const;
     /// Computes the range of one coordinate over the whole curve.
-    void range(double PlanePoint::*coordinate, double& least, double& greatest) const;
+    void range(double PlanePoint::*coordinate, double& min, double& max) const;
     bool is_point() const;  ///< all four points are equal
 };
 

@@ -26,10 +26,10 @@ class Path {
     PlanePoint at() const { return at_; }
     bool full() const { return moves_.size() > max_turning_moves; }
     void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
-    /// Passes over everything up to `highest`: retracts first if one of the ends is lower, and descends behind it.
-    void over(double highest, PlanePoint to) {
-        if (std::min(at_.second, to.second) < highest - same_mm) {
-            const double clear = std::max(to.second, highest);
+    /// Passes over everything up to `max_height`: retracts first if one of the ends is lower, and descends behind it.
+    void over(double max_height, PlanePoint to) {
+        if (std::min(at_.second, to.second) < max_height - same_mm) {
+            const double clear = std::max(to.second, max_height);
             rapid({at_.first, clear});
             rapid({to.first, clear});
         }
@@ -37,9 +37,9 @@ class Path {
     }
     /// Moves to the start. If it lies behind the beginning of the contour, continues to a point above the beginning.
     /// Never passes through the workpiece, neither on a slant nor where it is higher than the start.
-    PlanePoint before(PlanePoint start, PlanePoint begin, double highest) {
+    PlanePoint before(PlanePoint start, PlanePoint begin, double max_height) {
         rapid(start);
-        if (begin.first < start.first) over(highest, {begin.first, start.second});
+        if (begin.first < start.first) over(max_height, {begin.first, start.second});
         return at_;
     }
     void feed(PlanePoint to) { add(MoveKind::feed, to, {}, 0); }
@@ -78,13 +78,13 @@ PlanePoint at_height(const ContourSegment& piece, double height) {
 }
 
 double highest_of(const std::vector<ContourSegment>& contour) {
-    double highest = contour.front().from.second;
+    double max_height = contour.front().from.second;
     for (const ContourSegment& piece : contour) {
-        highest = std::max(highest, piece.to.second);
+        max_height = std::max(max_height, piece.to.second);
         if (piece.arc() && extremes_passed(piece.from - piece.centre, piece.to - piece.centre, piece.turns > 0)[1])
-            highest = std::max(highest, piece.centre.second + length(piece.from - piece.centre));
+            max_height = std::max(max_height, piece.centre.second + length(piece.from - piece.centre));
     }
-    return highest;
+    return max_height;
 }
 
 /// Roughing along a monotone contour, in its own orientation.
@@ -190,17 +190,17 @@ void Rougher::pocket(std::size_t& piece) {
     std::size_t bottom = piece;
     for (std::size_t i = piece; i < contour_.size() && !rises(i); ++i)
         if (falls(i)) bottom = i;
-    const PlanePoint lowest = contour_[bottom].to;
+    const PlanePoint bottom_point = contour_[bottom].to;
     if (part_ == Part::pockets) top_ = std::max(top_, at.at.second);
     auto k = static_cast<std::int64_t>(std::ceil((top_ - at.at.second - same_mm) / plan_.depth));
-    for (k = std::max<std::int64_t>(k, 0); level(k) > lowest.second + same_mm && !path_.full(); ++k) {
+    for (k = std::max<std::int64_t>(k, 0); level(k) > bottom_point.second + same_mm && !path_.full(); ++k) {
         On down = at;
         while (contour_[down.piece].to.second > level(k) + same_mm) down = {down.piece + 1, contour_[down.piece].to};
         if (down.at.second > level(k) + same_mm) down.at = at_height(contour_[down.piece], level(k));
         follow(at, down, false);
         if (!cut_level(at.at, {at.piece, at.at}, false)) break;
     }
-    follow(at, {bottom, lowest}, false);
+    follow(at, {bottom, bottom_point}, false);
     goes_on_ = true;
     piece = bottom + 1;
 }
@@ -243,11 +243,11 @@ bool find_view(const LatheCycle& plan, const std::vector<ContourSegment>& contou
     const double along = view.in(contour.back().to).first - view.in(contour.front().from).first;
     if (std::fabs(along) < same_mm) return false;
     view.along = along > 0 ? 1 : -1;
-    double highest = lowest_ever;
+    double max_height = lowest_ever;
     for (const ContourSegment& piece : contour)
-        highest = std::max({highest, view.in(piece.from).second, view.in(piece.to).second});
+        max_height = std::max({max_height, view.in(piece.from).second, view.in(piece.to).second});
     const double start = view.in(plan.start).second, begin = view.in(contour.front().from).second;
-    const bool above = start > begin + same_mm || (start > begin - same_mm && start >= highest - same_mm);
+    const bool above = start > begin + same_mm || (start > begin - same_mm && start >= max_height - same_mm);
     view.away = above ? 1 : -1;
     return true;
 }
@@ -268,14 +268,14 @@ std::vector<ContourSegment> seen(const std::vector<ContourSegment>& contour, con
 std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const std::vector<ContourSegment>& contour,
                    Path& path) {
     PlanePoint start = view.in(plan.start);
-    double highest = lowest_ever;
+    double max_height = lowest_ever;
     for (std::int32_t left = plan.passes - 1; left >= 0 && !path.full(); --left) {
         std::vector<ContourSegment> beside;
         const double distance = plan.end_distance + (plan.distance - plan.end_distance) * left / plan.passes;
         if (std::string fault = offset_contour(contour, distance, beside); !fault.empty()) return fault;
-        path.over(highest, start);
-        highest = std::max(highest, highest_of(beside));
-        start = path.before(start, beside.front().from, highest);
+        path.over(max_height, start);
+        max_height = std::max(max_height, highest_of(beside));
+        start = path.before(start, beside.front().from, max_height);
         path.rapid(beside.front().from);
         for (const ContourSegment& piece : beside) path.along(piece, piece.to, false);
     }

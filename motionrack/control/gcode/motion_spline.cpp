@@ -19,9 +19,9 @@ bool Interpreter::spline(std::int16_t code) {
             fmt::format("{}: the curve has no length; its end and control points are its start", name_of_g(code)));
     }
     for (const int axis : {0, 1}) {
-        double least = 0, greatest = 0;
-        curve.range(axis == 0 ? &PlanePoint::first : &PlanePoint::second, least, greatest);
-        if (!reach(axis, least, error_column()) || !reach(axis, greatest, error_column())) {
+        double min = 0, max = 0;
+        curve.range(axis == 0 ? &PlanePoint::first : &PlanePoint::second, min, max);
+        if (!reach(axis, min, error_column()) || !reach(axis, max, error_column())) {
             problem_.message = "this curve exceeds the travel: " + problem_.message;
             return false;
         }

@@ -47,11 +47,11 @@ bool ProgramLines::next(std::string_view& line) {
         skip_ = false;
     }
     if (at_ == end_) return false;
-    constexpr std::ptrdiff_t most = max_line_length + 1;
+    constexpr std::ptrdiff_t max_bytes = max_line_length + 1;
     const char* begin = at_;
-    at_ = find_line_end(begin, end_ - begin > most ? begin + most : end_);
+    at_ = find_line_end(begin, end_ - begin > max_bytes ? begin + max_bytes : end_);
     line = std::string_view(begin, static_cast<std::size_t>(at_ - begin));
-    if (line.size() == static_cast<std::size_t>(most))
+    if (line.size() == static_cast<std::size_t>(max_bytes))
         skip_ = true;
     else
         pass_end();

@@ -25,10 +25,10 @@ ArcCurve::ArcCurve(const Geometry& arc)
     const double straight = along * along + outwards * outwards;
     rate_in_ = std::sqrt(straight + radius_in * radius_in * sweep_ * sweep_);
     rate_out_ = std::sqrt(straight + radius_out * radius_out * sweep_ * sweep_);
-    const double slowest = std::min(rate_in_, rate_out_);
-    turn_rate_ = std::fabs(sweep_) / slowest;
+    const double min_rate = std::min(rate_in_, rate_out_);
+    turn_rate_ = std::fabs(sweep_) / min_rate;
     max_curvature_ = std::max(radius_in, radius_out) * turn_rate_ * turn_rate_;
-    for (int i = 3; i < axis_count; ++i) rotary_rate_ = std::max(rotary_rate_, std::fabs(change_[i]) / slowest);
+    for (int i = 3; i < axis_count; ++i) rotary_rate_ = std::max(rotary_rate_, std::fabs(change_[i]) / min_rate);
 }
 
 ArcCurvePoint ArcCurve::at(double u) const {

@@ -123,20 +123,20 @@ double CornerBlends::proposed_width(std::int64_t k) const {
     // A blend near a standstill stays short: it uses jerk that the start or end of the path needs.
     const double left = (own.u - (*this)[first].u) * (first == 0 ? part_to_rest : 1);
     const double right = past == k + reach + 1 ? (*this)[past - 1].u - own.u : part_to_rest * (end_ - own.u);
-    const double most = 2 * std::min(left, right);
+    const double max_width = 2 * std::min(left, right);
     Sum sum;
     sum.add(own, weight_of(own, own), 0);
     double from = 0;
     std::int64_t before = k - 1, after = k + 1;
     for (;;) {
-        const double d_before = before >= first ? own.u - (*this)[before].u : most;
-        const double d_after = after < past ? (*this)[after].u - own.u : most;
-        const double width = std::min(most, 2 * std::min(d_before, d_after));
+        const double d_before = before >= first ? own.u - (*this)[before].u : max_width;
+        const double d_after = after < past ? (*this)[after].u - own.u : max_width;
+        const double width = std::min(max_width, 2 * std::min(d_before, d_after));
         const double need = std::max(sum.need(own.velocity), from);
         const double widest = std::min(need, width);
         if (widest > 0 && sum.at(widest) >= own.tolerance) return sum.solve(widest, own.tolerance);
         if (need <= width) return need;
-        if (width >= most) return most;
+        if (width >= max_width) return max_width;
         const std::int64_t next = d_before < d_after ? before-- : after++;
         const CornerBlend& other = (*this)[next];
         if (!other.fixed) sum.add(other, weight_of(other, own), 0.5 * width);

@@ -11,16 +11,16 @@ constexpr double no_corner_limit = 1e300;
 /// Number of bisections for velocities: durations are compared, not executed.
 constexpr int corner_halvings = 12;
 
-/// Returns the largest velocity in least .. most for which distance(velocity), an increasing function, is at most
+/// Returns the largest velocity in min .. max for which distance(velocity), an increasing function, is at most
 /// `length`.
 template <class Distance>
-double fastest(double least, double most, double length, Distance distance) {
-    if (distance(most) <= length) return most;
+double find_max_velocity(double min, double max, double length, Distance distance) {
+    if (distance(max) <= length) return max;
     for (int i = 0; i < corner_halvings; ++i) {
-        const double middle = 0.5 * (least + most);
-        (distance(middle) < length ? least : most) = middle;
+        const double middle = 0.5 * (min + max);
+        (distance(middle) < length ? min : max) = middle;
     }
-    return least;
+    return min;
 }
 
 /// A passed end of a leg.
@@ -32,12 +32,12 @@ Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
     return {std::min(joint.velocity, leg.velocity), joint.velocity < leg.velocity ? joint.half_blend_length : 0};
 }
 
-/// Returns the minimum of limit / |tangent| over the axes, and of `least`.
+/// Returns the minimum of limit / |tangent| over the axes, and of `min_limit`.
 template <class LimitOf>
-double min_along(const Point& tangent, double least, LimitOf limit_of) {
+double min_along(const Point& tangent, double min_limit, LimitOf limit_of) {
     for (std::size_t i = 0; i < tangent.size(); ++i)
-        if (tangent[i] != 0) least = std::min(least, limit_of(i) / std::fabs(tangent[i]));
-    return least;
+        if (tangent[i] != 0) min_limit = std::min(min_limit, limit_of(i) / std::fabs(tangent[i]));
+    return min_limit;
 }
 
 }  // namespace
@@ -87,13 +87,14 @@ double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at
     };
     double seconds = turn_seconds(low) - gain;
     if (way(low.velocity, high.velocity) > rest) {
-        high.velocity = fastest(low.velocity, high.velocity, rest, [&](double to) { return way(low.velocity, to); });
+        high.velocity =
+            find_max_velocity(low.velocity, high.velocity, rest, [&](double to) { return way(low.velocity, to); });
         return high.velocity > 0 ? seconds + turn_seconds(high) + ramp_duration_s(high.velocity - low.velocity, leg)
                                  : no_corner_limit;
     }
     seconds += turn_seconds(high);
     const auto ways = [&](double top) { return way(low.velocity, top) + way(high.velocity, top); };
-    const double top = fastest(high.velocity, leg.velocity, rest, ways);
+    const double top = find_max_velocity(high.velocity, leg.velocity, rest, ways);
     if (top > 0)
         seconds += ramp_duration_s(top - low.velocity, leg) + ramp_duration_s(top - high.velocity, leg) +
                    std::max(0.0, rest - ways(top)) / top;

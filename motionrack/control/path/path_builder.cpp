@@ -28,24 +28,24 @@ double dot(const Point& a, const Point& b) {
 double max_velocity_on(const CubicSegment& piece, bool rotary) {
     const double x = piece.length;
     if (rotary) {
-        double most = 0;
+        double max_velocity = 0;
         const Point out = tangent_on(piece, x);
         for (int i = 3; i < axis_count; ++i) {
             const double middle = piece.tangent[i] + 0.5 * x * piece.curvature[i];
             const double beyond = std::max(std::fabs(piece.tangent[i]), std::fabs(out[i]));
-            most = std::max({most, beyond, 0.5 * (std::fabs(middle) + beyond)});
+            max_velocity = std::max({max_velocity, beyond, 0.5 * (std::fabs(middle) + beyond)});
         }
-        return most;
+        return max_velocity;
     }
     const Point out = tangent_on(piece, x);
     // half the second derivative of the square is a + b x + c x^2
     const double a = dot(piece.curvature, piece.curvature) + dot(piece.tangent, piece.curvature_rate);
     const double b = 3 * dot(piece.curvature, piece.curvature_rate);
     const double c = 1.5 * dot(piece.curvature_rate, piece.curvature_rate);
-    double least = std::min(a, a + x * (b + x * c));
-    if (b < 0 && -b < 2 * c * x) least = std::min(least, a - b * b / (4 * c));
+    double min_derivative = std::min(a, a + x * (b + x * c));
+    if (b < 0 && -b < 2 * c * x) min_derivative = std::min(min_derivative, a - b * b / (4 * c));
     const double ends = std::max(dot(piece.tangent, piece.tangent), dot(out, out));
-    return std::sqrt(ends + std::max(0.0, -least) * x * x * 0.25);
+    return std::sqrt(ends + std::max(0.0, -min_derivative) * x * x * 0.25);
 }
 
 /// Returns the remaining tolerance for blends on a segment.
@@ -265,14 +265,14 @@ bool PathBuilder::next_piece(CubicSegment& piece) {
     const bool all = turns_.is_complete();
     // Blends that are not settled begin after this.
     const double known = all ? turns_.end() : turns_[std::max<std::int64_t>(0, settled - CornerBlends::reach)].u;
-    const double least = curve_rounding * (1 + cursor_);
-    while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + least) ++first_event_;
+    const double min_length = curve_rounding * (1 + cursor_);
+    while (first_event_ < past_event_ && events_[first_event_] <= cursor_ + min_length) ++first_event_;
     double end = known;
-    if (first_event_ < past_event_ && events_[first_event_] < known - (all ? least : 0))
+    if (first_event_ < past_event_ && events_[first_event_] < known - (all ? min_length : 0))
         end = events_[first_event_];
     else if (!all)
         return false;
-    if (end <= cursor_ + (all ? 0 : least)) return false;
+    if (end <= cursor_ + (all ? 0 : min_length)) return false;
     fill(piece, end);
     cursor_ = end;
     while (alive_ < placed_ && turns_[alive_].end <= cursor_) ++alive_;
@@ -343,8 +343,8 @@ void PathBuilder::fill(CubicSegment& piece, double end) {
         }
     }
     if (from == 0) piece.start = turns_[0].at;
-    const double fastest = max_velocity_on(piece, last_.rotary);
-    if (fastest > 1) piece.feed /= fastest;
+    const double max_velocity = max_velocity_on(piece, last_.rotary);
+    if (max_velocity > 1) piece.feed /= max_velocity;
 }
 
 }  // namespace motionrack::control

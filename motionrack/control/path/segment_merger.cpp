@@ -35,10 +35,10 @@ double dot_from(const Point& a, const Point& b, int first) {
 }
 
 double finest_pulse(const MachineLimits& limits, int first) {
-    double most = 0;
+    double max_pulses_per_unit = 0;
     for (int i = first; i < first + 3; ++i)
-        if (limits[i].present) most = std::max(most, limits[i].pulses_per_unit);
-    return most > 0 ? 1 / most : no_pulse;
+        if (limits[i].present) max_pulses_per_unit = std::max(max_pulses_per_unit, limits[i].pulses_per_unit);
+    return max_pulses_per_unit > 0 ? 1 / max_pulses_per_unit : no_pulse;
 }
 
 double merge_room(double tolerance, double pulse) {
@@ -88,8 +88,8 @@ bool SegmentMerger::is_left_out(const Geometry& path) const {
     if (path.shape == PathShape::arc || path.length > half_pulse_.linear) return false;
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
-        double& most = i < 3 ? linear : rotary;
-        most = std::max(most, std::fabs(path.end[i] - path.start[i]));
+        double& max_distance = i < 3 ? linear : rotary;
+        max_distance = std::max(max_distance, std::fabs(path.end[i] - path.start[i]));
     }
     return linear < half_pulse_.linear * left_out_share && rotary < half_pulse_.rotary * left_out_share;
 }
@@ -136,13 +136,13 @@ MergedSegment SegmentMerger::segment_of(const Move& move, const Geometry& path) 
         make_line(segment);
         worst = segment.tangent_in;
     }
-    const double fastest = max_velocity_along(worst, limits_);
+    const double max_velocity = max_velocity_along(worst, limits_);
     if (move.kind == MoveKind::rapid)
         segment.feed =
-            move.rapid_override < 1 ? move.rapid_override * fastest : std::numeric_limits<double>::infinity();
+            move.rapid_override < 1 ? move.rapid_override * max_velocity : std::numeric_limits<double>::infinity();
     else
         segment.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * segment.length : move.feed;
-    segment.velocity = std::min(segment.feed, fastest);
+    segment.velocity = std::min(segment.feed, max_velocity);
     return segment;
 }
 
@@ -164,8 +164,8 @@ bool SegmentMerger::stops_between(const Geometry& path, const MergedSegment& seg
 bool SegmentMerger::has_width(const MergedSegment& segment, const Point& in, const Point& out) const {
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
-        double& most = i < 3 ? linear : rotary;
-        most = std::max(most, std::fabs(out[i] - in[i]));
+        double& max_change = i < 3 ? linear : rotary;
+        max_change = std::max(max_change, std::fabs(out[i] - in[i]));
     }
     const Tolerance room{std::min(last_.tolerance.linear, segment.tolerance.linear),
                          std::min(last_.tolerance.rotary, segment.tolerance.rotary)};

@@ -77,15 +77,15 @@ void settle(ProfileSegment& cell) {
     const double velocity = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
     // It is slower than at both ends only if it decelerates first and accelerates again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
-    const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(velocity, end);
-    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(velocity, end)),
-           time = std::min(most, cell.seconds);
+    const double min_velocity = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(velocity, end);
+    double min_time = 0, max_time = length / std::max(min_velocity, as_good_as_rest * std::max(velocity, end)),
+           time = std::min(max_time, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, velocity, time);
-        (there < length ? least : most) = time;
+        (there < length ? min_time : max_time) = time;
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
-        const bool inside = next > least && next < most;
-        if (!inside) next = 0.5 * (least + most);
+        const bool inside = next > min_time && next < max_time;
+        if (!inside) next = 0.5 * (min_time + max_time);
         const bool settled = std::fabs(next - time) <= (inside ? settled_part : feed_rounding) * time;
         time = next;
         if (settled) break;

@@ -61,9 +61,9 @@ class End {
 };
 
 /// Finds the highest velocity for which the remaining length is not negative, by false position.
-std::optional<double> max_reachable_velocity(const End& begin, const End& end, double length, double most) {
+std::optional<double> max_reachable_velocity(const End& begin, const End& end, double length, double max_velocity) {
     const auto over = [&](double velocity) { return begin.way_to(velocity) + end.way_to(velocity) - length; };
-    double low = std::max(begin.min_velocity(), end.min_velocity()), high = most;
+    double low = std::max(begin.min_velocity(), end.min_velocity()), high = max_velocity;
     if (!(low <= high)) return std::nullopt;
     double over_low = over(low), over_high = over(high);
     if (over_low > 0) return std::nullopt;

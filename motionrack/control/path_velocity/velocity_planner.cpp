@@ -137,10 +137,10 @@ void VelocityPlanner::compute_bounds() {
     if (!moving()) return;
     // As if a cell like the first came before it: the two points around the start describe the current motion.
     way_[0] = cells_[0].length;
-    const double most = bound_[1];
+    const double max_velocity2 = bound_[1];
     bound_[1] = start_.velocity2 + 0.5 * start_.velocity2_slope * cells_[0].length;
     bound_[0] = bound_[1] - start_.velocity2_slope * way_[0];
-    can_start_ = std::max(start_.velocity2, bound_[1]) <= most * (1 + rounding) &&
+    can_start_ = std::max(start_.velocity2, bound_[1]) <= max_velocity2 * (1 + rounding) &&
                  start_.velocity2_slope <= cells_[0].up * (1 + rounding) &&
                  -start_.velocity2_slope <= cells_[0].down * (1 + rounding);
 }
@@ -233,7 +233,7 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     out.assign(n + 2, 0);
     double slope = 0, square = 0;
     const bool from_motion = moving() && !back;
-    const double least = from_motion ? min_square * start_.velocity2 : 0;
+    const double min_velocity2 = from_motion ? min_square * start_.velocity2 : 0;
     if (from_motion) {
         out[0] = bound_[0];
         out[1] = square = bound_[1];
@@ -249,14 +249,14 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
             // at the previous velocity.
             const Cell& cell = cells_[back ? n - i : i - 1];
             const double more = cell.velocity2_curvature * cell.length;
-            const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
-            slope = std::min(steepest, slope + more / std::sqrt(std::max({most, square, out[point(i - 1)]})));
+            const double max_velocity2 = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
+            slope = std::min(steepest, slope + more / std::sqrt(std::max({max_velocity2, square, out[point(i - 1)]})));
         }
         const std::size_t at = point(i + 1);
         const double next = square + slope * way, bound = moving() && at < 2 ? next : bound_[at];
         if (next > bound) slope = std::max(0.0, (bound - square) / way);
-        stalls_ = stalls_ || next < least;
-        out[at] = square = std::max(std::min(next, bound), least);
+        stalls_ = stalls_ || next < min_velocity2;
+        out[at] = square = std::max(std::min(next, bound), min_velocity2);
     }
 }
 

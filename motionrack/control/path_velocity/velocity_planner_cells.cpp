@@ -41,32 +41,33 @@ double launch_length(double jerk, double seconds) {
 /// needs no braking, and a launch of a fourteenth of the distance leaves room for it.
 VelocityPlanner::End VelocityPlanner::end_of(std::span<const LimitInterval> intervals, bool back) const {
     End end{length_ * max_launch, 0};
-    LimitInterval least = intervals[back ? intervals.size() - 1 : 0];
+    LimitInterval min_limits = intervals[back ? intervals.size() - 1 : 0];
     double before = 0;
     bool within = true;
     for (std::size_t n = 0; n < intervals.size() && before * max_launch < end.length; ++n) {
         const LimitInterval& interval = intervals[back ? intervals.size() - 1 - n : n];
         if (within) {
-            const LimitInterval all = min_of(least, interval);
+            const LimitInterval all = min_of(min_limits, interval);
             const double fits = launch_length(
                 all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.velocity / all.jerk)));
-            const bool alike = interval.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * interval.jerk;
+            const bool alike =
+                interval.jerk < alike_jerk * min_limits.jerk && min_limits.jerk < alike_jerk * interval.jerk;
             if (n > 0 && (fits <= before || !alike)) {
                 end.length = std::min(end.length, before);
                 within = false;
             } else {
-                least = all;
+                min_limits = all;
                 end.length = std::min(end.length, fits);
             }
         }
         if (n > 0)
             end.length = std::min(
-                end.length,
-                std::max(before * max_launch, launch_length(least.jerk, std::sqrt(interval.velocity / least.jerk))));
+                end.length, std::max(before * max_launch,
+                                     launch_length(min_limits.jerk, std::sqrt(interval.velocity / min_limits.jerk))));
         before += interval.length;
         within = within && before < end.length;
     }
-    end.jerk = least.jerk;
+    end.jerk = min_limits.jerk;
     return end;
 }
 
@@ -93,11 +94,11 @@ void VelocityPlanner::compute_cell_sizes(std::span<const LimitInterval> interval
     sizes_.front() = moving() ? first_size(target_cell_length(intervals.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < intervals.size(); ++k) {
-        const LimitInterval least = min_of(intervals[k - 1], intervals[k]);
+        const LimitInterval min_limits = min_of(intervals[k - 1], intervals[k]);
         // Between different velocities the jerk needs about this time to reach or leave the lower one.
-        const double unlike = 1 - least.velocity / std::max(intervals[k - 1].velocity, intervals[k].velocity);
-        const double seconds = std::min(std::sqrt(least.velocity / least.jerk), settings_.cell_seconds);
-        const double ramp = unlike > 0 ? unlike_part * least.velocity * seconds / unlike : length_;
+        const double unlike = 1 - min_limits.velocity / std::max(intervals[k - 1].velocity, intervals[k].velocity);
+        const double seconds = std::min(std::sqrt(min_limits.velocity / min_limits.jerk), settings_.cell_seconds);
+        const double ramp = unlike > 0 ? unlike_part * min_limits.velocity * seconds / unlike : length_;
         sizes_[k] = std::min({target_cell_length(intervals[k - 1]), target_cell_length(intervals[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k)
@@ -131,10 +132,10 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> intervals) {
 
 /// `at`: the interval in which it starts.
 void VelocityPlanner::add_cell(std::span<const LimitInterval> intervals, std::size_t at, double begin, double end) {
-    LimitInterval least = intervals[at];
-    for (; at + 1 < intervals.size() && ends_[at] < end; ++at) least = min_of(least, intervals[at + 1]);
-    cells_.push_back(
-        {begin, end - begin, least.velocity * least.velocity, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
+    LimitInterval min_limits = intervals[at];
+    for (; at + 1 < intervals.size() && ends_[at] < end; ++at) min_limits = min_of(min_limits, intervals[at + 1]);
+    cells_.push_back({begin, end - begin, min_limits.velocity * min_limits.velocity, 2 * min_limits.accel,
+                      2 * min_limits.brake, 2 * min_limits.jerk});
 }
 
 }  // namespace motionrack::control

@@ -56,8 +56,8 @@ std::vector<ContourSegment> random_contour(bool arcs, double widest) {
 /// Returns the height of a move or a contour segment at a position along the cut; nothing outside of it, or if it is
 /// vertical.
 std::optional<double> height_at(PlanePoint from, PlanePoint to, std::int32_t turns, PlanePoint centre, double along) {
-    const double least = std::min(from.first, to.first), greatest = std::max(from.first, to.first);
-    if (along < least || along > greatest || greatest - least < near) return std::nullopt;
+    const double min_along = std::min(from.first, to.first), max_along = std::max(from.first, to.first);
+    if (along < min_along || along > max_along || max_along - min_along < near) return std::nullopt;
     if (turns == 0) return from.second + (to.second - from.second) * (along - from.first) / (to.first - from.first);
     const double radius = length(from - centre), over = along - centre.first;
     const double half = std::sqrt(std::max(0.0, radius * radius - over * over));

@@ -209,13 +209,14 @@ RC_GTEST_PROP(GeometryLaws, TheDistanceIsTheLeastOverThePath, ()) {
     Point point = position_at(path, path.length * part(random));
     for (int i = 0; i < 3; ++i) point[i] += scale * off(random);
     constexpr int samples = 20'000;
-    double least = 1e300;
+    double min_distance = 1e300;
     for (int k = 0; k <= samples; ++k)
-        least = std::min(least, apart(point, position_at(path, path.length * k / samples)));
+        min_distance = std::min(min_distance, apart(point, position_at(path, path.length * k / samples)));
     const double got = distance_to(path, point[0], point[1], point[2]);
-    RC_ASSERT(got <= least + 1e-9);
+    RC_ASSERT(got <= min_distance + 1e-9);
     const double half_step = 0.5 * path.length / samples;
-    RC_ASSERT(got >= std::sqrt(std::max(0.0, least * least - half_step * half_step)) - half_step * 0.1 - 1e-9);
+    RC_ASSERT(got >=
+              std::sqrt(std::max(0.0, min_distance * min_distance - half_step * half_step)) - half_step * 0.1 - 1e-9);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ void keeps_the_limits(const MachineLimits& limits, const std::vector<PlannedMove
 std::vector<double> entries_by_full_passes(const MachineLimits& machine, const std::vector<PlannedMove>& moves) {
     const PathLimits limits(machine);
     const std::size_t count = moves.size();
-    std::vector<double> most(count + 1, 0), reach(count, 0);
+    std::vector<double> max_entry(count + 1, 0), reach(count, 0);
     Geometry last;
     double last_velocity = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -181,17 +181,17 @@ std::vector<double> entries_by_full_passes(const MachineLimits& machine, const s
             reach[i] = 2 * along.accel * path.length;
             if (last.shape != PathShape::nothing) {
                 const Move& before = moves[i - 1].move;
-                most[i] = limits.max_junction_velocity2(last, last_velocity, path, along.velocity, before.path,
-                                                        before.tolerance_mm);
+                max_entry[i] = limits.max_junction_velocity2(last, last_velocity, path, along.velocity, before.path,
+                                                             before.tolerance_mm);
             }
             last_velocity = along.velocity;
         }
         last = path;
     }
-    for (std::size_t i = count; i-- > 0;) most[i] = std::min(most[i], most[i + 1] + reach[i]);
-    for (std::size_t i = 0; i < count; ++i) most[i + 1] = std::min(most[i + 1], most[i] + reach[i]);
-    for (double& value : most) value = std::sqrt(value);
-    return most;
+    for (std::size_t i = count; i-- > 0;) max_entry[i] = std::min(max_entry[i], max_entry[i + 1] + reach[i]);
+    for (std::size_t i = 0; i < count; ++i) max_entry[i + 1] = std::min(max_entry[i + 1], max_entry[i] + reach[i]);
+    for (double& value : max_entry) value = std::sqrt(value);
+    return max_entry;
 }
 
 RC_GTEST_PROP(PlannerLaws, EveryAxisKeepsItsLimitsAtEveryInstant, ()) {
@@ -252,12 +252,12 @@ TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
     const auto out = plan(limits, curve(5000, 0.1), 64);
     ASSERT_EQ(out.size(), 5000u);
     const auto entries = entries_by_full_passes(limits, out);
-    double fastest = 0;
+    double peak_velocity = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         ASSERT_NEAR(out[i].entry_velocity, entries[i], 1e-9) << i;
-        fastest = std::max(fastest, out[i].cruise_velocity);
+        peak_velocity = std::max(peak_velocity, out[i].cruise_velocity);
     }
-    EXPECT_GT(fastest, 85);
+    EXPECT_GT(peak_velocity, 85);
 }
 
 /// Hashes the bits of velocities, lengths and times; the number was the same with g++ and clang++ at -O0, -O2 and -O3.

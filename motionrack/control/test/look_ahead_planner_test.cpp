@@ -319,8 +319,8 @@ TEST(LookAheadPlanner, SlowsDownToTheRateThatTheHardwareHasBehindACorner) {
     EXPECT_GT(out[2].entry_velocity, 3);
     EXPECT_DOUBLE_EQ(out[1].exit_velocity, out[2].entry_velocity)
         << "as told to the hardware, which takes the lesser rate";
-    const double slowest = out[2].entry_velocity / QuickerBehindTheCorner::ratio;
-    EXPECT_NEAR(out[1].entry_velocity, std::sqrt(slowest * slowest + 2 * out[1].accel * out[1].length), 1e-9);
+    const double min_velocity = out[2].entry_velocity / QuickerBehindTheCorner::ratio;
+    EXPECT_NEAR(out[1].entry_velocity, std::sqrt(min_velocity * min_velocity + 2 * out[1].accel * out[1].length), 1e-9);
     EXPECT_LT(out[1].entry_velocity, 50);
 }
 

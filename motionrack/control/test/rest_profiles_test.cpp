@@ -135,15 +135,15 @@ RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakVelocityIsQuicker, ()) {
     const double v0 = p.entry();
     const double v1 = p.exit();
     const double low = std::max(v0, v1);
-    double quickest = 1e300;
+    double min_duration = 1e300;
     for (int k = 0; k <= 4000; ++k) {
         const double v = low + (l.velocity - low) * k / 4000;
         const double ramps = (2 * v * v - v0 * v0 - v1 * v1) / (2 * l.accel);
         if (v == 0 || ramps > l.distance * (1 + 1e-12)) continue;
-        quickest = std::min(quickest, (2 * v - v0 - v1) / l.accel + (l.distance - ramps) / v);
+        min_duration = std::min(min_duration, (2 * v - v0 - v1) / l.accel + (l.distance - ramps) / v);
     }
     // velocities have a resolution of 1e-16 of their value, which the reference converts to times
-    RC_ASSERT(p.duration() <= quickest * (1 + 1e-9) + 1e-15 * l.velocity / l.accel);
+    RC_ASSERT(p.duration() <= min_duration * (1 + 1e-9) + 1e-15 * l.velocity / l.accel);
 }
 
 TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
@@ -241,19 +241,19 @@ double seconds_with(double distance, double v, double accel, double jerk) {
 RC_GTEST_PROP(SCurveLaws, NoOtherPeaksAreQuicker, ()) {
     const Limits l = random_limits(*rc::gen::arbitrary<std::uint64_t>());
     const SCurveProfile p(l.distance, l.velocity, l.accel, l.jerk);
-    double quickest = 1e300;
+    double min_duration = 1e300;
     for (int k = 1; k <= 4000; ++k) {
-        quickest = std::min(quickest, seconds_with(l.distance, l.velocity * k / 4000, l.accel, l.jerk));
-        quickest = std::min(quickest, seconds_with(l.distance, p.peak() * k / 4000, l.accel, l.jerk));
+        min_duration = std::min(min_duration, seconds_with(l.distance, l.velocity * k / 4000, l.accel, l.jerk));
+        min_duration = std::min(min_duration, seconds_with(l.distance, p.peak() * k / 4000, l.accel, l.jerk));
     }
     for (int k = 1; k <= 60; ++k) {
         for (int m = 1; m <= 60; ++m) {
             const double accel = l.accel * k / 60;
-            quickest = std::min(quickest, seconds_with(l.distance, p.peak() * m / 60, accel, l.jerk));
-            quickest = std::min(quickest, seconds_with(l.distance, p.peak() * m / 60, accel, l.jerk * 0.7));
+            min_duration = std::min(min_duration, seconds_with(l.distance, p.peak() * m / 60, accel, l.jerk));
+            min_duration = std::min(min_duration, seconds_with(l.distance, p.peak() * m / 60, accel, l.jerk * 0.7));
         }
     }
-    RC_ASSERT(std::fabs(p.duration() - quickest) <= 1e-9 * quickest);
+    RC_ASSERT(std::fabs(p.duration() - min_duration) <= 1e-9 * min_duration);
 }
 
 TEST(CubeRoot, IsWithinAFewRoundingsOverTheWholeRange) {

@@ -84,11 +84,11 @@ class Polygon {
   public:
     Polygon(double from, double to) : corners_{Corner{0, 0}, {from, 0}, {from, to}, {0, to}}, count_(4) {}
 
-    /// Keeps the part with a * from + b * to <= most; most > 0, so (0, 0) stays.
-    void cut(double a, double b, double most) {
+    /// Keeps the part with a * from + b * to <= max; max > 0, so (0, 0) stays.
+    void cut(double a, double b, double max) {
         std::array<Corner, max_corners> kept = {};
         std::size_t count = 0;
-        const auto room = [&](const Corner& corner) { return most - (a * corner.from + b * corner.to); };
+        const auto room = [&](const Corner& corner) { return max - (a * corner.from + b * corner.to); };
         for (std::size_t i = 0; i < count_; ++i) {
             const Corner &here = corners_[i], &next = corners_[(i + 1) % count_];
             const double here_room = room(here), next_room = room(next);
@@ -104,9 +104,9 @@ class Polygon {
         count_ = count;
     }
     double max_from() const {
-        double most = 0;
-        for (std::size_t i = 0; i < count_; ++i) most = std::max(most, corners_[i].from);
-        return most;
+        double max = 0;
+        for (std::size_t i = 0; i < count_; ++i) max = std::max(max, corners_[i].from);
+        return max;
     }
 
   private:
@@ -132,9 +132,9 @@ double back_over(const Cell& cell, double cap, double next, const MachineLimits&
 double ahead_over(const Cell& cell, double square, double cap, const MachineLimits& limits) {
     if (cell.straight) return std::min(cap, square + 2 * cell.accel * cell.length);
     for (std::size_t i = 0; i < limits.size(); ++i) {
-        const double most = limits[i].max_accel, begun = cell.from[i] * square;
-        if (cell.to[i] > 0) cap = std::min(cap, (most - begun) / cell.to[i]);
-        if (cell.to[i] < 0) cap = std::min(cap, (most + begun) / -cell.to[i]);
+        const double max_accel = limits[i].max_accel, begun = cell.from[i] * square;
+        if (cell.to[i] > 0) cap = std::min(cap, (max_accel - begun) / cell.to[i]);
+        if (cell.to[i] < 0) cap = std::min(cap, (max_accel + begun) / -cell.to[i]);
     }
     return std::max(cap, 0.0);
 }
@@ -146,9 +146,9 @@ double seconds_over(const Cell& cell, double from, double to) {
     if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);
     // The curvature helps to change the velocity by more.
     if (!cell.straight && std::fabs(to - from) > 2 * cell.accel * cell.length) return 2 * cell.length / (begin + end);
-    const double most = std::max({from, to, std::min(cell.cap, 0.5 * (from + to) + cell.accel * cell.length)});
-    const double fast = std::sqrt(most);
-    const double even = cell.length - ((most - from) + (most - to)) / (2 * cell.accel);
+    const double max_velocity2 = std::max({from, to, std::min(cell.cap, 0.5 * (from + to) + cell.accel * cell.length)});
+    const double fast = std::sqrt(max_velocity2);
+    const double even = cell.length - ((max_velocity2 - from) + (max_velocity2 - to)) / (2 * cell.accel);
     return (fast - begin + fast - end) / cell.accel + std::max(0.0, even) / fast;
 }
 

@@ -65,19 +65,22 @@ void SectionPlanner::measure(std::span<const CubicSegment> curve, std::span<cons
 void SectionPlanner::compute_reachable_velocities(const InitialPathState& start) {
     const std::size_t n = pieces_.size();
     squares_.assign(n + 1, 0);
-    most_.resize(n);
+    max_velocities_.resize(n);
     for (std::size_t i = 0; i < n; ++i)
-        most_[i] = std::min(use_[i].velocity, pieces_[i].max_velocity_for(use_[i].jerk_share));
+        max_velocities_[i] = std::min(use_[i].velocity, pieces_[i].max_velocity_for(use_[i].jerk_share));
     for (std::size_t i = n; i-- > 0;) {
-        const double most = std::min(most_[i], most_[i == 0 ? 0 : i - 1]);
-        squares_[i] = std::min(most * most, pieces_[i].velocity2_before(squares_[i + 1], spans_[i].length));
+        const double max_velocity = std::min(max_velocities_[i], max_velocities_[i == 0 ? 0 : i - 1]);
+        squares_[i] =
+            std::min(max_velocity * max_velocity, pieces_[i].velocity2_before(squares_[i + 1], spans_[i].length));
     }
     squares_[0] = start.velocity2;
     for (std::size_t i = 0; i < n; ++i) {
         const double length = spans_[i].length, up = pieces_[i].velocity2_after(squares_[i], length);
         squares_[i + 1] = std::min(squares_[i + 1], up);
-        spans_[i] = pieces_[i].up_to(
-            pieces_[i].straight ? most_[i] : std::min(most_[i], std::sqrt(max_segment_velocity(i, up))), length);
+        spans_[i] =
+            pieces_[i].up_to(pieces_[i].straight ? max_velocities_[i]
+                                                 : std::min(max_velocities_[i], std::sqrt(max_segment_velocity(i, up))),
+                             length);
     }
 }
 
@@ -90,12 +93,12 @@ double SectionPlanner::max_segment_velocity(std::size_t i, double up) const {
 
 /// Returns the maximum found up to `end`; `k`: the first profile segment to inspect, then the last one.
 PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
-    PathMotion most;
+    PathMotion peak;
     for (;; ++k) {
         for (const PathMotion& state : {feed_[k].at(0), feed_[k].last()})
-            most = PathMotion{0, std::max(most.velocity, state.velocity), std::max(most.accel, std::fabs(state.accel)),
-                              std::max(most.jerk, std::fabs(state.jerk))};
-        if (k + 1 == feed_.size() || feed_[k].begin + feed_[k].length >= end) return most;
+            peak = PathMotion{0, std::max(peak.velocity, state.velocity), std::max(peak.accel, std::fabs(state.accel)),
+                              std::max(peak.jerk, std::fabs(state.jerk))};
+        if (k + 1 == feed_.size() || feed_[k].begin + feed_[k].length >= end) return peak;
     }
 }
 
@@ -107,14 +110,14 @@ bool SectionPlanner::tighten_limits(double slack) {
     double end = 0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
         end += spans_[i].length;
-        const PathMotion most = max_found(end, k);
+        const PathMotion peak = max_found(end, k);
         if (pieces_[i].straight) continue;
-        if (most.velocity * slack < spans_[i].velocity) {
-            use_[i].velocity = most.velocity * slack;
+        if (peak.velocity * slack < spans_[i].velocity) {
+            use_[i].velocity = peak.velocity * slack;
             news = true;
-        } else if (most.velocity * nearly > most_[i]) {
-            const double share = pieces_[i].jerk_share_beside(most.velocity, reserve * most.accel, reserve * most.jerk);
-            if (pieces_[i].max_velocity_for(share) < nearly * most_[i]) continue;
+        } else if (peak.velocity * nearly > max_velocities_[i]) {
+            const double share = pieces_[i].jerk_share_beside(peak.velocity, reserve * peak.accel, reserve * peak.jerk);
+            if (pieces_[i].max_velocity_for(share) < nearly * max_velocities_[i]) continue;
             use_[i].jerk_share = share;
             news = true;
         }

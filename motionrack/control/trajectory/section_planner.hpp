@@ -56,7 +56,7 @@ class SectionPlanner {
     // one entry per segment
     std::vector<SegmentLimits> pieces_;
     std::vector<SegmentTuning> use_;
-    std::vector<double> most_;  ///< maximum velocities
+    std::vector<double> max_velocities_;  ///< maximum velocities
     std::vector<LimitInterval> spans_;
     // one entry per junction of segments
     std::vector<double> squares_;

@@ -15,8 +15,8 @@ constexpr double share_of_bend = 0.7;
 constexpr double no_limit = 1e300;
 
 struct Range {
-    double min, most;
-    double max() const { return std::max(-min, most); }
+    double min, max;
+    double magnitude() const { return std::max(-min, max); }
 };
 
 /// Returns the range of a tangent over the segment: a parabola, with its extremes at the ends or the vertex.
@@ -26,7 +26,7 @@ Range tangents_of(double tangent, double curvature, double curvature_rate, doubl
     const double summit = curvature_rate != 0 ? -curvature / curvature_rate : -1;
     if (summit > 0 && summit < length) {
         const double there = tangent + 0.5 * curvature * summit;
-        out = {std::min(out.min, there), std::max(out.most, there)};
+        out = {std::min(out.min, there), std::max(out.max, there)};
     }
     return out;
 }
@@ -36,9 +36,10 @@ AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, s
     const Range bends{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
     // Curvature with the sign of the tangent reduces the available acceleration; with the opposite sign the
     // deceleration.
-    const bool with = (tangents.most > 0 && bends.most > 0) || (tangents.min < 0 && bends.min < 0);
-    const bool against = (tangents.most > 0 && bends.min < 0) || (tangents.min < 0 && bends.most > 0);
-    const double tangent = tangents.max(), curvature = bends.max(), jerk = piece.jerk_share * effective_jerk(limits);
+    const bool with = (tangents.max > 0 && bends.max > 0) || (tangents.min < 0 && bends.min < 0);
+    const bool against = (tangents.max > 0 && bends.min < 0) || (tangents.min < 0 && bends.max > 0);
+    const double tangent = tangents.magnitude(), curvature = bends.magnitude(),
+                 jerk = piece.jerk_share * effective_jerk(limits);
     AxisSegmentLimits axis;
     axis.tangent = tangent / limits.max_accel;
     axis.curvature = curvature / limits.max_accel;
@@ -55,9 +56,9 @@ AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, s
 SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& limits) : velocity(piece.feed) {
     for (std::size_t i = 0; i < limits.size(); ++i) {
         const Range tangents = tangents_of(piece.tangent[i], piece.curvature[i], piece.curvature_rate[i], piece.length);
-        if (tangents.max() == 0) continue;
+        if (tangents.magnitude() == 0) continue;
         const AxisSegmentLimits axis = axes[count++] = axis_on(piece, limits[i], i, tangents);
-        velocity = std::min(velocity, limits[i].max_velocity / tangents.max());
+        velocity = std::min(velocity, limits[i].max_velocity / tangents.magnitude());
         if (axis.curvature > 0) velocity = std::min(velocity, std::sqrt(accel_of_bend / axis.curvature));
         curvature_rate = std::max(curvature_rate, axis.jerk_twist);
         straight = straight && axis.curvature == 0 && axis.jerk_twist == 0;
@@ -101,11 +102,11 @@ LimitInterval SegmentLimits::up_to(double top, double length) const {
 /// From w0 to w1, the larger one: w1 - w0 = 2 length (1 - curvature w1) / tangent, for the most limited axis.
 double SegmentLimits::compute_reachable_velocities(double square, double length,
                                                    double AxisSegmentLimits::*curvature) const {
-    double most = no_limit;
+    double max_square = no_limit;
     for (std::size_t i = 0; i < count; ++i)
-        most = std::min(most,
-                        (axes[i].tangent * square + 2 * length) / (axes[i].tangent + 2 * length * axes[i].*curvature));
-    return most;
+        max_square = std::min(
+            max_square, (axes[i].tangent * square + 2 * length) / (axes[i].tangent + 2 * length * axes[i].*curvature));
+    return max_square;
 }
 
 }  // namespace motionrack::control

@@ -41,8 +41,8 @@ int subdivision_count(const CubicSegment& piece, const MachineLimits& limits) {
     const double velocity = on.max_velocity_for(max_curvature_share), square = velocity * velocity;
     if (curvature * square <= much_of_a_part) return 1;
     const double wanted = std::max(2 * curvature * piece.length / tangent, change * square) / much_of_a_part;
-    const double most = piece.length / (velocity * std::max(min_seconds, part_of_rise * rise));
-    return static_cast<int>(std::clamp(std::ceil(std::min(wanted, most)), 1.0, max_parts));
+    const double max_count = piece.length / (velocity * std::max(min_seconds, part_of_rise * rise));
+    return static_cast<int>(std::clamp(std::ceil(std::min(wanted, max_count)), 1.0, max_parts));
 }
 
 }  // namespace motionrack::control

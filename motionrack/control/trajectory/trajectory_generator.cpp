@@ -75,10 +75,10 @@ std::int64_t TrajectoryGenerator::first_pending_move() const {
     return pushed_ == flushed_ ? pushed_ : std::max(flushed_, told_);
 }
 
-void TrajectoryGenerator::fetch_segments(std::size_t most) {
+void TrajectoryGenerator::fetch_segments(std::size_t max_segments) {
     for (;;) {
         KnownSection& part = now_.whole ? then_ : now_;
-        if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= most) return;
+        if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= max_segments) return;
         PathElement item;
         if (!builder_.pull(item)) return;
         told_ = move_of(item.rest ? item.line : item.piece.line);

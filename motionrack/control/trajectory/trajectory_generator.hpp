@@ -117,7 +117,7 @@ class TrajectoryGenerator {
     };
 
     std::int64_t move_of(std::int32_t tag) const;
-    void fetch_segments(std::size_t most);
+    void fetch_segments(std::size_t max_segments);
     void make_room();
     void append(KnownSection& part, const CubicSegment& piece);
     double feed_of(const KnownSection& part, std::size_t i) const;

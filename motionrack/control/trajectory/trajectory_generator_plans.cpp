@@ -28,12 +28,12 @@ InitialPathState start_of(const PathMotion& along) {
 
 /// Returns true if it accelerates after it has decelerated.
 bool accelerates_again(std::span<const ProfileSegment> feed) {
-    double greatest = 0, lowest = std::numeric_limits<double>::infinity();  // lowest: since deceleration began
+    double peak_velocity = 0, min_velocity = std::numeric_limits<double>::infinity();  // the last since it decelerates
     for (const ProfileSegment& piece : feed) {
         const double velocity = piece.last().velocity;
-        greatest = std::max({greatest, piece.at(0).velocity, velocity});
-        if (velocity < clearly_slower * greatest) lowest = std::min(lowest, velocity);
-        if (clearly_slower * velocity > lowest) return true;
+        peak_velocity = std::max({peak_velocity, piece.at(0).velocity, velocity});
+        if (velocity < clearly_slower * peak_velocity) min_velocity = std::min(min_velocity, velocity);
+        if (clearly_slower * velocity > min_velocity) return true;
     }
     return false;
 }
@@ -115,7 +115,7 @@ SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& 
 /// Finds the nearest possible stop; the plan to it is the planner's last one.
 std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     const InitialPathState start = start_of(from.along);
-    const double begin = from.along.u, most = now_.planned_to - begin;
+    const double begin = from.along.u, max_distance = now_.planned_to - begin;
     double planned = -1;  // end of the planner's last plan; below 0: no plan
     std::vector<SegmentTuning> use;
     std::size_t k = feed_;
@@ -142,11 +142,11 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     double distance =
                0.25 * from.along.velocity * (from.along.velocity / interval.brake + interval.brake / interval.jerk),
            too_near = 0;
-    for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
+    for (int i = 0; i < steps_out && distance < max_distance && !plan_to(distance); ++i) {
         too_near = distance;
         distance *= 1.5;
     }
-    if (distance >= most) return std::nullopt;
+    if (distance >= max_distance) return std::nullopt;
     for (int i = 0; i < halvings; ++i) {
         const double nearer = 0.5 * (too_near + distance);
         (plan_to(nearer) ? distance : too_near) = nearer;
@@ -206,9 +206,9 @@ TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCurs
     const auto slower = [](const ProfileSegment& a, const ProfileSegment& b) {
         return a.at(0).velocity < b.at(0).velocity;
     };
-    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
+    const auto peak_index = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
-        const double velocity = faster * stop[std::max(k, fastest)].at(0).velocity,
+        const double velocity = faster * stop[std::max(k, peak_index)].at(0).velocity,
                      to = from.along.u + ease_ * (stop[k].begin + stop[k].length - from.along.u);
         for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
             if (end_of() > at) add(end_of(), velocity);

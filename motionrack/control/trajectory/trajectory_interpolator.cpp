@@ -13,7 +13,7 @@ namespace {
 constexpr double jump_share = 0.3, min_noise = 0.1;
 /// Largest error in pulses along a move, from its constant acceleration, and across it.
 constexpr double off_pulses = 0.4;
-constexpr double shortest = 0.0002;
+constexpr double min_move_s = 0.0002;
 /// A move may be shorter by this share to end nearer to whole pulses; the search stops at a position that is near
 /// enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
@@ -140,19 +140,19 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
 /// half a pulse per move; a shorter move would not be better.
 double TrajectoryInterpolator::seconds_of_next() const {
     const TrajectoryPoint begin = generator_.at(0);
-    const double least = uses_auxiliary_axis(generator_.move(generator_.move_of(begin)).axes)
-                             ? settings_.drive->min_velocity_update_s()
-                             : shortest;
-    double seconds = std::min({settings_.max_seconds, generator_.left(), std::max(4 * last_seconds_, least)});
-    for (; seconds >= 2 * shortest; seconds *= shorter) {
+    const double min_duration = uses_auxiliary_axis(generator_.move(generator_.move_of(begin)).axes)
+                                    ? settings_.drive->min_velocity_update_s()
+                                    : min_move_s;
+    double seconds = std::min({settings_.max_seconds, generator_.left(), std::max(4 * last_seconds_, min_duration)});
+    for (; seconds >= 2 * min_move_s; seconds *= shorter) {
         const ApproximationError is = roughness_of(begin, seconds);
-        if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * least)) break;
+        if (is.velocity_step <= jump_share && (is.chord_error <= off_pulses || seconds < 2 * min_duration)) break;
         if (noise_left * is.quantisation > std::max(is.velocity_step, min_noise)) break;
     }
     // Avoids a tiny remainder before the end.
     const double left = generator_.left();
     if (left - seconds >= 0.5 * seconds) return snap_to_pulses(begin, seconds);
-    return left < 2 * shortest || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
+    return left < 2 * min_move_s || roughness_of(begin, left).velocity_step <= jump_share ? left : 0.5 * left;
 }
 
 /// Shortens the move so that it ends nearer to whole pulses.
@@ -175,11 +175,11 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
     std::array<double, axis_count> way = {};
     for (std::size_t i = 0; i < way.size(); ++i)
         if (limits_[i].present) way[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
-    const auto longest = static_cast<std::size_t>(std::max_element(way.begin(), way.end()) - way.begin());
+    const auto long_axis = static_cast<std::size_t>(std::max_element(way.begin(), way.end()) - way.begin());
     double off = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
         const double pulses = end[i] * limits_[i].pulses_per_unit;
-        if (limits_[i].present && i != longest) off = std::max(off, std::fabs(pulses - std::round(pulses)));
+        if (limits_[i].present && i != long_axis) off = std::max(off, std::fabs(pulses - std::round(pulses)));
     }
     return off;
 }
@@ -216,12 +216,13 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
 
 /// Returns the largest distance of a motion from the chord, in pulses of an axis.
 double TrajectoryInterpolator::beside(const Point& way, double per_square, const Point& gone) const {
-    double along = 0, most = 0;
+    double along = 0, max_distance = 0;
     for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];
     for (std::size_t i = 0; i < way.size(); ++i)
         if (limits_[i].present)
-            most = std::max(most, std::fabs(gone[i] - along * per_square * way[i]) * limits_[i].pulses_per_unit);
-    return most;
+            max_distance =
+                std::max(max_distance, std::fabs(gone[i] - along * per_square * way[i]) * limits_[i].pulses_per_unit);
+    return max_distance;
 }
 
 }  // namespace motionrack::control

@@ -116,15 +116,15 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
     fmt::print("  {:<37} {:>9.3f} s\n", "bound (acceleration only, same curve)", plans.ride.bound);
     fmt::print("Peak of the jerk-limited plan, and its share of the axis' limit:\n");
     for (const rack::RackAxis& axis : config.axes) {
-        const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
-        if (most.velocity == 0) continue;
+        const AxisPeaks& peaks = plans.ride.axes[static_cast<std::size_t>(axis.index())];
+        if (peaks.velocity == 0) continue;
         const auto value = [&](double peak, const char* unit, double limit) {
             return limit > 0 ? fmt::format("{:>11.5g} {}/{:<3} {:>5.1f} %", peak, axis.unit(), unit,
                                            100 * part_of(peak, limit))
                              : fmt::format("{:>11.5g} {}/{:<3} no limit", peak, axis.unit(), unit);
         };
-        fmt::print("  {} {} {} {}\n", axis.letter, value(most.velocity, "s", axis.max_velocity),
-                   value(most.accel, "s2", axis.max_accel), value(most.jerk, "s3", axis.max_jerk));
+        fmt::print("  {} {} {} {}\n", axis.letter, value(peaks.velocity, "s", axis.max_velocity),
+                   value(peaks.accel, "s2", axis.max_accel), value(peaks.jerk, "s3", axis.max_jerk));
     }
 }
 
@@ -141,14 +141,14 @@ void print_json(const Plans& plans, const rack::RackConfig& config) {
                           {"bound", {{"duration_s", plans.ride.bound}}},
                           {"axes", nlohmann::json::object()}};
     for (const rack::RackAxis& axis : config.axes) {
-        const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
+        const AxisPeaks& peaks = plans.ride.axes[static_cast<std::size_t>(axis.index())];
         out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()},
-                                                    {"velocity", most.velocity},
-                                                    {"accel", most.accel},
-                                                    {"jerk", most.jerk},
-                                                    {"of_velocity", part_of(most.velocity, axis.max_velocity)},
-                                                    {"of_accel", part_of(most.accel, axis.max_accel)},
-                                                    {"of_jerk", part_of(most.jerk, axis.max_jerk)}};
+                                                    {"velocity", peaks.velocity},
+                                                    {"accel", peaks.accel},
+                                                    {"jerk", peaks.jerk},
+                                                    {"of_velocity", part_of(peaks.velocity, axis.max_velocity)},
+                                                    {"of_accel", part_of(peaks.accel, axis.max_accel)},
+                                                    {"of_jerk", part_of(peaks.jerk, axis.max_jerk)}};
     }
     fmt::print("{}\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }

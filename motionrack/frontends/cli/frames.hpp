@@ -32,8 +32,9 @@ std::string status_line(const dds::Subscriber& subscriber, Instant now);
 std::string frames_table(const rack::FrameMonitor& watch, Instant now);
 /// Returns the frames of every card as one line of JSON.
 std::string frames_json(const rack::FrameMonitor& watch, Instant now);
-/// Returns up to `most` of the oldest stored conflicts, each with time, line and drivers; empty if none occurred.
-std::string conflicts_text(const grating_bus::Bus& bus, std::size_t most);
+/// Returns up to `max_conflicts` of the oldest stored conflicts, each with time, line and drivers; empty if none
+/// occurred.
+std::string conflicts_text(const grating_bus::Bus& bus, std::size_t max_conflicts);
 /// Returns true without conflicts, bad frames and stale frames, if all frames are correct and equal.
 bool frames_agree(const rack::FrameMonitor& watch);
 

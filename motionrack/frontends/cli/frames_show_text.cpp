@@ -67,14 +67,14 @@ std::string frames_table(const rack::FrameMonitor& watch, Instant now) {
     return out;
 }
 
-std::string conflicts_text(const gb::Bus& bus, std::size_t most) {
+std::string conflicts_text(const gb::Bus& bus, std::size_t max_conflicts) {
     const gb::Lines& lines = bus.lines();
     const std::uint64_t count = lines.all_conflicts();
     if (count == 0) return {};
     const std::uint64_t first = count > gb::Lines::kept ? count - gb::Lines::kept : 0;
     std::string out = fmt::format("\nconflicts on the bus, {} in all:\n{:>14} {:>10}  {:<7} {:<20} {}\n", count,
                                   "from s", "for ns", "line", "driven high by", "low by");
-    for (std::uint64_t n = first; n < count && n < first + most; ++n) {
+    for (std::uint64_t n = first; n < count && n < first + max_conflicts; ++n) {
         const gb::Conflict& c = lines.conflict(n);
         const std::string lasts = c.end == never ? "still" : fmt::format("{:.1f}", to_seconds(c.end - c.begin) * 1e9);
         out += fmt::format("{:>14.7f} {:>10}  {:<7} {:<20} {}\n", to_seconds(c.begin), lasts,

@@ -32,10 +32,10 @@ Result<std::string> bytes_of(const char* name, std::size_t limit) {
     return fail(ErrorKind::io, fmt::format("{} cannot be read. Nothing was loaded; is the name right?", name));
 }
 
-Result<void> check_range(std::string_view what, UINT value, UINT least, UINT greatest) {
-    if (value >= least && value <= greatest) return {};
+Result<void> check_range(std::string_view what, UINT value, UINT min, UINT max) {
+    if (value >= min && value <= max) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{} is {}; it must be {} to {}; nothing was done", what, value, least, greatest));
+                fmt::format("{} is {}; it must be {} to {}; nothing was done", what, value, min, max));
 }
 
 Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim, UINT& answer) {

@@ -17,11 +17,11 @@ constexpr std::int64_t us_per_tick = 10;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string info_text, note_text;
 
-Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
-    if (us >= 0 && us <= most && us % us_per_tick == 0) return us / us_per_tick;
+Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t max_us) {
+    if (us >= 0 && us <= max_us && us % us_per_tick == 0) return us / us_per_tick;
     return fail(ErrorKind::refused,
                 fmt::format("the time is {} us; it must be 0 to {} us, a multiple of {} us. Nothing was done.", us,
-                            most, us_per_tick));
+                            max_us, us_per_tick));
 }
 
 Result<void> check_encoder(UINT encoder) {

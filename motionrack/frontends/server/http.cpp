@@ -8,7 +8,7 @@ namespace motionrack::server {
 
 namespace {
 
-constexpr int deepest = 16;
+constexpr int max_nesting = 16;
 
 /// Returns the position of byte `at` of the text.
 TextPosition place_of(std::string_view text, std::size_t at) {
@@ -34,7 +34,7 @@ std::size_t too_deep(std::string_view text) {
                 quoted = false;
         } else if (c == '"')
             quoted = true;
-        else if ((c == '[' || c == '{') && ++depth > deepest)
+        else if ((c == '[' || c == '{') && ++depth > max_nesting)
             return i;
         else if (c == ']' || c == '}')
             --depth;
@@ -87,7 +87,8 @@ HttpAnswer http_error(int status, std::string_view trouble, std::string sentence
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what) {
     if (const std::size_t at = too_deep(text); at != std::string_view::npos)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} is nested deeper than {}. Nothing was done.", what, deepest), place_of(text, at));
+                    fmt::format("{} is nested deeper than {}. Nothing was done.", what, max_nesting),
+                    place_of(text, at));
     try {
         nlohmann::json value = nlohmann::json::parse(text);
         if (!value.is_object())

@@ -67,8 +67,8 @@ TEST(Introduction, StaysOpenUntilTheFirstLineHasEnded) {
     EXPECT_EQ(slow.take_bytes(), "G1 X10 F6!00\n");
 }
 
-std::string some_bytes(std::mt19937& random, std::size_t least, std::size_t most) {
-    std::string out(least + random() % (most - least + 1), '\0');
+std::string some_bytes(std::mt19937& random, std::size_t min_size, std::size_t max_size) {
+    std::string out(min_size + random() % (max_size - min_size + 1), '\0');
     for (char& c : out) c = static_cast<char>(random());
     return out;
 }

@@ -46,12 +46,12 @@ TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
     EXPECT_NEAR(out.on.reach.low.x, 0, 0.01);
     EXPECT_NEAR(out.off->reach.high.x, 10, 1e-9);
     ASSERT_GT(out.on.course.size(), 5000u);
-    double greatest = 0, open_s = 0;
+    double max_x = 0, open_s = 0;
     for (std::size_t i = 0; i < out.on.course.size(); ++i) {
-        greatest = std::max(greatest, out.on.course[i].at.x);
+        max_x = std::max(max_x, out.on.course[i].at.x);
         if (i > 0) open_s += out.on.course[i].gate * (out.on.course[i].at_s - out.on.course[i - 1].at_s);
     }
-    EXPECT_NEAR(greatest, out.on.reach.high.x, 0.01);
+    EXPECT_NEAR(max_x, out.on.reach.high.x, 0.01);
     EXPECT_NEAR(open_s, out.on.duty * out.on.seconds, 1e-5);
 }
 

@@ -55,8 +55,8 @@ Seen jog_on(const JogCase& one) {
     Operated o(rack_of(one));
     Seen seen;
     const double way = one.direction > 0 ? one.max - one.start : one.start - one.min;
-    const double slowest = one.next_speed > 0 ? std::min(one.speed, one.next_speed) : one.speed;
-    const double last = 1 + way / slowest + 2 * one.speed / one.accel;
+    const double min_speed = one.next_speed > 0 ? std::min(one.speed, one.next_speed) : one.speed;
+    const double last = 1 + way / min_speed + 2 * one.speed / one.accel;
     int n = 0;
     for (double t = 0.1; t < last; t += one.every, ++n)
         o.at(t, [&one, n](Machine& m) {

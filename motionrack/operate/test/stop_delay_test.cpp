@@ -40,12 +40,12 @@ Speeds stopped_at(double stop_s, const std::string& profile, Result<void> (*stop
 void expect_soon(const Speeds& speeds, double stop_s) {
     SCOPED_TRACE(testing::Message() << "at " << stop_s << " s");
     constexpr double begins_within = 0.05, jerk_time = 0.05, look = 0.01;
-    double fastest = 0;  // before it decelerates
+    double peak_speed = 0;  // before it decelerates
     for (std::size_t i = 0; i < speeds.at_s.size(); ++i) {
         if (speeds.at_s[i] <= stop_s + begins_within + jerk_time + look)
-            fastest = std::max(fastest, speeds.mm_s[i]);
+            peak_speed = std::max(peak_speed, speeds.mm_s[i]);
         else
-            EXPECT_LE(speeds.mm_s[i], fastest * 1.02 + 0.8) << speeds.at_s[i] << " s";  // rounding to pulses
+            EXPECT_LE(speeds.mm_s[i], peak_speed * 1.02 + 0.8) << speeds.at_s[i] << " s";  // rounding to pulses
     }
     EXPECT_EQ(speeds.mm_s.back(), 0);
 }

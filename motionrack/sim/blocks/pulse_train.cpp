@@ -124,11 +124,11 @@ void PulseTrain::hand_over(Instant now) {
         batch_.origin = pulse_instant(n + 1);
         // Edge i of the batch is i periods after the first edge. The first period may differ, so it is a batch of its
         // own.
-        const std::int64_t most = n == 0 && state_.first != state_.then ? 1 : std::int64_t{EdgeBatch::capacity};
+        const std::int64_t max_edges = n == 0 && state_.first != state_.then ? 1 : std::int64_t{EdgeBatch::capacity};
         batch_.tick = clock_ * state_.then;
         batch_.step = state_.direction;
         batch_.first_count = state_.count + (n + 1) * state_.direction;
-        batch_.size = static_cast<std::uint32_t>(std::min(last - n, most));
+        batch_.size = static_cast<std::uint32_t>(std::min(last - n, max_edges));
         for (std::uint32_t i = 0; i < batch_.size; ++i) batch_.at[i] = i;
         n += batch_.size;
         edges_->edges(batch_);

@@ -25,7 +25,7 @@ double radians_per_bit(const ScanLens& lens) {
 }  // namespace
 
 Result<void> check(const ScanLens& lens) {
-    const auto ranged = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
+    const auto ranged = [](double v, double min, double max) { return v >= min && v <= max; };
     if (!ranged(lens.f_mm[0], 1, 10'000))
         return fail(ErrorKind::refused,
                     fmt::format("a lens with f1 = {} mm: 1 to 10000 mm can be computed", lens.f_mm[0]));

@@ -308,8 +308,8 @@ bool AxisMechanics::fault(std::string_view name, double value, Instant now) {
 }
 
 bool AxisMechanics::motor_fault(std::string_view name, double value, Instant now) {
-    constexpr double most = 1e12;  // microsteps
-    if (!(std::fabs(value) <= most)) return false;
+    constexpr double max_microsteps = 1e12;
+    if (!(std::fabs(value) <= max_microsteps)) return false;
     if (name == "stall") {
         change_motor(now, [&] { motor_.jam(value != 0, pulses_at(now)); });
     } else if (name == "lose_steps") {

@@ -25,8 +25,8 @@ sim::Spot turned(sim::Spot p, sim::Spot centre, double degrees) {
     return {centre.x + (t.cos * dx - t.sin * dy), centre.y + (t.sin * dx + t.cos * dy)};
 }
 
-bool within(double v, double least, double greatest) {
-    return v >= least && v <= greatest;
+bool within(double v, double min, double max) {
+    return v >= min && v <= max;
 }
 
 /// The first time at which an object has moved `way` (>= 0) upwards; infinity if never.

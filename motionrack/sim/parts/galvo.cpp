@@ -33,10 +33,10 @@ Matrix exponential_of(Matrix m) {
 }  // namespace
 
 Result<void> check(const GalvoSettings& s) {
-    const auto range = [](const char* name, double value, double least, double greatest) -> Result<void> {
-        if (value >= least && value <= greatest) return {};
+    const auto range = [](const char* name, double value, double min, double max) -> Result<void> {
+        if (value >= min && value <= max) return {};
         return fail(ErrorKind::refused,
-                    fmt::format("mirrors with {} {}: {} to {} are possible", name, value, least, greatest));
+                    fmt::format("mirrors with {} {}: {} to {} are possible", name, value, min, max));
     };
     MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));

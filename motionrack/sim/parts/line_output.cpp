@@ -143,7 +143,7 @@ void LineOutput::noise(Instant now) {
 }
 
 bool LineOutput::fault(std::string_view name, double value, Instant now) {
-    const auto within = [value](double most) { return value >= 0 && value <= most; };  // rejects NaN as well
+    const auto within = [value](double max) { return value >= 0 && value <= max; };  // rejects NaN as well
     const auto whole = static_cast<std::int64_t>(within(1e9) ? value : 0);
     constexpr std::string_view letters = "abz";
     const std::size_t letter = name.empty() ? letters.npos : letters.find(name.back());

@@ -15,8 +15,8 @@ constexpr double fine_per_count = 0x1p68;  // fractions of a count
 constexpr double counts_per_m = 1e9 * places_per_nm;
 constexpr double ticks_per_s = 1e10;
 constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t longest = std::int64_t{1}
-                                 << 40;            // ticks of one parabola: position and velocity stay within 128 bits
+constexpr std::int64_t max_parabola = std::int64_t{1}
+                                      << 40;       // ticks of one parabola: position and velocity stay within 128 bits
 constexpr std::int64_t viscous_piece = 1'000'000;  // 100 us
 constexpr double viscous_piece_s = 1e-4;
 constexpr std::int64_t farthest_stage_counts = std::int64_t{1} << 50;  // counts, beyond every end of travel
@@ -46,7 +46,7 @@ std::int64_t count_of_nm(double nm) {
 /// a / b, rounded up; both > 0.
 std::int64_t steps_up(Wide a, Wide b) {
     const Wide steps = (a + b - 1) / b;
-    return steps > longest ? longest : static_cast<std::int64_t>(steps);
+    return steps > max_parabola ? max_parabola : static_cast<std::int64_t>(steps);
 }
 
 }  // namespace
@@ -151,7 +151,7 @@ void LinearStage::begin_law() {
 /// Ticks until the parabola reverses, reaches the saturation velocity or a marked velocity, or reaches its maximum
 /// length.
 std::int64_t LinearStage::law_length() const {
-    std::int64_t length = settings_.viscous > 0 ? viscous_piece : longest;
+    std::int64_t length = settings_.viscous > 0 ? viscous_piece : max_parabola;
     if (state_.half_accel == 0) return length;
     const Wide velocity = state_.velocity * direction(), change = 2 * Wide{state_.half_accel} * direction();
     const auto ends = [&](std::int64_t at) { length = std::min(length, std::max<std::int64_t>(at, 1)); };

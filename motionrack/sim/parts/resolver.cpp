@@ -8,7 +8,7 @@ namespace motionrack::parts {
 namespace {
 
 constexpr double billionths = 1e9;  // gain and offsets are stored in billionths
-constexpr double most = 0.3;
+constexpr double max_fault_value = 0.3;
 
 LineOutputSettings lines_of_converter(const ResolverSettings& s) {
     LineOutputSettings out;
@@ -58,7 +58,7 @@ bool Resolver::fault(std::string_view fault_name, double value, Instant now) {
                       : name == "offset_cos" ? offset_cos
                                              : -1;
     if (which < 0) return EncoderPart::fault(name, value, now);
-    if (!(value >= -most && value <= most)) return false;
+    if (!(value >= -max_fault_value && value <= max_fault_value)) return false;
     state_.own[which] = static_cast<std::int64_t>(value * billionths);
     look_again(now);
     return true;

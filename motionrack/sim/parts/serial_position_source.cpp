@@ -9,7 +9,7 @@
 namespace motionrack::parts {
 
 Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, const SerialPositionSettings& s) {
-    const auto within = [](double v, double least, double greatest) { return v >= least && v <= greatest; };
+    const auto within = [](double v, double min, double max) { return v >= min && v <= max; };
     if (!within(std::abs(s.bits_per_mm), 1e-6, 1e9))
         return fail(
             ErrorKind::refused,

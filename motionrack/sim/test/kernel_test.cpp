@@ -259,17 +259,17 @@ TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
     Puppet p;
     const DeviceId id = kernel.add(p, Phase::cards, "p");
     kernel.start();
-    const auto most = static_cast<std::int64_t>(Kernel::condition_capacity);
-    for (std::int64_t i = 0; i < most; ++i) kernel.report(id, 3, i, -i);
+    const auto max_conditions = static_cast<std::int64_t>(Kernel::condition_capacity);
+    for (std::int64_t i = 0; i < max_conditions; ++i) kernel.report(id, 3, i, -i);
     EXPECT_EQ(kernel.dropped_conditions(), 0u);
     EXPECT_EQ(kernel.conditions().front().a, 0);
-    for (std::int64_t i = most; i < most + 10; ++i) kernel.report(id, 3, i, -i);
+    for (std::int64_t i = max_conditions; i < max_conditions + 10; ++i) kernel.report(id, 3, i, -i);
     EXPECT_EQ(kernel.dropped_conditions(), 10u);
     const std::vector<Condition> all = kernel.conditions();
     ASSERT_EQ(all.size(), Kernel::condition_capacity);
     EXPECT_EQ(all.front().a, 10);
-    EXPECT_EQ(all.back().a, most + 9);
-    EXPECT_EQ(all.back().b, -most - 9);
+    EXPECT_EQ(all.back().a, max_conditions + 9);
+    EXPECT_EQ(all.back().b, -max_conditions - 9);
     EXPECT_EQ(all.back().device, id);
     EXPECT_EQ(all.back().code, 3);
 }

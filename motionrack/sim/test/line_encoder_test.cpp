@@ -112,16 +112,16 @@ TEST(LineEncoder, AnEccentricDiscIsEarlyOnOneSideAndLateOnTheOtherAndRightAfterA
     LineEncoderSettings s = small_disc();
     s.eccentricity = 5;
     Disc w(s, forwards);
-    std::int64_t most = 0, least = 0;
+    std::int64_t max_error = 0, min_error = 0;
     for (int i = 1; i <= 4000; ++i) {
         w.run(microseconds(1));
         const double straight = i / 10.0, error = static_cast<double>(w.counted()) - straight;
         EXPECT_LE(std::abs(error - 5 * sin_cos(2 * pi * straight / 400).sin), 1.5) << i;
-        most = std::max(most, static_cast<std::int64_t>(error));
-        least = std::min(least, static_cast<std::int64_t>(error));
+        max_error = std::max(max_error, static_cast<std::int64_t>(error));
+        min_error = std::min(min_error, static_cast<std::int64_t>(error));
     }
-    EXPECT_GE(most, 4);
-    EXPECT_LE(least, -4);
+    EXPECT_GE(max_error, 4);
+    EXPECT_LE(min_error, -4);
     EXPECT_EQ(w.counted(), 400);
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
     EXPECT_TRUE(w.fault("eccentricity", 0));

@@ -32,7 +32,7 @@ struct Rig {
 struct Stepped {
     LinearStageSettings s;
     double volts = 0;
-    long double velocity = 0, place = 0, fastest = 0;
+    long double velocity = 0, place = 0, peak_velocity = 0;
     void run(double seconds) {
         const long double h = 0.25e-6L, mass = 1 + s.load;
         for (auto steps = std::llround(seconds / 0.25e-6); steps > 0; --steps) {
@@ -44,7 +44,7 @@ struct Stepped {
             accel = (push - brake - s.viscous * (velocity + accel * h / 2)) / mass;
             velocity = std::clamp<long double>(velocity + h * accel, -s.saturation_velocity, s.saturation_velocity);
             if (before * velocity < 0 && s.coulomb > 0) velocity = 0;
-            fastest = std::max(fastest, std::fabs(velocity));
+            peak_velocity = std::max(peak_velocity, std::fabs(velocity));
             place += h * (before + velocity) / 2;
         }
     }
@@ -70,7 +70,7 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         // for the rest of the run.
         RC_ASSERT(std::fabs(rig.velocity() - static_cast<double>(stepped.velocity)) < 5e-5);
         RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
-        if (s.coulomb == 0 && s.viscous == 0 && stepped.fastest < s.saturation_velocity)
+        if (s.coulomb == 0 && s.viscous == 0 && stepped.peak_velocity < s.saturation_velocity)
             RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 0.01);
     }
 }

@@ -147,11 +147,11 @@ TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunGoesOn) {
         }
         void on_scheduled(Instant now) override {
             if (++filled >= 8) kernel_.break_run();
-            most = std::max(most, filled);
+            max_filled = std::max(max_filled, filled);
             kernel_.schedule(id_, now + microseconds(1));
         }
         int filled = 0;
-        int most = 0;
+        int max_filled = 0;
 
       private:
         Kernel& kernel_;
@@ -165,7 +165,7 @@ TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunGoesOn) {
     VirtualPort port(kernel, card, card.id, card.interrupt, nanoseconds(250));
     port.on_slice(milliseconds(50), [&filler] { filler.filled = 0; });
     port.pass(milliseconds(10));
-    EXPECT_EQ(filler.most, 8);
+    EXPECT_EQ(filler.max_filled, 8);
 }
 
 }  // namespace

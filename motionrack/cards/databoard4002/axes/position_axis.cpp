@@ -152,9 +152,9 @@ Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     const double counts_to_end = (end - offset_) * settings_.counts_per_unit;
     const auto limit = static_cast<std::int64_t>(forward ? std::floor(counts_to_end + count_slack)
                                                          : std::ceil(counts_to_end - count_slack));
-    const std::int64_t most = forward ? map::max_24 : map::min_24;
+    const std::int64_t counter_end = forward ? map::max_24 : map::min_24;
     const std::int64_t target =
-        std::clamp(position_valid_ ? limit : most, std::max(map::min_24, here - max_move_counts),
+        std::clamp(position_valid_ ? limit : counter_end, std::max(map::min_24, here - max_move_counts),
                    std::min(map::max_24, here + max_move_counts));
     if (forward ? target <= here : target >= here) return refuse("Jog", "it stands at the end of its travel");
     MOTIONRACK_CHECK(begin("Jog", target, rate, forward));
@@ -273,10 +273,10 @@ void PositionAxis::end_with(Error error, bool counted) {
 // ---- position and home
 
 Result<void> PositionAxis::set_position(double position) {
-    const double most = static_cast<double>(max_move_counts) / settings_.counts_per_unit;
-    if (!(std::fabs(position) <= most))
-        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position, most,
-                                              settings_.unit));
+    const double max_position = static_cast<double>(max_move_counts) / settings_.counts_per_unit;
+    if (!(std::fabs(position) <= max_position))
+        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position,
+                                              max_position, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     // The card's events show whether its watchdog has reset the card in the meantime.
     if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));

@@ -87,16 +87,16 @@ struct Swing {
 Swing swing_of(Machine& m, Duration time) {
     Swing out;
     int last = 0;
-    double least = m.mm(), greatest = least;
+    double min_mm = m.mm(), max_mm = min_mm;
     for (const Instant until = m.kernel.now() + time; m.kernel.now() < until;) {
         m.host.run(microseconds(200));
         const int volts = m.host.level("vout"), direction = (volts > 0) - (volts < 0);
         if (direction != 0 && last != 0 && direction != last) ++out.turns;
         if (direction != 0) last = direction;
-        least = std::min(least, m.mm());
-        greatest = std::max(greatest, m.mm());
+        min_mm = std::min(min_mm, m.mm());
+        max_mm = std::max(max_mm, m.mm());
     }
-    out.width_mm = greatest - least;
+    out.width_mm = max_mm - min_mm;
     return out;
 }
 

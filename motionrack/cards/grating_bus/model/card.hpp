@@ -39,8 +39,8 @@ class TakenAddresses {
     std::array<std::uint32_t, max_scales / 32> bits_{};
 };
 
-/// Delay of pulse `n` of a host with this seed, 0 .. most; the same on every machine.
-std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
+/// Delay of pulse `n` of a host with this seed, 0 .. max_delay; the same on every machine.
+std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay);
 
 /// Listener for every frame of a card; it runs in virtual time.
 class FrameListener {

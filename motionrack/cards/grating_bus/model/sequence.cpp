@@ -6,9 +6,9 @@
 
 namespace motionrack::grating_bus {
 
-std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
+std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay) {
     const std::uint64_t mixed = mixed_bits(seed * golden_step + static_cast<std::uint64_t>(n));
-    return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(most + 1));
+    return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(max_delay + 1));
 }
 
 namespace {

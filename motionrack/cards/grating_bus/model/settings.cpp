@@ -13,15 +13,15 @@ double ns(Duration d) {
     return static_cast<double>(d.count()) * 0.1;
 }
 
-Result<void> within(const char* name, Duration value, Duration least, Duration most) {
-    if (value >= least && value <= most) return {};
+Result<void> within(const char* name, Duration value, Duration min, Duration max) {
+    if (value >= min && value <= max) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{} is {:.1f} ns; it must be {:.1f} to {:.1f} ns.", name, ns(value), ns(least), ns(most)));
+                fmt::format("{} is {:.1f} ns; it must be {:.1f} to {:.1f} ns.", name, ns(value), ns(min), ns(max)));
 }
 
-Result<void> within(const char* name, int value, int least, int most) {
-    if (value >= least && value <= most) return {};
-    return fail(ErrorKind::refused, fmt::format("{} is {}; it must be {} to {}.", name, value, least, most));
+Result<void> within(const char* name, int value, int min, int max) {
+    if (value >= min && value <= max) return {};
+    return fail(ErrorKind::refused, fmt::format("{} is {}; it must be {} to {}.", name, value, min, max));
 }
 
 constexpr Duration min_wait{1}, max_wait = microseconds(6);

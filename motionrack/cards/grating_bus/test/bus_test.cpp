@@ -257,19 +257,19 @@ TEST(GratingBus, TheJitterOfTheClockIsInTheTimesAndNotInTheAgreement) {
     Crate crate(crew(3));
     ASSERT_TRUE(crate.cards[0]->fault("jitter", 20'000, crate.kernel.now()));
     crate.run(50 * period);
-    std::int64_t least = 1'000'000, most = 0;
+    std::int64_t min_delay = 1'000'000, max_delay = 0;
     for (std::size_t i = 0; i < 49; ++i) {
         const Frame& frame = crate.heard(0)[i].frame;
         const std::int64_t late = frame.time - static_cast<std::int64_t>(i) * period.count();
-        least = std::min(least, late), most = std::max(most, late);
+        min_delay = std::min(min_delay, late), max_delay = std::max(max_delay, late);
         for (std::size_t card = 1; card < 4; ++card) EXPECT_TRUE(same(crate.heard(card)[i].frame, frame));
         for (int k = 0; k < 4; ++k)
             EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)],
                       static_cast<std::uint32_t>(crate.truth(k, frame.instant())));
     }
-    EXPECT_GE(least, 0);
-    EXPECT_LE(most, 200'000);
-    EXPECT_GT(most - least, 100'000);
+    EXPECT_GE(min_delay, 0);
+    EXPECT_LE(max_delay, 200'000);
+    EXPECT_GT(max_delay - min_delay, 100'000);
 }
 
 TEST(GratingBus, ADecoderThatDoesNotLatchGivesEveryWordAnInstantOfItsOwn) {

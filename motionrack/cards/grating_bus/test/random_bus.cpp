@@ -62,7 +62,7 @@ void Maker::add_cards() {
     const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)),
               first = one_in(3) ? static_cast<int>(below(6)) : 0;
     const std::vector<int> common_list = one_in(3) ? list(words) : std::vector<int>();
-    Ticks longest = 0;
+    Ticks max_frame_time = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         CardSettings card;
         card.host = i == 0 ? healthy_ || !one_in(12) : !healthy_ && one_in(8);
@@ -78,14 +78,14 @@ void Maker::add_cards() {
             card.list = common_list;
         else if (one_in(3))
             card.list = list(card.words);
-        longest = std::max(longest, own.frame_time(card.words).count());
+        max_frame_time = std::max(max_frame_time, own.frame_time(card.words).count());
         const auto seed = static_cast<std::uint32_t>(random_());
-        card.jitter = [seed](std::int64_t n, Ticks most) { return scatter(seed, n, most); };
+        card.jitter = [seed](std::int64_t n, Ticks max_delay) { return scatter(seed, n, max_delay); };
         program_.cards.push_back(card);
         program_.seeds.push_back(seed);
     }
     constexpr Ticks margins[] = {1, 3, 50};
-    period_ = std::max<Ticks>(10'000, longest + time(1, 1 + longest / grain_ / margins[below(3)]));
+    period_ = std::max<Ticks>(10'000, max_frame_time + time(1, 1 + max_frame_time / grain_ / margins[below(3)]));
     for (CardSettings& card : program_.cards) {
         card.period = period_ + ((alike && !one_in(6)) || one_in(2) ? 0 : time(0, 5));
         card.offset = one_in(2) ? 0 : one_in(2) ? time(0, 20) : below(period_);

@@ -44,7 +44,7 @@ class Maker {
   private:
     std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(n)); }
     bool one_in(std::int64_t n) { return below(n) == 0; }
-    Ticks time(Ticks least, Ticks most) { return (least + below(most - least + 1)) * grain_; }
+    Ticks time(Ticks min, Ticks max) { return (min + below(max - min + 1)) * grain_; }
     BusTiming timing();
     void set(CardSettings& card, const BusTiming& timing);
     void add_cards();

@@ -17,18 +17,18 @@ const MotionLimits limits{8e7, 5e9, 1e12};  // 80 mm/s, 5 m/s2, 1000 m/s3
 
 /// Maximum velocity, acceleration and jerk of a profile; each must be the derivative of the previous one.
 template <class Profile>
-void check(const Profile& profile, double until, const MotionLimits& most) {
+void check(const Profile& profile, double until, const MotionLimits& max_motion) {
     const double h = 1e-6;
     Setpoint before = profile.at(0);
     for (double t = h; t < until; t += h) {
         const Setpoint here = profile.at(t);
         ASSERT_NEAR((here.position_nm - before.position_nm) / h, (here.speed_nm_s + before.speed_nm_s) / 2, 2.0) << t;
         ASSERT_NEAR((here.speed_nm_s - before.speed_nm_s) / h, (here.accel_nm_s2 + before.accel_nm_s2) / 2,
-                    most.jerk_nm_s3 * h)
+                    max_motion.jerk_nm_s3 * h)
             << t;
-        ASSERT_LE(std::fabs(here.speed_nm_s), most.speed_nm_s * (1 + 1e-9)) << t;
-        ASSERT_LE(std::fabs(here.accel_nm_s2), most.accel_nm_s2 * (1 + 1e-9)) << t;
-        ASSERT_LE(std::fabs(here.accel_nm_s2 - before.accel_nm_s2), most.jerk_nm_s3 * h * (1 + 1e-6)) << t;
+        ASSERT_LE(std::fabs(here.speed_nm_s), max_motion.speed_nm_s * (1 + 1e-9)) << t;
+        ASSERT_LE(std::fabs(here.accel_nm_s2), max_motion.accel_nm_s2 * (1 + 1e-9)) << t;
+        ASSERT_LE(std::fabs(here.accel_nm_s2 - before.accel_nm_s2), max_motion.jerk_nm_s3 * h * (1 + 1e-6)) << t;
         before = here;
     }
 }

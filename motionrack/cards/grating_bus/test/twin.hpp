@@ -29,8 +29,8 @@ struct CardSettings {
     int first = 0, words = 1;
     std::vector<int> list;  ///< addresses of the words; empty: from `first` on
     Ticks t1 = 200, t2 = 300, t3 = 300, clock = 100, period = 2'000'000, offset = 0;
-    /// Delay of pulse n, at most `most` (the fault `jitter`).
-    std::function<Ticks(std::int64_t n, Ticks most)> jitter;
+    /// Delay of pulse n, at most `max_delay` (the fault `jitter`).
+    std::function<Ticks(std::int64_t n, Ticks max_delay)> jitter;
 
     std::uint32_t address(int word) const {
         return static_cast<std::uint32_t>(list.empty() ? first + word : list[static_cast<std::size_t>(word)]);
@@ -97,7 +97,7 @@ class Twin {
     void reset(int card);
     void set_late(int card, Ticks late) { cards_[card].late = late; }
     void set_miss_edges(int card, int edges) { cards_[card].miss_edges = edges; }
-    void set_jitter(int card, Ticks most) { cards_[card].jitter_most = most; }
+    void set_jitter(int card, Ticks max_delay) { cards_[card].jitter_most = max_delay; }
     void set_no_latch(int decoder, bool no_latch) { decoders_[decoder].no_latch = no_latch; }
     /// Forces a bit of a line, or with `bit` -1 the whole line; the bit takes precedence.
     void force(Line line, int bit, std::uint32_t level);

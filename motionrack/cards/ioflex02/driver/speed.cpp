@@ -15,12 +15,12 @@ const double stretch_error_s = to_seconds(time_tick + sample_time);
 SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int64_t to) {
     SpeedEstimate out;
     const double length = static_cast<double>(to - from) * tick_s;
-    const double least = length - stretch_error_s;
-    if (least <= 0) return out;
+    const double min_length = length - stretch_error_s;
+    if (min_length <= 0) return out;
     const double size = static_cast<double>(counts < 0 ? -counts : counts);
     out.known = true;
     out.counts_s = static_cast<double>(counts) / length;
-    out.error = (size + off) / least - size / length;
+    out.error = (size + off) / min_length - size / length;
     out.from = from;
     out.to = to;
     return out;
@@ -44,9 +44,9 @@ SpeedEstimate SpeedMeter::silence(const AxisReading& axis, std::int64_t ticks) c
     const std::int64_t since = edge_known_ ? ticks - edge_ticks_ : std::min(axis.age, ticks - first_ticks_);
     SpeedEstimate out = mean(0, 1 + 2 * edge_error_, ticks - since, ticks);
     if (!out.known) return out;
-    const double most = out.error;
-    out.counts_s = std::clamp(edge_speed_, -most, most);
-    out.error = most + (out.counts_s < 0 ? -out.counts_s : out.counts_s);
+    const double max_counts_s = out.error;
+    out.counts_s = std::clamp(edge_speed_, -max_counts_s, max_counts_s);
+    out.error = max_counts_s + (out.counts_s < 0 ? -out.counts_s : out.counts_s);
     return out;
 }
 

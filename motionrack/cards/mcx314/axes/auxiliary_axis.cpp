@@ -45,14 +45,14 @@ constexpr double sure = 1.02;
 
 /// Basic pulses of the longest axis; with constant vector speed, pulses in which both axes step take longer.
 double basic_pulses(const Segment& segment) {
-    std::int64_t most = 0, least = std::numeric_limits<std::int64_t>::max();
+    std::int64_t max_size = 0, min_size = std::numeric_limits<std::int64_t>::max();
     for (std::size_t i = 0; i < segment.axis_count; ++i) {
         const std::int64_t pulses = std::llabs(segment.finish[i]);
-        most = std::max(most, pulses);
-        least = std::min(least, pulses);
+        max_size = std::max(max_size, pulses);
+        min_size = std::min(min_size, pulses);
     }
     const bool longer = segment.constant_vector && segment.kind == SegmentKind::line;
-    return static_cast<double>(most) + (longer ? both_axes_extra * static_cast<double>(least) : 0.0);
+    return static_cast<double>(max_size) + (longer ? both_axes_extra * static_cast<double>(min_size) : 0.0);
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     if (!driving && segment.auxiliary_pulses != 0) auxiliary_negative_ = segment.auxiliary_pulses < 0;
     const int direction = auxiliary_negative_ ? -1 : 1;
     const std::int64_t ahead = direction * segmenter_->auxiliary_pulses_ahead(auxiliary_, direction);
-    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * auxiliary_acceleration_,
+    const double pulses_per_v = rules::clock_hz / range_, max_slope = rules::rate_unit * auxiliary_acceleration_,
                  start = auxiliary_start_speed_;
     const double from = driving ? driver_.ReadCV(auxiliary_) : start;
     const auto left = static_cast<double>(direction * (auxiliary_target_ - at));
@@ -121,10 +121,10 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
         slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
-                        : most;  // an axis that is ahead arrives early
+                        : max_slope;  // an axis that is ahead arrives early
     MOTIONRACK_CHECK(driver_.SetA(
-        axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
-    const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
+        axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, max_slope) / rules::rate_unit))));
+    const double falls_in = std::max(0.0, from * from - start * start) / (2 * max_slope) * pulses_per_v;
     const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
                                                         static_cast<std::int64_t>(std::ceil(falls_in)));
     if (!driving) return drive_auxiliary(at, goal, v, false);

@@ -35,8 +35,8 @@ double chords_of(const AxisMap& map, const control::Geometry& path, double cruis
         const double jump =
             joint_share * std::min(map.limits[path.first].max_velocity_step, map.limits[path.second].max_velocity_step);
         const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
-        const double quickest = std::min(min_seconds * cruise / path.radius, max_angle);
-        return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), quickest}));
+        const double min_angle = std::min(min_seconds * cruise / path.radius, max_angle);
+        return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), min_angle}));
     }
     const double seconds = path.length / cruise, count = std::clamp(std::ceil(seconds / 0.008), 8.0, 20'000.0);
     return min_seconds > 0 ? std::min(count, std::max(1.0, std::floor(seconds / min_seconds))) : count;
@@ -101,8 +101,8 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
         const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
         // It begins with the speed of the previous chord.
-        const double most = max_on(way, work.constant_vector).speed;
-        chords[i - 1].v = std::min({chords[i - 1].v, most, std::floor(std::sqrt(squared(after.v) + 2 * slope * room))});
+        const double max = max_on(way, work.constant_vector).speed;
+        chords[i - 1].v = std::min({chords[i - 1].v, max, std::floor(std::sqrt(squared(after.v) + 2 * slope * room))});
     }
     for (const Chord& chord : chords)
         emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)),

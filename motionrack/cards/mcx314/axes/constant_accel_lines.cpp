@@ -51,9 +51,9 @@ void Segmenter::make_even(const PendingMove& work, MoveSpeeds& speeds) {
     const double whole = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;
     const double length = std::max(0.5 * whole, whole - host_seconds_ * from);
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
-    const std::int32_t most = max_on(way, false).acceleration;
+    const std::int32_t max_accel = max_on(way, false).acceleration;
     speeds.acceleration =
-        std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), max_units)), 1, most);
+        std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), max_units)), 1, max_accel);
     const double changed = 2 * length * rules::rate_unit * speeds.acceleration;
     reached_ =
         changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));

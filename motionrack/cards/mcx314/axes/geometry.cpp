@@ -33,7 +33,7 @@ DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::u
     DriveMotion out;
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;
-    double scale = 0, least = 1e300;
+    double scale = 0, min_scale = 1e300;
     for (std::size_t i = 0; i < worst.size(); ++i) {
         if (map.channel[i] < 0 || !(axes != 0 ? (axes >> i & 1) != 0 : has_part(map, path, worst, i))) continue;
         ++moving;
@@ -42,22 +42,22 @@ DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::u
         rotary = rotary || i >= 3;
         beside_plane = beside_plane || (path.shape == control::PathShape::arc && i != path.first && i != path.second);
         scale = std::max(scale, map.limits[i].pulses_per_unit);
-        least = std::min(least, map.limits[i].pulses_per_unit);
+        min_scale = std::min(min_scale, map.limits[i].pulses_per_unit);
     }
     out.auxiliary = moving > 3 ? last : -1;
-    out.constant_vector = moving == 2 && !rotary && !beside_plane && scale - least <= 1e-9 * scale;
+    out.constant_vector = moving == 2 && !rotary && !beside_plane && scale - min_scale <= 1e-9 * scale;
     return out;
 }
 
 double basic_pulses_along(const AxisMap& map, const DriveMotion& drawing, const control::Point& tangent) {
-    double most = 0, second = 0;
+    double max_rate = 0, second = 0;
     for (std::size_t i = 0; i < tangent.size(); ++i) {
         if (map.channel[i] < 0 || map.channel[i] == drawing.auxiliary) continue;
         const double rate = std::fabs(tangent[i]) * map.limits[i].pulses_per_unit;
-        second = std::max(second, std::min(most, rate));
-        most = std::max(most, rate);
+        second = std::max(second, std::min(max_rate, rate));
+        max_rate = std::max(max_rate, rate);
     }
-    return std::max(1e-3, drawing.constant_vector ? most + both_axes_extra * second : most);
+    return std::max(1e-3, drawing.constant_vector ? max_rate + both_axes_extra * second : max_rate);
 }
 
 namespace {

@@ -55,8 +55,8 @@ double PathRule::constant_velocity_length(const control::Geometry& path) const {
     double spent = pulses / std::min(in, out);
     if (turn_of_first_chord(map_, path) > 0) {
         const double middle = basic_pulses_along(map_, drawing, control::tangent_at(path, path.length / 2));
-        const double mean = (in * in + 4 * middle * middle + out * out) / 6, most = std::max(in * in, out * out);
-        spent += path.length * (of_chords + std::max(0.0, 1 - mean / most));
+        const double mean = (in * in + 4 * middle * middle + out * out) / 6, max_square = std::max(in * in, out * out);
+        spent += path.length * (of_chords + std::max(0.0, 1 - mean / max_square));
     }
     return std::min(path.length, spent);
 }

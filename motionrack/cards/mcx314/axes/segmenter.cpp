@@ -26,11 +26,11 @@ constexpr double accesses_of_piece = 28, piece_reserve = 1.5, counted_reserve = 
 }  // namespace
 
 std::int32_t Segmenter::best_range(const AxisMap& map) {
-    double fastest = 1;
+    double max_pulse_hz = 1;
     for (std::size_t i = 0; i < map.channel.size(); ++i)
         if (map.channel[i] >= 0)
-            fastest = std::max(fastest, map.limits[i].max_velocity * map.limits[i].pulses_per_unit);
-    const double range = rules::clock_hz * max_units / (fastest * 1.4143);
+            max_pulse_hz = std::max(max_pulse_hz, map.limits[i].max_velocity * map.limits[i].pulses_per_unit);
+    const double range = rules::clock_hz * max_units / (max_pulse_hz * 1.4143);
     return static_cast<std::int32_t>(
         std::clamp(std::floor(range), static_cast<double>(param::R.min), static_cast<double>(param::R.max)));
 }
@@ -130,10 +130,10 @@ double Segmenter::fall_length(double units, const MoveSpeeds& speeds) const {
 double Segmenter::fall_from(const PendingMove& work, double units, const MoveSpeeds& speeds) const {
     const double fall = fall_length(units, speeds);
     if (fall <= 0) return work.path.length;
-    const double least = min_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
-    double from = work.path.length - std::max(fall, least);
+    const double min_length = min_seconds_ * speeds.top / units, pulse = 1 / (units * pulses_per_v_);
+    double from = work.path.length - std::max(fall, min_length);
     if (!leaves_time(work, from, work.path.length, speeds.top)) from -= 2 * pulse;
-    const bool fits = from >= least && leaves_time(work, 0, from, speeds.top) &&
+    const bool fits = from >= min_length && leaves_time(work, 0, from, speeds.top) &&
                       leaves_time(work, from, work.path.length, speeds.top);
     return fits ? from : 0;
 }

@@ -67,12 +67,12 @@ bool Segmenter::emit_fitted_arc(const PendingMove& work, double from, double to,
 /// move, and of these the one with the fewest pulses.
 std::size_t Segmenter::waits_for_room(const PendingMove& work, const Pulses4& to) const {
     std::size_t out = 0;
-    std::pair<bool, std::int64_t> least = {true, std::numeric_limits<std::int64_t>::max()};
+    std::pair<bool, std::int64_t> min_rank = {true, std::numeric_limits<std::int64_t>::max()};
     for (std::size_t c = 0; c < to.size(); ++c) {
         const std::int64_t pulses = std::llabs(to[c] - at_[c]);
         if (pulses == 0 || static_cast<int>(c) == work.auxiliary) continue;
         const std::pair<bool, std::int64_t> one = {(work.channels >> c & 1) != 0, pulses};
-        if (one < least) least = one, out = c;
+        if (one < min_rank) min_rank = one, out = c;
     }
     return out;
 }
@@ -80,12 +80,12 @@ std::size_t Segmenter::waits_for_room(const PendingMove& work, const Pulses4& to
 void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
     std::array<int, 4> moving{};
     int count = 0;
-    std::int64_t longest = 0;
+    std::int64_t max_delta = 0;
     for (int c = 0; c < channel_count; ++c) {
         const std::int64_t delta = to[static_cast<std::size_t>(c)] - at_[static_cast<std::size_t>(c)];
         if (delta == 0 || c == work.auxiliary) continue;
         moving[static_cast<std::size_t>(count++)] = c;
-        longest = std::max(longest, delta < 0 ? -delta : delta);
+        max_delta = std::max(max_delta, delta < 0 ? -delta : delta);
     }
     if (count == 0) return;  // less than half a pulse; an auxiliary's pulses stay for the next segment
     // One or two pulses left over by an arc wait for a segment with a free axis, at the latest until standstill. A
@@ -97,7 +97,7 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
         without[left] = at_[left];
         return emit_line(work, without, v, acceleration);
     }
-    if (longest > max_line_pulses) {
+    if (max_delta > max_line_pulses) {
         Pulses4 half = at_;
         for (std::size_t c = 0; c < half.size(); ++c) half[c] += (to[c] - at_[c]) / 2;
         emit_line(work, half, v, acceleration);
@@ -126,11 +126,11 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
     segment.acceleration = acceleration;
     Pulses4 way = {};
     for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
-    const UnitLimits most = max_on(way, segment.constant_vector);
-    segment.speed = std::min(segment.speed, most.speed);
-    segment.acceleration = std::min(segment.acceleration, most.acceleration);
+    const UnitLimits limits = max_on(way, segment.constant_vector);
+    segment.speed = std::min(segment.speed, limits.speed);
+    segment.acceleration = std::min(segment.acceleration, limits.acceleration);
     segment.even = work.move.constant_accel;
-    if (work.move.constant_accel) segment.braking = most.acceleration;
+    if (work.move.constant_accel) segment.braking = limits.acceleration;
     append(segment, work, to);
 }
 
@@ -144,7 +144,7 @@ Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector
         basic = std::max(basic, size);
     }
     if (constant_vector) basic += both_axes_extra * second;
-    UnitLimits most;
+    UnitLimits limits;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
         const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
@@ -152,10 +152,11 @@ Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector
         auto at_most = [](double value) {
             return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, max_units));
         };
-        most.speed = std::min(most.speed, at_most(map_.limits[i].max_velocity * units));
-        most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
+        limits.speed = std::min(limits.speed, at_most(map_.limits[i].max_velocity * units));
+        limits.acceleration =
+            std::min(limits.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
     }
-    return most;
+    return limits;
 }
 
 void Segmenter::append(Segment segment, const PendingMove& work, const Pulses4& to) {

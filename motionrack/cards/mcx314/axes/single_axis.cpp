@@ -106,10 +106,10 @@ Result<void> SingleAxis::move_to(double position, double speed) {
 Result<void> SingleAxis::move_by(double distance, double speed) {
     if (position_valid_) return move_to(real_.position() + distance, speed);
     MOTIONRACK_CHECK(check_speed("Move", speed));
-    const double most = max_pulses / settings_.limits.pulses_per_unit;
-    if (!(std::fabs(distance) <= most))
-        return refuse("Move",
-                      fmt::format("the distance is {} {}; it must be at most {:.0f}", distance, settings_.unit, most));
+    const double max_travel = max_pulses / settings_.limits.pulses_per_unit;
+    if (!(std::fabs(distance) <= max_travel))
+        return refuse("Move", fmt::format("the distance is {} {}; it must be at most {:.0f}", distance, settings_.unit,
+                                          max_travel));
     MOTIONRACK_CHECK(check_free("Move"));
     MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
     return begin_move(distance, speed);
@@ -161,9 +161,9 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
 Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& order) const {
     const control::AxisLimits& limits = settings_.limits;
     MOTIONRACK_CHECK(check_speed("Homing", order.search_velocity));
-    const auto outside = [&](const char* what, double value, double least, double greatest) -> Result<void> {
-        if (value >= least && value <= greatest) return {};
-        return refuse("Homing", fmt::format("{} is {}; it must be {} to {}", what, value, least, greatest));
+    const auto outside = [&](const char* what, double value, double min, double max) -> Result<void> {
+        if (value >= min && value <= max) return {};
+        return refuse("Homing", fmt::format("{} is {}; it must be {} to {}", what, value, min, max));
     };
     const double max_way = max_pulses / limits.pulses_per_unit, max_home = max_place / limits.pulses_per_unit;
     MOTIONRACK_CHECK(outside("the home position", order.position, -max_home, max_home));
@@ -273,10 +273,10 @@ void SingleAxis::set_position_valid(bool on) {
 }
 
 Result<void> SingleAxis::set_position(double position) {
-    const double most = max_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
-    if (!(std::fabs(position) <= most))
-        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position, most,
-                                              settings_.unit));
+    const double max_position = max_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
+    if (!(std::fabs(position) <= max_position))
+        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position,
+                                              max_position, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)

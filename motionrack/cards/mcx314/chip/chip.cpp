@@ -321,13 +321,13 @@ double Chip::rate_of(int a, Instant t) const {
             const double basic = phase / (r1 + extra * slope);
             return sign * (s == i ? basic : basic * slope);
         }
-        const double longest = static_cast<double>(path.longest);
+        const double max_p = static_cast<double>(path.max_pulses);
         double slope = 0;
         if (extra != 0)
             slope = static_cast<double>(
                         std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]))) /
-                    longest;
-        return phase / (r1 + extra * slope) * static_cast<double>(path.command.finish[i]) / longest;
+                    max_p;
+        return phase / (r1 + extra * slope) * static_cast<double>(path.command.finish[i]) / max_p;
     }
     return 0;
 }

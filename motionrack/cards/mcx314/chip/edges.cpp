@@ -204,7 +204,7 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
         const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
         if (p == 0 || !outputs_[axis].edge_listener) continue;
-        if (p == path.longest)
+        if (p == path.max_pulses)
             make_even_edges(axis, even_pulses(gen, waited), pulses, direction);
         else
             make_led_edges(i, even_pulses(gen, waited), pulses);
@@ -216,15 +216,15 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
 void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
-    const std::int64_t p = rules::magnitude(path.command.finish[i]), longest = path.longest;
+    const std::int64_t p = rules::magnitude(path.command.finish[i]), max_p = path.max_pulses;
     const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
-    const std::int64_t made = rules::line_steps(gen.n, p, longest),
-                       steps = rules::line_steps(gen.n + pulses, p, longest) - made;
+    const std::int64_t made = rules::line_steps(gen.n, p, max_p),
+                       steps = rules::line_steps(gen.n + pulses, p, max_p) - made;
     if (steps == 0) return;
-    const std::int64_t first = rules::line_pulse_of_step(made + 1, p, longest);
+    const std::int64_t first = rules::line_pulse_of_step(made + 1, p, max_p);
     std::int64_t spare =
-        2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact position of the step
-    const std::int64_t between = longest / p, rest = 2 * (longest % p);
+        2 * p * first - (2 * made + 1) * max_p;  // of the basic pulse beyond the exact position of the step
+    const std::int64_t between = max_p / p, rest = 2 * (max_p % p);
     const std::int64_t phase = (first - gen.n - 1) * gen.range_now - run.slack;
     const std::int64_t ticks = phase > 0 ? rules::ceil_div(phase, gen.speed) : 0;
     std::int64_t at = run.at + ticks, slack = ticks * gen.speed - phase, count = state_.axis[axis].count;
@@ -284,16 +284,16 @@ void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
         twice[i] = 2 * rules::magnitude(path.command.finish[i]);
         error[i] = static_cast<std::int64_t>(  // below 2^64
             (static_cast<std::uint64_t>(gen.n) * static_cast<std::uint64_t>(twice[i]) +
-             static_cast<std::uint64_t>(path.longest)) %
-            static_cast<std::uint64_t>(2 * path.longest));
+             static_cast<std::uint64_t>(path.max_pulses)) %
+            static_cast<std::uint64_t>(2 * path.max_pulses));
     }
     EvenPulses run = even_pulses(gen, waited);
     for (std::int64_t j = 0; j < pulses; ++j) {
         int stepped = 0;
         for (int i = 0; i < axes; ++i) {
             error[i] += twice[i];
-            if (error[i] < 2 * path.longest) continue;
-            error[i] -= 2 * path.longest;
+            if (error[i] < 2 * path.max_pulses) continue;
+            error[i] -= 2 * path.max_pulses;
             const int step = path.command.finish[i] < 0 ? -1 : 1;
             ++stepped;
             count[i] += step;

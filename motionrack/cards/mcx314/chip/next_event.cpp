@@ -69,7 +69,7 @@ std::int64_t Chip::pulses_to_special(int a) const {
         return std::max<std::int64_t>(1, pulses);
     }
     const PathCommand& command = state_.path.command;
-    pulses = std::min(pulses, command.arc() ? state_.path.arc.pulses_to_event() : state_.path.longest - gen.n);
+    pulses = std::min(pulses, command.arc() ? state_.path.arc.pulses_to_event() : state_.path.max_pulses - gen.n);
     for (int i = 0; i < command.count; ++i) {
         const int direction = path_direction(i);
         if (direction == 0) continue;
@@ -96,7 +96,7 @@ std::int64_t Chip::pulses_to_final(int a) const {
     if (gen.final || gen.drive == Drive::continuous) return far;
     if (gen.drive == Drive::path) {
         if (!state_.decel_enabled || state_.queued || (!state_.path.command.line() && !gen.manual)) return far;
-        total = state_.path.longest;
+        total = state_.path.max_pulses;
     } else {
         total = axis.pulses;
     }
@@ -152,8 +152,8 @@ std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
     const Path& path = state_.path;
     if (!path.command.arc()) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        const std::int64_t wanted = rules::line_steps(state_.axis[a].gen.n, p, path.longest) + steps;
-        return wanted > p ? far : rules::line_pulse_of_step(wanted, p, path.longest) - state_.axis[a].gen.n;
+        const std::int64_t wanted = rules::line_steps(state_.axis[a].gen.n, p, path.max_pulses) + steps;
+        return wanted > p ? far : rules::line_pulse_of_step(wanted, p, path.max_pulses) - state_.axis[a].gen.n;
     }
     const rules::Octant& octant = rules::octants[path.arc.octant];
     if (octant.short_axis == i) return steps;
@@ -179,7 +179,7 @@ std::int64_t Chip::extra_steps(std::int64_t pulses) const {
     }
     const std::int64_t n = state_.axis[state_.master].gen.n;
     const std::int64_t p = std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]));
-    return rules::line_steps(n + pulses, p, path.longest) - rules::line_steps(n, p, path.longest);
+    return rules::line_steps(n + pulses, p, path.max_pulses) - rules::line_steps(n, p, path.max_pulses);
 }
 
 /// Required sum of acc and the speed until the next `pulses` basic pulses (>= 1) are output.
@@ -229,7 +229,7 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
     const std::int64_t n = state_.axis[state_.master].gen.n;
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        const std::int64_t made = rules::line_steps(n + pulses, p, path.longest) - path.made[i];
+        const std::int64_t made = rules::line_steps(n + pulses, p, path.max_pulses) - path.made[i];
         steps[i] = path.command.finish[i] < 0 ? -made : made;
     }
     return steps;

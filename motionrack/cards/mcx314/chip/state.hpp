@@ -54,7 +54,7 @@ struct PathCommand {
 struct Path {
     PathCommand command;
     rules::Arc arc;
-    std::int64_t longest = 0;                 ///< lines: basic pulses
+    std::int64_t max_pulses = 0;              ///< lines: basic pulses
     std::array<std::int64_t, 3> made{};       ///< lines: steps of each axis so far
     std::array<std::int64_t, 3> range_for{};  ///< Rnow when one, two, three axes stepped
 };

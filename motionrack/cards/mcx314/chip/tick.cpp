@@ -207,7 +207,7 @@ int Chip::step_axes(int a) {
     const std::int64_t n = state_.axis[a].gen.n;
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        if (rules::line_steps(n, p, path.longest) == path.made[i]) continue;
+        if (rules::line_steps(n, p, path.max_pulses) == path.made[i]) continue;
         ++path.made[i];
         move(path.command.axis[i], path.command.finish[i] < 0 ? -1 : 1, state_.tick);
         ++moved;
@@ -243,7 +243,7 @@ void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
 bool Chip::path_finished() const {
     if (state_.path.command.pattern()) return state_.pattern.place == Pattern::length;
     return state_.path.command.arc() ? state_.path.arc.finished
-                                     : state_.axis[state_.master].gen.n >= state_.path.longest;
+                                     : state_.axis[state_.master].gen.n >= state_.path.max_pulses;
 }
 
 /// Direction of AX(i+1); 0: it is stationary.
@@ -276,7 +276,7 @@ bool Chip::segment_end(int a) {
 void Chip::begin_segment(const PathCommand& command) {
     Path& path = state_.path;
     path.command = command;
-    path.longest = 0;
+    path.max_pulses = 0;
     path.made = {};
     if (command.pattern()) {
         if (state_.pattern.place == Pattern::length) next_pattern_word();
@@ -286,7 +286,7 @@ void Chip::begin_segment(const PathCommand& command) {
                        command.code == cmd::ARC_CW);
     else
         for (int i = 0; i < command.count; ++i)
-            path.longest = std::max(path.longest, rules::magnitude(command.finish[i]));
+            path.max_pulses = std::max(path.max_pulses, rules::magnitude(command.finish[i]));
     auto range_of = [&](int i) { return rules::used_range(state_.axis[command.axis[i]].range); };
     path.range_for.fill(state_.axis[state_.master].gen.range);
     if (command.vector_speed == 1) path.range_for[1] = path.range_for[2] = range_of(1);
@@ -311,7 +311,7 @@ void Chip::check_final(int a) {
     } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
         now = gen.manual
                   ? gen.n >= axis.decel_point
-                  : state_.path.command.line() && state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
+                  : state_.path.command.line() && state_.path.max_pulses - gen.n <= final_pulses(axis) + axis.offset;
     }
     if (!now) return;
     gen.final = true;

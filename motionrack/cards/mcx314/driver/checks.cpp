@@ -20,10 +20,10 @@ Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value
                                                 parameter.name, axes_text(axes), value, parameter.min, parameter.max));
 }
 
-Result<void> check_switch(const char* who, int n, int greatest, const char* meanings) {
-    if (n >= 0 && n <= greatest) return {};
+Result<void> check_switch(const char* who, int n, int max_n, const char* meanings) {
+    if (n >= 0 && n <= max_n) return {};
     return fail(ErrorKind::refused,
-                fmt::format("{}: n is {}; it must be 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
+                fmt::format("{}: n is {}; it must be 0 to {} ({}). Nothing was written.", who, n, max_n, meanings));
 }
 
 Result<void> check_no_path(const char* who, MainStatus main) {

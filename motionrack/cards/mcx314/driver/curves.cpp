@@ -206,11 +206,11 @@ Result<void> check(const CurveData& data) {
                           {param::DP, data.dec_point.value_or(0), true},
                           {param::pulses, data.pulses.value_or(0), true}};
     for (const Item& item : items) {
-        const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.min;
-        if (item.used && (item.value < least || item.value > item.parameter.max))
+        const std::int64_t min_value = item.parameter.code == cmd::P ? 0 : item.parameter.min;
+        if (item.used && (item.value < min_value || item.value > item.parameter.max))
             return fail(ErrorKind::refused,
                         fmt::format("{} of the plan is {}; it must be {} to {}. Nothing was planned.",
-                                    item.parameter.name, item.value, least, item.parameter.max));
+                                    item.parameter.name, item.value, min_value, item.parameter.max));
     }
     return {};
 }

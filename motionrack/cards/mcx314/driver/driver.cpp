@@ -106,10 +106,10 @@ Result<void> Driver::write(unsigned axes, const Parameter& parameter, std::int64
     return {};
 }
 
-Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest,
+Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Field bits, int n, int max_n,
                                   const char* meanings) {
     MOTIONRACK_CHECK(check_axes(axes, who));
-    MOTIONRACK_CHECK(check_switch(who, n, greatest, meanings));
+    MOTIONRACK_CHECK(check_switch(who, n, max_n, meanings));
     set_mode(axes, number, bits, static_cast<unsigned>(n));
     return {};
 }

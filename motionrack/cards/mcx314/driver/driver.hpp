@@ -334,7 +334,7 @@ class Driver {
 
     // A check and its purpose.
     Result<void> write(unsigned axes, const Parameter& parameter, std::int64_t value);
-    Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest,
+    Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int max_n,
                               const char* meanings);
     Result<void> change_interrupts(const char* who, unsigned axes, std::uint16_t causes, bool on);
 

@@ -13,8 +13,8 @@ bool any_running(std::span<Home* const> homes) {
 }
 
 std::int64_t spread_of(const std::vector<std::int64_t>& values) {
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    return *greatest - *least;
+    const auto [min, max] = std::minmax_element(values.begin(), values.end());
+    return *max - *min;
 }
 
 Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axes, unsigned wr1, std::int64_t sv,

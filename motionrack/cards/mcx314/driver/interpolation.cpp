@@ -175,9 +175,9 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
         return rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise)
             .basic_pulses;
     }
-    std::int64_t most = 0;
-    for (const int i : channels_of(piece.axes)) most = std::max(most, rules::magnitude(piece.finish[i]));
-    return most;
+    std::int64_t max_finish = 0;
+    for (const int i : channels_of(piece.axes)) max_finish = std::max(max_finish, rules::magnitude(piece.finish[i]));
+    return max_finish;
 }
 
 // ---- start

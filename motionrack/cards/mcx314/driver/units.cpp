@@ -41,15 +41,15 @@ Result<void> check_value(const Kind& kind, const Scale& scale, double value, dou
         return fail(ErrorKind::refused,
                     fmt::format("The {} is {} units/{}, but it must be more than 0. Nothing was set.", kind.name, value,
                                 kind.time));
-    const double most = kind.max_per_multiple * multiple;
+    const double max_rate = kind.max_per_multiple * multiple;
     // R is a whole number, so the chosen multiple may miss by the last digit of a double.
-    if (value * scale.pulses_per_unit <= most * (1 + 1e-12)) return {};
+    if (value * scale.pulses_per_unit <= max_rate * (1 + 1e-12)) return {};
     return fail(ErrorKind::refused,
                 fmt::format("The {} of {} units/{} is {:.0f} pulses/{}, but the chip makes at most {:.0f}{}: {:.6g} "
                             "units/{}. Nothing was set.",
-                            kind.name, value, kind.time, value * scale.pulses_per_unit, kind.time, most,
+                            kind.name, value, kind.time, value * scale.pulses_per_unit, kind.time, max_rate,
                             multiple < max_range_multiple ? fmt::format(" with M = {:.6g}", multiple) : std::string(),
-                            most / scale.pulses_per_unit, kind.time));
+                            max_rate / scale.pulses_per_unit, kind.time));
 }
 
 Result<void> check_drive(const Scale& scale, const RealDrive& drive, double multiple) {
@@ -102,13 +102,13 @@ RealSetting with_range(const Scale& scale, const RealDrive& drive, std::int64_t 
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
     MOTIONRACK_CHECK(check_drive(scale, drive, max_range_multiple));
     const double pulses = scale.pulses_per_unit;
-    const double least = std::max({1.0, drive.speed * pulses / speed_kind.max_per_multiple,
-                                   drive.start_speed * pulses / start_kind.max_per_multiple,
-                                   drive.acceleration * pulses / accel_kind.max_per_multiple,
-                                   drive.deceleration * pulses / decel_kind.max_per_multiple,
-                                   drive.jerk * pulses / jerk_kind.max_per_multiple});
-    const double widest =
-        std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.min), static_cast<double>(param::R.max));
+    const double min_multiple = std::max({1.0, drive.speed * pulses / speed_kind.max_per_multiple,
+                                          drive.start_speed * pulses / start_kind.max_per_multiple,
+                                          drive.acceleration * pulses / accel_kind.max_per_multiple,
+                                          drive.deceleration * pulses / decel_kind.max_per_multiple,
+                                          drive.jerk * pulses / jerk_kind.max_per_multiple});
+    const double widest = std::clamp(std::floor(clock_hz / min_multiple), static_cast<double>(param::R.min),
+                                     static_cast<double>(param::R.max));
     // V is the largest value within the widest range; R is then reduced until V gives the requested speed, rounded to
     // reach it.
     const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, max_drive_units);

@@ -96,8 +96,8 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
     std::array<double, 4> out = {};
     const ChannelList list = channels_of(piece.axes);
     if (!piece.arc) {
-        const auto longest = static_cast<double>(std::max<std::int64_t>(1, basic_pulses(piece)));
-        for (const int i : channels_of(piece.axes)) out[i] = static_cast<double>(piece.finish[i]) / longest;
+        const auto max_finish = static_cast<double>(std::max<std::int64_t>(1, basic_pulses(piece)));
+        for (const int i : channels_of(piece.axes)) out[i] = static_cast<double>(piece.finish[i]) / max_finish;
         return out;
     }
     // On a circle the velocity of an axis is proportional to the other's distance from the centre; the axis nearer to
@@ -108,9 +108,9 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
         return static_cast<double>(moved - piece.centre[i]);
     };
     const double x = from_centre(h), y = from_centre(v);
-    const double most = std::max({std::fabs(x), std::fabs(y), 1.0}), turn = piece.clockwise ? -1 : 1;
-    out[h] = -turn * y / most;
-    out[v] = turn * x / most;
+    const double max_offset = std::max({std::fabs(x), std::fabs(y), 1.0}), turn = piece.clockwise ? -1 : 1;
+    out[h] = -turn * y / max_offset;
+    out[v] = turn * x / max_offset;
     return out;
 }
 

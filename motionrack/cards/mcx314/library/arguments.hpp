@@ -15,9 +15,9 @@ inline constexpr std::array three_axes = {ValueInfo{7, "X Y Z"}, ValueInfo{11, "
 inline constexpr std::array low_high = {ValueInfo{0, "Low"}, ValueInfo{1, "High"}};
 inline constexpr std::array off_on = {ValueInfo{0, "off"}, ValueInfo{1, "on"}};
 
-constexpr ArgumentInfo number(std::string_view name, std::int64_t least, std::int64_t greatest, std::string_view unit,
+constexpr ArgumentInfo number(std::string_view name, std::int64_t min, std::int64_t max, std::string_view unit,
                               std::string_view meaning, std::int64_t start) {
-    return {name, least, greatest, unit, meaning, start};
+    return {name, min, max, unit, meaning, start};
 }
 constexpr ArgumentInfo of(std::string_view name, const Parameter& parameter, std::string_view unit,
                           std::string_view meaning, std::int64_t start) {
@@ -26,12 +26,12 @@ constexpr ArgumentInfo of(std::string_view name, const Parameter& parameter, std
 template <std::size_t count>
 constexpr ArgumentInfo one_of(std::string_view name, const std::array<ValueInfo, count>& values,
                               std::string_view meaning) {
-    std::int64_t least = values[0].value, greatest = values[0].value;
+    std::int64_t min = values[0].value, max = values[0].value;
     for (const ValueInfo& one : values) {
-        least = one.value < least ? one.value : least;
-        greatest = one.value > greatest ? one.value : greatest;
+        min = one.value < min ? one.value : min;
+        max = one.value > max ? one.value : max;
     }
-    return {name, least, greatest, {}, meaning, values[0].value, values};
+    return {name, min, max, {}, meaning, values[0].value, values};
 }
 
 inline constexpr ArgumentInfo axes{"axis", 1, 15, {}, "axes", 1, axis_values, true};

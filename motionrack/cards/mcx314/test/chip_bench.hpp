@@ -145,9 +145,9 @@ class Bench : public Commands<Bench> {
         while (!interrupt() && kernel.now() < until) kernel.run_until(until);
         return interrupt();
     }
-    /// Runs until none of the axes drives, at most `most`; returns false if any still drives.
-    bool finish(unsigned axes, Duration most = whole_seconds(100)) {
-        const Instant until = kernel.now() + most;
+    /// Runs until none of the axes drives, at most `max_duration`; returns false if any still drives.
+    bool finish(unsigned axes, Duration max_duration = whole_seconds(100)) {
+        const Instant until = kernel.now() + max_duration;
         while ((read(0) & axes) != 0 && kernel.now() < until) advance(microseconds(50));
         return (read(0) & axes) == 0;
     }

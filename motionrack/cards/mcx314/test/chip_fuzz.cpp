@@ -173,10 +173,10 @@ class Run {
         kernel_.settle();
     }
     void pass() {
-        static constexpr std::uint32_t most[] = {1, 4, 1'250, 12'500, 125'000, 1'250'000, 12'500'000, 125'000'000};
+        static constexpr std::uint32_t max_ticks[] = {1, 4, 1'250, 12'500, 125'000, 1'250'000, 12'500'000, 125'000'000};
         const std::uint32_t roll = feed_.below(256);  // usually a few microseconds, sometimes milliseconds
         const std::uint32_t n = roll < 60 ? 0 : roll < 80 ? 1 : roll < 100 ? 2 : roll < 140 ? 3 : roll < 210 ? 4 : 5;
-        const std::uint32_t length = most[roll == 255 ? 7 : roll >= 252 ? 6 : n];
+        const std::uint32_t length = max_ticks[roll == 255 ? 7 : roll >= 252 ? 6 : n];
         run_for(Duration{std::int64_t{feed_.word()} * length / 65'536});
     }
     void run_for(Duration time) {

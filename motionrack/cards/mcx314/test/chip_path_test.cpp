@@ -114,7 +114,7 @@ TEST(ChipPath, TheInterruptAtAJointIsClearedByTheNextSegmentOr3Dh) {
 
 RC_GTEST_PROP(ChipPath, AnyLineStaysWithinHalfAPulseOfTheIdealOne, ()) {
     const auto px = *rc::gen::inRange(-400, 401), py = *rc::gen::inRange(-400, 401), pz = *rc::gen::inRange(-400, 401);
-    const int longest = std::max({std::abs(px), std::abs(py), std::abs(pz)});
+    const int max_p = std::max({std::abs(px), std::abs(py), std::abs(pz)});
     Bench b;
     std::array<EdgeLog, 3> log;
     b.start();
@@ -133,12 +133,12 @@ RC_GTEST_PROP(ChipPath, AnyLineStaysWithinHalfAPulseOfTheIdealOne, ()) {
     const int p[3] = {px, py, pz};
     const EdgeLog* master = nullptr;
     for (std::size_t a = 0; a < 3; ++a)
-        if (std::abs(p[a]) == longest) master = &log[a];
+        if (std::abs(p[a]) == max_p) master = &log[a];
     for (std::size_t a = 0; a < 3; ++a) {
         std::size_t made = 0;
         for (std::size_t n = 0; n < master->list.size(); ++n) {
             if (made < log[a].list.size() && log[a].list[made].tick == master->list[n].tick) ++made;
-            const double ideal = static_cast<double>(n + 1) * std::abs(p[a]) / longest;
+            const double ideal = static_cast<double>(n + 1) * std::abs(p[a]) / max_p;
             RC_ASSERT(std::fabs(static_cast<double>(made) - ideal) <= 0.5);
         }
         RC_ASSERT(made == log[a].list.size());

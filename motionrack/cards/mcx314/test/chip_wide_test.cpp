@@ -56,16 +56,16 @@ TEST(ChipWide, LinesAndArcsReachTheEndsOfTheirWideRange) {
 
 TEST(ChipWide, TheArithmeticOfPathsIsExactInTheWholeRange) {
     const std::int64_t values[] = {1, 2, 3, 16'777'215, 1'431'655'765, 2'147'483'645, 2'147'483'646, 2'147'483'647};
-    for (const std::int64_t longest : values)
+    for (const std::int64_t max_p : values)
         for (const std::int64_t p : values)
             for (const std::int64_t n : values) {
-                if (p > longest || n > longest) continue;
-                const auto exact = (2 * static_cast<Wide>(n) * p + longest) / (2 * static_cast<Wide>(longest));
-                ASSERT_EQ(rules::line_steps(n, p, longest), static_cast<std::int64_t>(exact));
+                if (p > max_p || n > max_p) continue;
+                const auto exact = (2 * static_cast<Wide>(n) * p + max_p) / (2 * static_cast<Wide>(max_p));
+                ASSERT_EQ(rules::line_steps(n, p, max_p), static_cast<std::int64_t>(exact));
                 if (n > p) continue;
-                const auto pulse = ((2 * static_cast<Wide>(n) - 1) * longest + 2 * p - 1) / (2 * static_cast<Wide>(p));
-                ASSERT_EQ(rules::line_pulse_of_step(n, p, longest), static_cast<std::int64_t>(pulse));
-                ASSERT_EQ(rules::line_steps(rules::line_pulse_of_step(n, p, longest), p, longest), n);
+                const auto pulse = ((2 * static_cast<Wide>(n) - 1) * max_p + 2 * p - 1) / (2 * static_cast<Wide>(p));
+                ASSERT_EQ(rules::line_pulse_of_step(n, p, max_p), static_cast<std::int64_t>(pulse));
+                ASSERT_EQ(rules::line_steps(rules::line_pulse_of_step(n, p, max_p), p, max_p), n);
             }
     for (const std::int64_t m : {std::int64_t{1}, std::int64_t{2'147'483'646}, std::int64_t{3'037'000'496}})
         for (std::int64_t q = m * m - 3; q <= m * m + m + 3; q += q < m * m + 3 || q > m * m + m - 4 ? 1 : m - 6) {

@@ -119,12 +119,12 @@ TEST(DriverFlight, TheLeastPossibleTargetIsToldAndTaken) {
         const Result<void> refused = d.change_pulses(0, -5'000);
         ASSERT_FALSE(refused);
         const std::string& text = refused.error().message;
-        const std::int64_t least = std::stoll(text.substr(text.find("the minimum is ") + 15));
-        EXPECT_GT(least, 5'000);
-        EXPECT_LT(least, 13'700);
-        done(d.change_pulses(0, -(least + 5)));
+        const std::int64_t min_pulses = std::stoll(text.substr(text.find("the minimum is ") + 15));
+        EXPECT_GT(min_pulses, 5'000);
+        EXPECT_LT(min_pulses, 13'700);
+        done(d.change_pulses(0, -(min_pulses + 5)));
         done(d.wait_until_done(axis_x, patience));
-        EXPECT_EQ(d.ReadLPS(0), -(least + 5));
+        EXPECT_EQ(d.ReadLPS(0), -(min_pulses + 5));
         rig.deliver_edges();
         EXPECT_LT(last_rate(rig.edges[0], 1), 250) << "it ends at SV, 100 pulses/s";
     }

@@ -121,10 +121,10 @@ class Maker : private ExtensionActions {
         data(axis, 0x00, r);
         data(axis, 0x04, start);
         data(axis, 0x05, speed(start));
-        const std::int64_t most =
+        const std::int64_t max_pulses =
             program_.ticks * start / std::max<std::int64_t>(r, 16'000) + 2;  // pulses at the start speed
-        data(axis, 0x06, random_.between(0, most));
-        data(axis, 0x07, random_.between(0, most));
+        data(axis, 0x06, random_.between(0, max_pulses));
+        data(axis, 0x07, random_.between(0, max_pulses));
         mode(axis, 3, drive_mode());
         command(axis, random_.one_in(3) ? 0x22 : 0x20);
         for (std::int64_t n = random_.between(1, 12); n > 0; --n) {
@@ -132,7 +132,7 @@ class Maker : private ExtensionActions {
             between_ = random_.one_in(2);
             switch (random_.between(0, 7)) {
                 case 0:
-                    data(axis, 0x06, random_.between(0, most));
+                    data(axis, 0x06, random_.between(0, max_pulses));
                     break;
                 case 1:
                     data(axis, 0x0D, random_.between(0, 50));

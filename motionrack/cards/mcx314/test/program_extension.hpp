@@ -112,13 +112,13 @@ class ExtensionActions : protected Paths {
         const int axis = static_cast<int>(random_.between(0, 3));
         mode(1u << axis, 3, 0x18 | random_.between(0, 3));
         data(1u << axis, 0x06, random_.between(0, 5));
-        const std::int64_t back = now_, most = random_.one_in(2) ? 40 : program_.ticks / 30;
+        const std::int64_t back = now_, max_ticks = random_.one_in(2) ? 40 : program_.ticks / 30;
         std::int64_t phase = 2;  // both High
         for (std::int64_t n = random_.between(2, 16); n > 0; --n) {
             phase += random_.one_in(4) ? -1 : 1;
             input(axis, Pin::exp_plus, (phase & 3) == 1 || (phase & 3) == 2);
             input(axis, Pin::exp_minus, (phase & 3) >= 2);
-            now_ += random_.between(0, most);
+            now_ += random_.between(0, max_ticks);
             between_ = random_.one_in(2);
         }
         input(axis, Pin::exp_plus, true);

@@ -54,10 +54,10 @@ class Traffic : protected Values {
         write(2 * number, value);
     }
     void gap() {
-        const std::int64_t most = random_.one_in(busy_ < 10 ? 8 : 3) ? 4
-                                  : random_.one_in(6)                ? program_.ticks / 6
-                                                                     : program_.ticks / busy_;
-        now_ += random_.between(0, std::max<std::int64_t>(most, 4));
+        const std::int64_t max_ticks = random_.one_in(busy_ < 10 ? 8 : 3) ? 4
+                                       : random_.one_in(6)                ? program_.ticks / 6
+                                                                          : program_.ticks / busy_;
+        now_ += random_.between(0, std::max<std::int64_t>(max_ticks, 4));
         between_ = random_.one_in(2);
     }
     unsigned axes() {
@@ -80,10 +80,10 @@ class Traffic : protected Values {
     }
 
     // Low for a while, sometimes permanently.
-    void pull(int axis, Pin pin, std::int64_t most) {
+    void pull(int axis, Pin pin, std::int64_t max_ticks) {
         input(axis, pin, false);
         const std::int64_t from = now_;
-        now_ += random_.between(0, most);
+        now_ += random_.between(0, max_ticks);
         between_ = random_.one_in(2);
         if (!random_.one_in(8)) input(axis, pin, true);
         now_ = from;

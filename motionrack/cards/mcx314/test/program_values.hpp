@@ -39,8 +39,9 @@ class Values {
         if (nasty_ && random_.one_in(8)) return random_.between(0, 65'535);
         if (random_.one_in(8)) return random_.between(1, 8000);
         // Limits a ramp so that it ends within the program.
-        const std::int64_t most = s_curve_ ? program_.ticks * program_.ticks / 4'000'000 + 2 : program_.ticks / 12;
-        return std::max<std::int64_t>(1, start + random_.between(-most / 8 - 2, std::min<std::int64_t>(most, 2000)));
+        const std::int64_t max_rise = s_curve_ ? program_.ticks * program_.ticks / 4'000'000 + 2 : program_.ticks / 12;
+        return std::max<std::int64_t>(
+            1, start + random_.between(-max_rise / 8 - 2, std::min<std::int64_t>(max_rise, 2000)));
     }
     std::int64_t pulses() {
         if (nasty_ && random_.one_in(12)) return random_.between(0, 0xFFFF'FFFF);
@@ -49,9 +50,9 @@ class Values {
     }
     std::int64_t coordinate() {
         if (nasty_ && random_.one_in(20)) return random_.between(0, 0xFFFF'FFFF);
-        const std::int64_t most =
+        const std::int64_t max_coordinate =
             random_.one_in(3) ? 6 : std::max<std::int64_t>(3, program_.ticks / random_.between(20, 400));
-        return random_.between(-most, most);
+        return random_.between(-max_coordinate, max_coordinate);
     }
     std::int64_t position() {
         static constexpr std::int64_t ends[] = {0x7FFF'FFFF, -0x7FFF'FFFF - 1, 0x7FFF'FFF0, -0x7FFF'FFF0};

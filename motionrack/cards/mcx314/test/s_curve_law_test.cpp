@@ -74,8 +74,8 @@ TEST(SCurveLaw, AMotorThatStartsAtAFifthMoreThanTheStartSpeedLosesNothing) {
 /// Ramps of at least ten rates, because a curve of two rates has no shape.
 CurveData any_ramp() {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
-    const auto from = [&](std::int64_t least, std::int64_t most) {
-        return std::uniform_int_distribution<std::int64_t>(least, most)(random);
+    const auto from = [&](std::int64_t min, std::int64_t max) {
+        return std::uniform_int_distribution<std::int64_t>(min, max)(random);
     };
     for (;;) {
         const CurveData data =

@@ -7,12 +7,12 @@
 
 namespace motionrack::mcx314::twin {
 
-/// `fails(program)`: true while the fault occurs. Tries at most `most` programs.
+/// `fails(program)`: true while the fault occurs. Tries at most `max_tries` programs.
 template <class Fails>
-Program shrink(Program program, const Fails& fails, int most = 3000) {
-    for (std::size_t piece = std::max<std::size_t>(program.ops.size() / 2, 1); most > 0;) {
+Program shrink(Program program, const Fails& fails, int max_tries = 3000) {
+    for (std::size_t piece = std::max<std::size_t>(program.ops.size() / 2, 1); max_tries > 0;) {
         bool dropped = false;
-        for (std::size_t at = 0; at < program.ops.size() && most > 0; --most) {
+        for (std::size_t at = 0; at < program.ops.size() && max_tries > 0; --max_tries) {
             Program smaller = program;
             const auto from = smaller.ops.begin() + static_cast<std::ptrdiff_t>(at);
             smaller.ops.erase(from, from + static_cast<std::ptrdiff_t>(std::min(piece, program.ops.size() - at)));

@@ -22,10 +22,10 @@ class Host : public Commands<Host> {
         data(axes, 0x01, k);
         data(axes, 0x0D, ao);
     }
-    /// Runs until no axis drives, at most `most` ticks; returns the ticks needed.
-    std::int64_t until_idle(std::int64_t most) {
+    /// Runs until no axis drives, at most `max_ticks` ticks; returns the ticks needed.
+    std::int64_t until_idle(std::int64_t max_ticks) {
         const std::int64_t from = twin.now();
-        while (twin.any_driving() && twin.now() - from < most) twin.tick();
+        while (twin.any_driving() && twin.now() - from < max_ticks) twin.tick();
         return twin.now() - from;
     }
 

@@ -71,10 +71,11 @@ void Path::begin(const Segment& segment) {
     n_ = 0;
     if (is_pattern()) return;
     if (is_arc()) return begin_arc();
-    longest_ = 0;
-    for (int i = 0; i < segment_.count; ++i) longest_ = std::max<std::int64_t>(longest_, std::abs(segment_.finish[i]));
-    error_.fill(longest_);
-    finished_ = longest_ == 0;
+    max_pulses_ = 0;
+    for (int i = 0; i < segment_.count; ++i)
+        max_pulses_ = std::max<std::int64_t>(max_pulses_, std::abs(segment_.finish[i]));
+    error_.fill(max_pulses_);
+    finished_ = max_pulses_ == 0;
 }
 
 void Path::begin_arc() {
@@ -83,7 +84,7 @@ void Path::begin_arc() {
     at_ = {-centre[0], -centre[1]};
     finish_ = {segment_.finish[0] - centre[0], segment_.finish[1] * mirror - centre[1]};
     outside_ = 0;
-    longest_ = 0;
+    max_pulses_ = 0;
     octant_ = octant_of(at_[0], at_[1]);
     finish_octant_ = octant_of(finish_[0], finish_[1]);
     lap_ = octant_ == finish_octant_ && past_finish();
@@ -107,11 +108,11 @@ void Path::step(std::array<int, 3>& step) {
 void Path::step_line(std::array<int, 3>& step) {
     for (int i = 0; i < segment_.count; ++i) {
         error_[i] += 2 * std::abs(segment_.finish[i]);
-        if (error_[i] < 2 * longest_) continue;
-        error_[i] -= 2 * longest_;
+        if (error_[i] < 2 * max_pulses_) continue;
+        error_[i] -= 2 * max_pulses_;
         step[i] = segment_.finish[i] < 0 ? -1 : +1;
     }
-    finished_ = n_ == longest_;
+    finished_ = n_ == max_pulses_;
 }
 
 void Path::step_arc(std::array<int, 3>& step) {

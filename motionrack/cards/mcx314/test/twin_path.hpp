@@ -38,7 +38,7 @@ class Path {
     void step(std::array<int, 3>& step);
     bool finished() const { return finished_; }
     /// Remaining basic pulses of a line.
-    std::int64_t left() const { return longest_ - n_; }
+    std::int64_t left() const { return max_pulses_ - n_; }
     std::int64_t done() const { return n_; }
     bool is_line() const { return segment_.kind == Segment::Kind::line; }
     bool is_pattern() const { return segment_.kind == Segment::Kind::pattern; }
@@ -58,8 +58,8 @@ class Path {
     Segment segment_;
     std::int64_t n_ = 0;
     bool finished_ = true;
-    // Lines: the error of each axis, in units of 1 / (2 longest) pulse.
-    std::int64_t longest_ = 0;
+    // Lines: the error of each axis, in units of 1 / (2 max_pulses_) pulse.
+    std::int64_t max_pulses_ = 0;
     std::array<std::int64_t, 3> error_{};
     // Arcs, relative to the centre and counter-clockwise: the point, the finish, and x^2 + y^2 - r^2 at the point.
     std::array<std::int64_t, 2> at_{};

@@ -127,19 +127,20 @@ TEST(Mcx314Twin, KeepsALineWithinHalfAPulse) {
         host.speeds(x | y | z, 16'000, 8000, 8000, 1, 1, 1, 0);
         host.twin.write(10, 0x0024);
         std::array<std::int64_t, 3> finish{};
-        std::int64_t longest = 0;
+        std::int64_t max_finish = 0;
         for (unsigned a = 0; a < 3; ++a) {
             finish[a] = static_cast<std::int64_t>(random() % 601) - 300;
-            longest = std::max<std::int64_t>(longest, std::abs(finish[a]));
+            max_finish = std::max<std::int64_t>(max_finish, std::abs(finish[a]));
             host.data(1u << a, 0x06, finish[a]);
         }
         host.command(0, 0x31);
         host.until_idle(10'000);
         const auto at = places(host.twin.pulses());
-        ASSERT_EQ(static_cast<std::int64_t>(at.size()), longest + 1);
+        ASSERT_EQ(static_cast<std::int64_t>(at.size()), max_finish + 1);
         for (std::size_t n = 0; n < at.size(); ++n)
-            for (std::size_t a = 0; a < 3 && longest > 0; ++a)  // |place - n * finish / longest| <= 1/2, in integers
-                ASSERT_LE(std::abs(2 * (at[n][a] * longest - static_cast<std::int64_t>(n) * finish[a])), longest);
+            // |place - n * finish / max_finish| <= 1/2, in integers
+            for (std::size_t a = 0; a < 3 && max_finish > 0; ++a)
+                ASSERT_LE(std::abs(2 * (at[n][a] * max_finish - static_cast<std::int64_t>(n) * finish[a])), max_finish);
         for (std::size_t a = 0; a < 3; ++a) ASSERT_EQ(at.back()[a], finish[a]);
     }
 }

@@ -10,18 +10,17 @@
 namespace motionrack::mcx314 {
 namespace {
 
-double any(double least, double greatest) {
+double any(double min, double max) {
     const double part = static_cast<double>(*rc::gen::inRange<std::int64_t>(0, 1'000'001)) / 1e6;
-    return least + (greatest - least) * part;
+    return min + (max - min) * part;
 }
 
 /// A register value is at most half a unit off, unless it is at the end of its range.
-void near(const Rounded& value, double unit, std::int64_t least, std::int64_t greatest) {
-    RC_ASSERT(value.value >= least);
-    RC_ASSERT(value.value <= greatest);
+void near(const Rounded& value, double unit, std::int64_t min, std::int64_t max) {
+    RC_ASSERT(value.value >= min);
+    RC_ASSERT(value.value <= max);
     RC_ASSERT(std::fabs(value.real - static_cast<double>(value.value) * unit) <= 1e-9 * value.real);
-    if (value.value > least && value.value < greatest)
-        RC_ASSERT(std::fabs(value.real - value.asked) <= unit * 0.5000001);
+    if (value.value > min && value.value < max) RC_ASSERT(std::fabs(value.real - value.asked) <= unit * 0.5000001);
 }
 
 /// The smallest relative excess over a speed (pulses/s) of any V and R up to `widest`.
@@ -54,11 +53,11 @@ TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
         near(set->acceleration, 125 * unit, 1, 8'000);
         near(set->deceleration, 125 * unit, 1, 8'000);
         if (set->s_curve) RC_ASSERT(set->jerk.value >= 1 && set->jerk.value <= 65'535);
-        const double least = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
-                                       drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
-                                       drive.jerk * pulses / 62.5e6});
+        const double min_multiple = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
+                                              drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
+                                              drive.jerk * pulses / 62.5e6});
         // The speed is reached, with an excess of at most one step of R; where no V and R reach it so, it is as near.
-        const double excess = least_excess(drive.speed * pulses, std::floor(8e6 / least));
+        const double excess = least_excess(drive.speed * pulses, std::floor(8e6 / min_multiple));
         RC_ASSERT(set->speed.error() <= std::max(excess, 1.0 / 15'999) + 1e-9);
         RC_ASSERT(set->speed.error() >= -std::max(excess - 1.0 / 15'999, 0.0) - 1e-9);
         // Every requested value is within reach.
@@ -66,7 +65,7 @@ TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
             RC_ASSERT(value->value < 8'000 || value->error() > -1e-4);
         // A multiple finer by 1/4,000 would not suffice: V, or another value, would exceed its range, or the range is
         // at its end.
-        if (set->speed.value > 1'000) RC_ASSERT(multiple <= least * 1.0012);
+        if (set->speed.value > 1'000) RC_ASSERT(multiple <= min_multiple * 1.0012);
     }));
 }
 

@@ -33,8 +33,8 @@ constexpr ControlParam scale(std::string_view name, std::string_view unit) {
     constexpr KindInfo range = kind_info(Kind::scale);
     return {name, range.min, range.max, unit, false};
 }
-constexpr ControlParam up_to(std::string_view name, double greatest, std::string_view unit = "") {
-    return {name, 0, greatest, unit};
+constexpr ControlParam up_to(std::string_view name, double max, std::string_view unit = "") {
+    return {name, 0, max, unit};
 }
 
 int small(double value) {

@@ -191,9 +191,9 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     if (n > 1 << 28) return std::nullopt;
     const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
     const auto inside = [&](double v, std::size_t axis) {
-        const double least = std::max(min_field, static_cast<double>(state_.limits[2 * axis])) + 1;
-        const double greatest = std::min(max_field, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
-        return v > least && v < greatest;
+        const double min_bits = std::max(min_field, static_cast<double>(state_.limits[2 * axis])) + 1;
+        const double max_bits = std::min(max_field, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
+        return v > min_bits && v < max_bits;
     };
     const Point words = mcbsp_now();
     const auto value = [&](std::size_t axis, std::int64_t i) {

@@ -68,9 +68,7 @@ class JobMaker {
   private:
     std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(n)); }
     bool one_of(std::int64_t n) { return below(n) == 0; }
-    double real(double least, double greatest) {
-        return least + (greatest - least) * (static_cast<double>(random_() >> 11) * 0x1p-53);
-    }
+    double real(double min, double max) { return min + (max - min) * (static_cast<double>(random_() >> 11) * 0x1p-53); }
     double coordinate();
     double count_scale();
     double value_of(Op op, const ParamInfo& param);

@@ -127,16 +127,16 @@ TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
 }
 
 TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max(),
-                           least = std::numeric_limits<std::int64_t>::min();
+    constexpr std::int64_t max_length = std::numeric_limits<std::int64_t>::max(),
+                           min_length = std::numeric_limits<std::int64_t>::min();
     Rig rig;
     const auto begin = rig.card.state().lists.begin;
-    for (const auto& [list1, list2] : {std::pair{most, std::int64_t{1}},
-                                       {most, most},
-                                       {std::int64_t{1}, most},
-                                       {most, std::int64_t{-1}},
-                                       {least, std::int64_t{-1}},
-                                       {least, least}}) {
+    for (const auto& [list1, list2] : {std::pair{max_length, std::int64_t{1}},
+                                       {max_length, max_length},
+                                       {std::int64_t{1}, max_length},
+                                       {max_length, std::int64_t{-1}},
+                                       {min_length, std::int64_t{-1}},
+                                       {min_length, min_length}}) {
         const auto refused = rig.card.config_list(list1, list2);
         ASSERT_FALSE(refused) << list1 << ", " << list2;
         EXPECT_NE(refused.error().message.find("do not fit a memory of"), std::string::npos) << refused.error().message;

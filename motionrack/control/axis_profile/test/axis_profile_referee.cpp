@@ -36,7 +36,7 @@ class Search {
     explicit Search(const Task& task)
         : t_(task), j_(task.limits.jerk), a_(task.limits.accel), v_(task.limits.velocity) {}
 
-    double least(int steps) {
+    double min_duration(int steps) {
         double best = no_time;
         const double top = max_peak();
         best = std::min(best, cruising(top));
@@ -122,17 +122,17 @@ class Search {
 
     /// Returns the peak with which the maximum velocity is just reached.
     double max_peak() const {
-        const auto fastest = [&](double peak) {
+        const auto peak_velocity = [&](double peak) {
             const State s = up_to(peak);
             return s.v + (s.a > 0 ? 0.5 * s.a * s.a / j_ : 0);
         };
-        double least = t_.from.accel, most = std::max(least, 0.0) + a_;
-        while (fastest(most) < v_) most *= 2;
+        double min = t_.from.accel, max = std::max(min, 0.0) + a_;
+        while (peak_velocity(max) < v_) max *= 2;
         for (int i = 0; i < 70; ++i) {
-            const double middle = 0.5 * (least + most);
-            (fastest(middle) < v_ ? least : most) = middle;
+            const double middle = 0.5 * (min + max);
+            (peak_velocity(middle) < v_ ? min : max) = middle;
         }
-        return least;
+        return min;
     }
 
     double cruising(double peak) const {
@@ -193,23 +193,23 @@ double slowly_found_entry(const KinematicState& from, const KinematicLimits& lim
     for (int round = 0; round < 3; ++round) {
         constexpr int steps = 1000;
         const double step = (to_depth - from_depth) / steps;
-        double deepest = from_depth;
+        double best_depth = from_depth;
         for (int i = 0; i <= steps; ++i) {
             const double depth = i == steps ? to_depth : from_depth + step * i;
             const double seconds = braked(s, depth, top, limits);
             if (seconds < best) {
                 best = seconds;
-                deepest = depth;
+                best_depth = depth;
             }
         }
-        from_depth = std::min(from_depth, deepest - step);
-        to_depth = std::max(to_depth, deepest + step);
+        from_depth = std::min(from_depth, best_depth - step);
+        to_depth = std::max(to_depth, best_depth + step);
     }
     return best;
 }
 
 double slowly_found_duration(const Task& task, int steps) {
-    return std::min(Search(task).least(steps), Search(mirrored(task)).least(steps));
+    return std::min(Search(task).min_duration(steps), Search(mirrored(task)).min_duration(steps));
 }
 
 }  // namespace motionrack::control::travel_test

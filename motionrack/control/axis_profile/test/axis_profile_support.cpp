@@ -16,8 +16,8 @@ std::string text_of(const Task& t) {
 }
 
 /// Powers of two times 1 .. 2, so that no logarithm is needed.
-double Tasks::of_magnitude(double least, double most) {
-    const int low = std::ilogb(least), high = std::ilogb(most);
+double Tasks::of_magnitude(double min, double max) {
+    const int low = std::ilogb(min), high = std::ilogb(max);
     const int power = low + static_cast<int>(random_() % static_cast<unsigned>(std::max(1, high - low)));
     const double side = one_in(2) ? 1 : -1;
     return std::ldexp(side * between(1, 2), power);
@@ -36,8 +36,8 @@ void Tasks::allow(Task& task) {
 Task Tasks::usual() {
     Task t;
     t.limits = {between(0.2, 3), between(0.2, 3), between(0.2, 3)};
-    const auto some = [&](double most) {
-        return one_in(8) ? 0 : one_in(12) ? (one_in(2) ? most : -most) : between(-most, most);
+    const auto some = [&](double max) {
+        return one_in(8) ? 0 : one_in(12) ? (one_in(2) ? max : -max) : between(-max, max);
     };
     const double quick = t.limits.velocity, a_start = std::min(t.limits.accel, std::sqrt(2 * quick * t.limits.jerk));
     t.from = {0, some(quick), some(a_start)};

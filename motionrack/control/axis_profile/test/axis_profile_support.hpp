@@ -25,9 +25,9 @@ class Tasks {
 
     /// Returns 0 .. 1.
     double part() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-    double between(double least, double most) { return least + (most - least) * part(); }
+    double between(double min, double max) { return min + (max - min) * part(); }
     /// Returns a number of either sign, evenly distributed over the orders of magnitude.
-    double of_magnitude(double least, double most);
+    double of_magnitude(double min, double max);
     bool one_in(int n) { return random_() % static_cast<unsigned>(n) == 0; }
 
     /// Returns a typical task: limits near 1, everything random, some values at zero or at a limit.

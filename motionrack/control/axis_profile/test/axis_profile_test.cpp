@@ -252,10 +252,11 @@ TEST(ChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
         std::optional<double> seconds;
         if (i % 4 == 3) seconds = tasks.motion(t);
-        const double quickest = velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits).value().duration();
+        const double min_duration =
+            velocity_change_profile(t.from, t.to.velocity, t.to.accel, t.limits).value().duration();
         if (i % 4 != 3) seconds = seconds_of(t);
         if (seconds) {
-            ASSERT_LE(quickest, *seconds + 1e-7 * std::max(1.0, *seconds)) << text_of(t);
+            ASSERT_LE(min_duration, *seconds + 1e-7 * std::max(1.0, *seconds)) << text_of(t);
         }
     }
 }

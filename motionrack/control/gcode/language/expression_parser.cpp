@@ -33,7 +33,7 @@ enum class ExpressionParser::Operator : unsigned char {
 namespace {
 
 /// Maximum nesting of brackets.
-constexpr int deepest = 100;
+constexpr int max_nesting = 100;
 /// Numbers with a smaller difference are equal for EQ and NE, and integers for a parameter number.
 constexpr double same = 0.0001;
 
@@ -146,7 +146,7 @@ bool ExpressionParser::value(const char*& at, double& value) {
     if (at == end_) return fail(at, "a value is missing here: a number, #1, #<name> or [ ]");
     const char* begin = at;
     const char* bracket_at = at;
-    if (++depth_ > deepest) return fail(at, fmt::format("more than {} nested brackets, signs or '#'", deepest));
+    if (++depth_ > max_nesting) return fail(at, fmt::format("more than {} nested brackets, signs or '#'", max_nesting));
     bool good = false;
     if (*at == '[') {
         good = bracket(at, value);

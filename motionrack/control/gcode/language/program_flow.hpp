@@ -110,7 +110,8 @@ class ProgramFlow {
     bool look_for(const std::string& label, bool numbered, Target& target);
     bool load(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
     bool evaluate(const OWordLocation& place, Interpreter& interpreter, double& value);
-    bool arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
+    bool arguments(const OWordLocation& place, std::size_t max_values, Interpreter& interpreter,
+                   std::vector<double>& values);
     bool label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label);
     void jump(const OWordLocation& place);
     void forget_repeats(std::int32_t first, std::int32_t last);

@@ -39,7 +39,7 @@ std::string too_deep(const std::string& asks) {
 }  // namespace
 
 /// Evaluates the values in brackets up to the end of the line.
-bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interpreter& interpreter,
+bool ProgramFlow::arguments(const OWordLocation& place, std::size_t max_values, Interpreter& interpreter,
                             std::vector<double>& values) {
     const MachineParameters known(interpreter);
     ExpressionParser reader(place.text, known);
@@ -53,10 +53,10 @@ bool ProgramFlow::arguments(const OWordLocation& place, std::size_t most, Interp
             return fail(place, column,
                         fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(place.word)));
         }
-        if (values.size() == most) {
+        if (values.size() == max_values) {
             return fail(place, column,
-                        most == 1 ? fmt::format("{} takes one value", name_of(place.word))
-                                  : fmt::format("a call has at most {} arguments", most));
+                        max_values == 1 ? fmt::format("{} takes one value", name_of(place.word))
+                                        : fmt::format("a call has at most {} arguments", max_values));
         }
         double value = 0;
         if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());

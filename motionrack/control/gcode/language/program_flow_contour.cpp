@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t max_pieces = 10'000;
 /// Shorter moves are skipped, mm.
-constexpr double shortest = 1e-6;
+constexpr double min_move_mm = 1e-6;
 
 PlanePoint plane_of(const Point& at) {
     return {at[2], at[0]};
@@ -115,7 +115,7 @@ bool ProgramFlow::add_contour(Interpreter& reader, const OWordLocation& here, st
         if (!begun && piece.corner > 0)
             return fail(here, 0,
                         "A and C make corners of a contour; its first move leads to its start, which has none");
-        if (begun && (arc || length(piece.to - piece.from) > shortest)) contour.push_back(piece);
+        if (begun && (arc || length(piece.to - piece.from) > min_move_mm)) contour.push_back(piece);
         begun = true;
     }
     return true;

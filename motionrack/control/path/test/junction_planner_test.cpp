@@ -61,10 +61,10 @@ unsigned chosen(const ChoiceRow& row) {
 TEST(JunctionPlanner, ChoosesTheQuickestOfAllSequences) {
     for (unsigned seed = 1; seed <= 300; ++seed) {
         const ChoiceRow row = random_row(seed, 1 + seed % 9);
-        double least = std::numeric_limits<double>::infinity();
+        double min_seconds = std::numeric_limits<double>::infinity();
         for (unsigned stops = 0; stops < 1u << row.legs.size(); ++stops)
-            least = std::min(least, seconds_of_row(row, stops));
-        ASSERT_NEAR(seconds_of_row(row, chosen(row)) / least, 1, 1e-12) << seed;
+            min_seconds = std::min(min_seconds, seconds_of_row(row, stops));
+        ASSERT_NEAR(seconds_of_row(row, chosen(row)) / min_seconds, 1, 1e-12) << seed;
     }
 }
 

@@ -14,16 +14,16 @@ namespace {
 
 using namespace curve_test;
 
-double greatest(const Point& a) {
-    double most = 0;
-    for (const double x : a) most = std::max(most, std::fabs(x));
-    return most;
+double max_component(const Point& a) {
+    double max = 0;
+    for (const double x : a) max = std::max(max, std::fabs(x));
+    return max;
 }
 
 double difference(const Point& a, const Point& b) {
-    double most = 0;
-    for (int i = 0; i < axis_count; ++i) most = std::max(most, std::fabs(a[i] - b[i]));
-    return most;
+    double max = 0;
+    for (int i = 0; i < axis_count; ++i) max = std::max(max, std::fabs(a[i] - b[i]));
+    return max;
 }
 
 struct Case {
@@ -63,11 +63,11 @@ TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
             if (!item.rest && last) {
                 const CubicSegment& piece = item.piece;
                 const double x = last->length;
-                const double bends =
-                    greatest(bend_on(piece, piece.length)) + greatest(piece.curvature) + greatest(last->curvature);
+                const double bends = max_component(bend_on(piece, piece.length)) + max_component(piece.curvature) +
+                                     max_component(last->curvature);
                 ASSERT_DOUBLE_EQ(last->begin + x, piece.begin) << "line " << piece.line;
                 ASSERT_LE(difference(position_on(*last, x), piece.start), 1e-9) << "line " << piece.line;
-                ASSERT_LE(difference(tangent_on(*last, x), piece.tangent), 1e-9 * (1 + greatest(piece.tangent)))
+                ASSERT_LE(difference(tangent_on(*last, x), piece.tangent), 1e-9 * (1 + max_component(piece.tangent)))
                     << "line " << piece.line << " u " << piece.begin << " length " << x << " after " << last->line;
                 ASSERT_LE(difference(bend_on(*last, x), piece.curvature), 1e-9 * (1 + bends))
                     << "line " << piece.line << " u " << piece.begin << " lengths " << x << " " << piece.length;
@@ -167,7 +167,7 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
             const bool rotary = paths[i].shape == PathShape::rotary;
             for (int k = 0; k <= 8; ++k) {
                 const Point tangent = tangent_on(piece, piece.length * k / 8);
-                const double velocity = rotary ? greatest(tangent) : xyz_size(tangent);
+                const double velocity = rotary ? max_component(tangent) : xyz_size(tangent);
                 ASSERT_LE(piece.feed * velocity, feed * (1 + 1e-8 + spiral))
                     << "line " << piece.line << " u " << piece.begin << " + " << piece.length;
                 ASSERT_GT(piece.feed, 0);
@@ -207,15 +207,15 @@ TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
 /// Returns the smallest share of the tolerances, XYZ and ABC together, within which a point lies on a line.
 double part_of_tolerances(const Geometry& line, const Point& at, double tolerance, double rotary) {
     const auto part = [&](double s) {
-        double square = 0, most = 0;
+        double square = 0, max_rotary = 0;
         for (int i = 0; i < axis_count; ++i) {
             const double off = at[i] - (line.start[i] + s * (line.end[i] - line.start[i]));
             if (i < 3)
                 square += off * off;
             else
-                most = std::max(most, std::fabs(off) / rotary);
+                max_rotary = std::max(max_rotary, std::fabs(off) / rotary);
         }
-        return std::max(most, std::sqrt(square) / tolerance);
+        return std::max(max_rotary, std::sqrt(square) / tolerance);
     };
     double low = 0, high = 1;
     for (int i = 0; i < 60; ++i) {

@@ -41,15 +41,16 @@ CurvePeaks peaks_of(const std::vector<CubicSegment>& pieces) {
 
 /// Returns the largest distance from a set of paths.
 double max_distance(const std::vector<CubicSegment>& pieces, const std::vector<Geometry>& paths) {
-    double most = 0;
+    double max = 0;
     for (const CubicSegment& piece : pieces)
         for (int k = 0; k <= 8; ++k) {
             const Point at = position_on(piece, piece.length * k / 8);
-            double least = std::numeric_limits<double>::infinity();
-            for (const Geometry& path : paths) least = std::min(least, distance_to(path, at[0], at[1], at[2]));
-            most = std::max(most, least);
+            double min_distance = std::numeric_limits<double>::infinity();
+            for (const Geometry& path : paths)
+                min_distance = std::min(min_distance, distance_to(path, at[0], at[1], at[2]));
+            max = std::max(max, min_distance);
         }
-    return most;
+    return max;
 }
 
 TEST(Curve, OfALineIsOnePieceAndARest) {

@@ -19,16 +19,16 @@ class RandomSpans {
   public:
     explicit RandomSpans(unsigned seed) : random_(seed) {}
     /// Deceleration has the same limit as acceleration, or another one.
-    std::vector<LimitInterval> next(int most, bool brakes_alike = true) {
-        std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(most));
+    std::vector<LimitInterval> next(int max_count, bool brakes_alike = true) {
+        std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(max_count));
         for (LimitInterval& interval : out)
             interval = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
         if (!brakes_alike)
             for (LimitInterval& interval : out) interval.brake = between(10, 1e4);
         return out;
     }
-    double between(double least, double most) {
-        return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_));
+    double between(double min, double max) {
+        return min * std::exp(std::log(max / min) * std::uniform_real_distribution<>(0, 1)(random_));
     }
 
   private:
@@ -118,10 +118,10 @@ TEST(VelocityPlanner, IsNearlyAsQuickForIntervalsThatAreNearlyAlike) {
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
         const std::vector<LimitInterval> intervals = {{0.5 * length, 100, 1000, 20'000},
                                                       {0.5 * length, 100.000001, 1000, 20'000}};
-        const double quickest = SCurveProfile(length, 100, 1000, 20'000).duration();
+        const double min_duration = SCurveProfile(length, 100, 1000, 20'000).duration();
         const double seconds = seconds_of_feed(planner.plan(intervals));
-        EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
-        EXPECT_LE(seconds, quickest * 1.01) << length;
+        EXPECT_GE(seconds, min_duration * (1 - 1e-6)) << length;
+        EXPECT_LE(seconds, min_duration * 1.01) << length;
     }
 }
 
@@ -174,28 +174,28 @@ TEST(VelocityPlanner, PassesASlowIntervalAtItsVelocity) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {
         {50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
-    double slowest = 100, fastest = 0;
+    double min_velocity = 100, peak_velocity = 0;
     for (const ProfileSegment& piece : planner.plan(intervals)) {
         const PathMotion state = piece.at(0);
-        if (state.u > 50.2 && state.u < 51.8) slowest = std::min(slowest, state.velocity);
-        fastest = std::max(fastest, state.velocity);
+        if (state.u > 50.2 && state.u < 51.8) min_velocity = std::min(min_velocity, state.velocity);
+        peak_velocity = std::max(peak_velocity, state.velocity);
     }
-    EXPECT_NEAR(slowest, 20, 1e-6);
-    EXPECT_NEAR(fastest, 100, 1e-6);
+    EXPECT_NEAR(min_velocity, 20, 1e-6);
+    EXPECT_NEAR(peak_velocity, 100, 1e-6);
 }
 
 /// A slalom: the velocity limit from its curvature rises and falls, and the profile follows it.
 TEST(VelocityPlanner, FollowsLimitsThatChangeSlowly) {
     VelocityPlanner planner;
     std::vector<LimitInterval> intervals;
-    double quickest = 0;
+    double min_seconds = 0;
     for (int i = 0; i < 20'000; ++i) {
         const double velocity = 100 + 50 * std::sin(i * 0.002);
         intervals.push_back({0.1, velocity, 2000, 100'000});
-        quickest += 0.1 / velocity;
+        min_seconds += 0.1 / velocity;
     }
     const double ends = 2 * (SCurveProfile(1000, 100, 2000, 100'000).duration() - 10);
-    EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * quickest + ends);
+    EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * min_seconds + ends);
 }
 
 TEST(VelocityPlanner, DoesNotDependOnWhatWasPlannedBefore) {

@@ -92,13 +92,14 @@ class Driven {
         const TrajectoryPoint state = generator.at(seconds);
         const double gap = now + seconds - at_;
         for (std::size_t i = 0; i < limits.size(); ++i) {
-            const AxisLimits& most = limits[i];
-            velocity = std::max(velocity, std::fabs(state.velocity[i]) / most.max_velocity);
-            accel = std::max(accel, std::fabs(state.accel[i]) / most.max_accel);
-            jerk = std::max(jerk, std::fabs(state.jerk[i]) / most.max_jerk);
-            jump = std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * most.max_velocity * gap + 1e-5),
-                             std::fabs(state.velocity[i] - last.velocity[i]) / (slack * most.max_accel * gap + 1e-4),
-                             std::fabs(state.accel[i] - last.accel[i]) / (slack * most.max_jerk * gap + 1e-2)});
+            const AxisLimits& limit = limits[i];
+            velocity = std::max(velocity, std::fabs(state.velocity[i]) / limit.max_velocity);
+            accel = std::max(accel, std::fabs(state.accel[i]) / limit.max_accel);
+            jerk = std::max(jerk, std::fabs(state.jerk[i]) / limit.max_jerk);
+            jump =
+                std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * limit.max_velocity * gap + 1e-5),
+                          std::fabs(state.velocity[i] - last.velocity[i]) / (slack * limit.max_accel * gap + 1e-4),
+                          std::fabs(state.accel[i] - last.accel[i]) / (slack * limit.max_jerk * gap + 1e-2)});
         }
         last = state;
         at_ = now + seconds;

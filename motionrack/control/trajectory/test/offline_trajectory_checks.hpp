@@ -62,11 +62,11 @@ class RideChecks {
     void fail(const char* name, double by, const std::string& text) {
         if (fault_.name.empty()) fault_ = {name, fmt::format("{} ({:.9g} of what is allowed): {}", name, by, text)};
     }
-    void hold(const char* name, double value, double most, const KeptStretch& kept, double time,
+    void hold(const char* name, double value, double max, const KeptStretch& kept, double time,
               const TrajectoryPoint& state) {
-        if (!(value <= most))
-            fail(name, value / most,
-                 fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time,
+        if (!(value <= max))
+            fail(name, value / max,
+                 fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, max, time,
                              kept.section.seconds, state.u, state.line));
     }
 
@@ -100,10 +100,10 @@ class RideChecks {
         else
             last_ = view.at(until);
         if (ends) check_rest(kept);
-        const double least = min_duration_s(kept.curve, limits_);
-        if (!(section.seconds >= least * (1 - bound_rounding)))
-            fail("bound", least / section.seconds,
-                 fmt::format("{:.9g} s, the bound {:.9g} s, line {}", section.seconds, least, section.line));
+        const double min_duration = min_duration_s(kept.curve, limits_);
+        if (!(section.seconds >= min_duration * (1 - bound_rounding)))
+            fail("bound", min_duration / section.seconds,
+                 fmt::format("{:.9g} s, the bound {:.9g} s, line {}", section.seconds, min_duration, section.line));
     }
 
     void look(const KeptStretch& kept, SectionSampler& view, double time, double hair) {
@@ -141,15 +141,15 @@ class RideChecks {
 
     void check_feed(const KeptStretch& kept, const TrajectoryPoint& state, double time) {
         const std::size_t i = static_cast<std::size_t>(state.line - 1);
-        double most = programmed(i);
+        double max_feed = programmed(i);
         if (time < kept.section.overlap)
-            most = std::max(most, programmed(static_cast<std::size_t>(kept.section.before.curve.line - 1)));
+            max_feed = std::max(max_feed, programmed(static_cast<std::size_t>(kept.section.before.curve.line - 1)));
         const Point& v = state.velocity;
         const double xyz = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         if (paths_[i].shape == PathShape::nothing) return;
         hold("feed",
              paths_[i].shape == PathShape::rotary ? std::max({std::fabs(v[3]), std::fabs(v[4]), std::fabs(v[5])}) : xyz,
-             most * slack, kept, time, state);
+             max_feed * slack, kept, time, state);
     }
 
     double off_path(const TrajectoryPoint& state, std::size_t i) const {
@@ -167,12 +167,13 @@ class RideChecks {
     void check_path(const KeptStretch& kept, const TrajectoryPoint& state, double time) {
         const auto line = static_cast<std::ptrdiff_t>(state.line - 1),
                    count = static_cast<std::ptrdiff_t>(paths_.size());
-        double least = std::numeric_limits<double>::infinity();
-        for (std::ptrdiff_t away = 0; away < count && !(least <= 1e-8); ++away) {
-            if (line - away >= 0) least = std::min(least, off_path(state, static_cast<std::size_t>(line - away)));
-            if (line + away < count) least = std::min(least, off_path(state, static_cast<std::size_t>(line + away)));
+        double min_off = std::numeric_limits<double>::infinity();
+        for (std::ptrdiff_t away = 0; away < count && !(min_off <= 1e-8); ++away) {
+            if (line - away >= 0) min_off = std::min(min_off, off_path(state, static_cast<std::size_t>(line - away)));
+            if (line + away < count)
+                min_off = std::min(min_off, off_path(state, static_cast<std::size_t>(line + away)));
         }
-        hold("tolerance", least, 1e-8, kept, time, state);
+        hold("tolerance", min_off, 1e-8, kept, time, state);
     }
 
     void check_rest(const KeptStretch& kept) {

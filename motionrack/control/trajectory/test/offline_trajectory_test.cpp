@@ -126,11 +126,11 @@ TEST(OfflineTrajectory, OfAZigzagIsHardlySlowerThanWithExactStops) {
 
 TEST(OfflineTrajectory, TakesACircleAtTheVelocityOfItsCurvature) {
     const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
-    double fastest = 0;
+    double peak_velocity = 0;
     for (const TrajectoryPoint& state : ridden.states)
-        fastest =
-            std::max(fastest, std::sqrt(state.velocity[0] * state.velocity[0] + state.velocity[1] * state.velocity[1]));
-    EXPECT_GT(fastest, 0.97 * std::sqrt(0.8 * 2000 * 5));
+        peak_velocity = std::max(
+            peak_velocity, std::sqrt(state.velocity[0] * state.velocity[0] + state.velocity[1] * state.velocity[1]));
+    EXPECT_GT(peak_velocity, 0.97 * std::sqrt(0.8 * 2000 * 5));
     EXPECT_EQ(ridden.rests, 1);
 }
 
@@ -143,7 +143,7 @@ TEST(OfflineTrajectory, DoesNotStopAtTangentJunctions) {
 /// Chords on a smooth curve take at most the time of its curvature and feed rate, plus one double-S profile.
 TEST(OfflineTrajectory, RunsThroughManyChordsAsThroughTheCurve) {
     std::vector<Move> moves;
-    double quickest = 0;
+    double min_seconds = 0;
     Point at{};
     for (int i = 1; i <= 4000; ++i) {
         const double x = 0.05 * i;
@@ -151,12 +151,12 @@ TEST(OfflineTrajectory, RunsThroughManyChordsAsThroughTheCurve) {
         Move move = line_to({x, 20 * wave.sin});
         const double slope = 20.0 / 15 * wave.cos,
                      curvature = 20.0 / 225 * std::fabs(wave.sin) / std::pow(1 + slope * slope, 1.5);
-        quickest += std::hypot(move.end[0] - at[0], move.end[1] - at[1]) /
-                    std::min(100.0, std::sqrt(2000 / std::max(curvature, 1e-9)));
+        min_seconds += std::hypot(move.end[0] - at[0], move.end[1] - at[1]) /
+                       std::min(100.0, std::sqrt(2000 / std::max(curvature, 1e-9)));
         at = move.end;
         moves.push_back(move);
     }
-    EXPECT_LE(ride(moves).seconds, 1.12 * quickest + 0.1);
+    EXPECT_LE(ride(moves).seconds, 1.12 * min_seconds + 0.1);
 }
 
 TEST(OfflineTrajectory, RestsForDwells) {

@@ -43,15 +43,15 @@ class Oracle {
 
     /// Returns the duration from standstill to standstill.
     double seconds() const {
-        std::vector<double> most = caps_;
+        std::vector<double> max_squares = caps_;
         for (std::size_t i = steps_.size(); i-- > 0;)
-            most[i] = greatest(caps_[i], [&](double square) {
-                return compute_reachable_velocities(steps_[i], square, most[i + 1]).some();
+            max_squares[i] = find_max(caps_[i], [&](double square) {
+                return compute_reachable_velocities(steps_[i], square, max_squares[i + 1]).some();
             });
         double seconds = 0, square = 0;
         for (std::size_t i = 0; i < steps_.size(); ++i) {
-            const double next =
-                std::clamp(compute_reachable_velocities(steps_[i], square, most[i + 1]).high, 0.0, most[i + 1]);
+            const double next = std::clamp(compute_reachable_velocities(steps_[i], square, max_squares[i + 1]).high,
+                                           0.0, max_squares[i + 1]);
             seconds += 2 * steps_[i].length / (std::sqrt(square) + std::sqrt(next));
             square = next;
         }
@@ -72,8 +72,8 @@ class Oracle {
     }
 
     /// Returns the squares at the end of a step that are reachable from one at its start.
-    Reach compute_reachable_velocities(const OracleStep& step, double square, double most) const {
-        Reach out{0, most};
+    Reach compute_reachable_velocities(const OracleStep& step, double square, double max_square) const {
+        Reach out{0, max_square};
         const double per_accel = 2 * step.length;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             // start: |tangent a + curvature w0| <= accel, where a = (w1 - w0) / (2 length)
@@ -86,19 +86,19 @@ class Oracle {
         return out;
     }
 
-    /// Restricts w to |by w + with| <= most.
-    static void within(Reach& w, double by, double with, double most) {
+    /// Restricts w to |by w + with| <= max.
+    static void within(Reach& w, double by, double with, double max) {
         if (by == 0) {
-            if (std::fabs(with) > most) w.high = -1;
+            if (std::fabs(with) > max) w.high = -1;
             return;
         }
-        const double a = (-most - with) / by, b = (most - with) / by;
+        const double a = (-max - with) / by, b = (max - with) / by;
         w.low = std::max(w.low, std::min(a, b));
         w.high = std::min(w.high, std::max(a, b));
     }
 
     template <class Can>
-    static double greatest(double cap, Can can) {
+    static double find_max(double cap, Can can) {
         if (can(cap)) return cap;
         double low = 0, high = cap;
         while (high - low > 1e-12 * high && high > 1e-290) {

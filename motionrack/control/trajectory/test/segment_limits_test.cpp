@@ -13,7 +13,7 @@ namespace {
 
 class RandomPieces {
   public:
-    double between(double least, double most) { return std::uniform_real_distribution<>(least, most)(random_); }
+    double between(double min, double max) { return std::uniform_real_distribution<>(min, max)(random_); }
     /// Returns a segment as from a corner blend: about as long as u, with a curvature that may change its sign, or
     /// straight.
     CubicSegment next() {

@@ -19,7 +19,7 @@ double times_stopping(const std::vector<Move>& moves) {
 
 TEST(OfflineTrajectoryBesideExactStops, IsSeldomSlower) {
     int slower = 0, tried = 0;
-    double most = 0;
+    double max_times = 0;
     for (std::uint64_t seed = 1; seed < 1000; ++seed) {
         const std::vector<Move> moves = curve_test::ProgramMaker(seed).program(2);
         if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; }))
@@ -27,12 +27,12 @@ TEST(OfflineTrajectoryBesideExactStops, IsSeldomSlower) {
         const double times = times_stopping(moves);
         ++tried;
         slower += times > 1.02;
-        most = std::max(most, times);
+        max_times = std::max(max_times, times);
     }
     RecordProperty("slower", slower);
-    RecordProperty("most", std::to_string(most));
+    RecordProperty("most", std::to_string(max_times));
     EXPECT_LE(slower, 0.005 * tried) << "of " << tried;
-    EXPECT_LE(most, 1.04);
+    EXPECT_LE(max_times, 1.04);
 }
 
 /// Short, long, short, with corners of 40 degrees.

@@ -34,7 +34,7 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDecelerate
             while (driven.now < when && driven.step(0.001, true)) {
             }
             driven.generator.hold();
-            double greatest = 0, lowest = 1e9, rise = 0;  // the last two since it decelerates
+            double peak_velocity = 0, min_velocity = 1e9, rise = 0;  // the last two since it decelerates
             while (driven.generator.next(true) == NextMotion::motion) {
                 const TrajectoryPoint before = driven.last;
                 const double at = driven.now;
@@ -42,13 +42,13 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDecelerate
                 const double way = driven.last.u - before.u;
                 if (driven.now - at < 0.0005) continue;  // too short to measure a velocity
                 if (at - when < 0.02 || way < 0) {       // no effect yet, or on the next leg
-                    greatest = 0, lowest = 1e9;
+                    peak_velocity = 0, min_velocity = 1e9;
                     continue;
                 }
                 const double velocity = way / (driven.now - at);
-                greatest = std::max(greatest, velocity);
-                if (velocity < 0.98 * greatest) lowest = std::min(lowest, velocity);
-                rise = std::max(rise, velocity - 1.05 * lowest);
+                peak_velocity = std::max(peak_velocity, velocity);
+                if (velocity < 0.98 * peak_velocity) min_velocity = std::min(min_velocity, velocity);
+                rise = std::max(rise, velocity - 1.05 * min_velocity);
             }
             EXPECT_LT(rise, 0.1);
             EXPECT_LT(driven.now - when, 1);

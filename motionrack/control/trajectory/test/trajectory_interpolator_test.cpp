@@ -104,17 +104,17 @@ TEST(TrajectoryInterpolator, PassesNoCornerByMoreThanItsToleranceAndAPulse) {
 
 TEST(TrajectoryInterpolator, StepsAtJunctionsByLessThanTheMaxVelocityStep) {
     const std::vector<PlannedMove> moves = moves_of(curvy());
-    double greatest = 0;
+    double peak_step = 0;
     for (std::size_t i = 1; i < moves.size(); ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto velocity = [&](const PlannedMove& move, double along) {
                 return along * (move.move.end[axis] - move.start[axis]) / move.length;
             };
-            greatest = std::max(greatest, std::fabs(velocity(moves[i], moves[i].entry_velocity) -
-                                                    velocity(moves[i - 1], moves[i - 1].exit_velocity)));
+            peak_step = std::max(peak_step, std::fabs(velocity(moves[i], moves[i].entry_velocity) -
+                                                      velocity(moves[i - 1], moves[i - 1].exit_velocity)));
         }
-    EXPECT_LT(greatest, machine()[0].max_velocity_step);
-    EXPECT_GT(greatest, 0.1);
+    EXPECT_LT(peak_step, machine()[0].max_velocity_step);
+    EXPECT_GT(peak_step, 0.1);
 }
 
 /// A card observes the acceleration of each axis on a line: with too little deceleration it enters the corner too fast.
@@ -125,7 +125,7 @@ TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterAC
     for (double height = 1.5; height < 20; height *= 1.2) {
         const std::vector<Move> back = {line_to({50}, 0.2), line_to({0, 0, height}, 0.2),
                                         line_to({50, 0, height}, 0.2)};
-        double velocity = 0, greatest = 0;
+        double velocity = 0, peak_step = 0;
         for (const PlannedMove& move : moves_of(back, {}, limits)) {
             double accel = 1e9;
             for (std::size_t axis = 0; axis < 3; ++axis)
@@ -133,9 +133,9 @@ TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterAC
                                             std::max(1e-9, std::fabs(move.move.end[axis] - move.start[axis])));
             velocity =
                 std::max(move.exit_velocity, std::sqrt(std::max(0.0, velocity * velocity - 2 * accel * move.length)));
-            greatest = std::max(greatest, velocity - move.exit_velocity);
+            peak_step = std::max(peak_step, velocity - move.exit_velocity);
         }
-        EXPECT_LT(greatest, limits[0].max_velocity_step) << "height " << height;
+        EXPECT_LT(peak_step, limits[0].max_velocity_step) << "height " << height;
     }
 }
 

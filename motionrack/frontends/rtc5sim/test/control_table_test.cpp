@@ -73,12 +73,12 @@ TEST(Rtc5ControlTable, HasTheNamesAndParametersOfTheHeader) {
 TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
-        const std::vector<double> least = min_of(command);
-        for (std::size_t i = 0; i < least.size(); ++i) {
+        const std::vector<double> min_values = min_of(command);
+        for (std::size_t i = 0; i < min_values.size(); ++i) {
             const ControlParam& param = command.params()[i];
             SCOPED_TRACE(param.name);
             for (const double end : {param.min, param.max}) {
-                std::vector<double> given = least;
+                std::vector<double> given = min_values;
                 given[i] = end;
                 if (command.name == "set_mcbsp_out") given = {7, end == 0 ? 0.0 : 45.0};
                 EXPECT_TRUE(command.check(given));
@@ -88,18 +88,18 @@ TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
             }
             for (const double beyond :
                  {param.min - 1, param.max + 1, std::nan(""), std::numeric_limits<double>::infinity()}) {
-                std::vector<double> given = least;
+                std::vector<double> given = min_values;
                 given[i] = beyond;
                 const auto checked = command.check(given);
                 ASSERT_FALSE(checked) << beyond;
                 EXPECT_THAT(checked.error().message,
                             testing::StartsWith(std::string(command.name) + ": " + std::string(param.name) + " is "));
             }
-            std::vector<double> fraction = least;
+            std::vector<double> fraction = min_values;
             fraction[i] += 0.5;
             EXPECT_EQ(command.check(fraction).has_value(), !param.whole);
         }
-        std::vector<double> more = least;
+        std::vector<double> more = min_values;
         more.push_back(0);
         EXPECT_FALSE(command.check(more));
     }

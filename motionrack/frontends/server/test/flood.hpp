@@ -75,15 +75,15 @@ class Flood {
 template <class Stop>
 void expect_stops_heard(const Flood& flood, const std::string& name, const Stop& stop) {
     while (flood.count() < 500) std::this_thread::yield();
-    auto longest = std::chrono::milliseconds(0);
+    auto max_time = std::chrono::milliseconds(0);
     for (int i = 0; i < 30; ++i) {
         const auto begun = std::chrono::steady_clock::now();
         EXPECT_EQ(stop(), 200) << name << ", STOP " << i;
-        longest = std::max(
-            longest, std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begun));
+        max_time = std::max(
+            max_time, std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begun));
     }
     std::printf("%s: the slowest of 30 STOPs took %d ms, beside %lld connections\n", name.c_str(),
-                static_cast<int>(longest.count()), static_cast<long long>(flood.count()));
+                static_cast<int>(max_time.count()), static_cast<long long>(flood.count()));
 }
 
 }  // namespace motionrack::server
