@@ -213,12 +213,12 @@ TEST_F(RecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
     ASSERT_TRUE(WIFSIGNALED(status));
     record(request, "whole.h5");
     EXPECT_FALSE(std::filesystem::exists(at("cut.h5"))) << "it has its name when it is whole";
-    const auto diff = trace::diff_files(at("cut.h5.new"), at("whole.h5"));
+    const auto diff = trace::diff_files(at("cut.h5.incomplete"), at("whole.h5"));
     ASSERT_TRUE(diff) << diff.error().text();
     EXPECT_TRUE(diff->same()) << trace::diff_text(*diff, "cut", "whole");
     EXPECT_GE(*diff->until, whole_seconds(4)) << "a flush every second of a short job";
     EXPECT_GT(diff->compared, 100'000u);
-    const auto cut = trace::RecordingReader::open(at("cut.h5.new"));
+    const auto cut = trace::RecordingReader::open(at("cut.h5.incomplete"));
     EXPECT_FALSE(cut->whole());
     const auto data = cut->report();
     ASSERT_TRUE(data) << data.error().text();
@@ -287,7 +287,7 @@ TEST_F(Recordings, AreComparedAndRunAgainWithTheirExitCodes) {
 TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
     write("a.ngc", "G1 X1 F600\n");
     write("r.toml", *rack::rack_template("router"));
-    write("a.ngc.new", "G1 X2 F600\n");
+    write("a.ngc.incomplete", "G1 X2 F600\n");
     write("call.ngc", "o<side> call\nM2\n");
     write("side.ngc", "o<side> sub\nG1 X1 F600\no<side> endsub\n");
     write("page.html", "mine");
@@ -299,7 +299,7 @@ TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
           "run call.ngc --csv ./side.ngc", "plan call.ngc --picture side.ngc", "plan a.ngc --picture a.ngc",
           "plan a.ngc --rack r.toml --picture r.toml", "home --rack r.toml --picture r.toml",
           "run a.ngc --report link.html", "run a.ngc --record link.html", "new router link.html --force",
-          "replay a.h5 --record a.h5", "run a.ngc --csv x.csv --events x.csv", "run a.ngc.new --report a.ngc"}) {
+          "replay a.h5 --record a.h5", "run a.ngc --csv x.csv --events x.csv", "run a.ngc.incomplete --report a.ngc"}) {
         const Ran refused = motionrack(command);
         EXPECT_EQ(refused.code, 3) << command;
         EXPECT_THAT(refused.out, HasSubstr("Nothing was done")) << command;
@@ -307,7 +307,7 @@ TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
     EXPECT_EQ(text_of(folder / "a.ngc"), "G1 X1 F600\n");
     EXPECT_THAT(text_of(folder / "side.ngc"), HasSubstr("endsub"));
     EXPECT_EQ(text_of(folder / "page.html"), "mine");
-    EXPECT_EQ(text_of(folder / "a.ngc.new"), "G1 X2 F600\n");
+    EXPECT_EQ(text_of(folder / "a.ngc.incomplete"), "G1 X2 F600\n");
     EXPECT_EQ(motionrack("replay a.h5").code, 0);
 }
 

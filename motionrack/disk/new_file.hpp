@@ -1,8 +1,8 @@
 // A file that replaces its target only when complete; until then the existing file stays unchanged.
 //
-//  create ──► NAME.new ──write──► ... ──commit──► synced, read back, then renamed to NAME
+//  create ──► NAME.incomplete ──write──► ... ──commit──► synced, read back, then renamed to NAME
 //                 │ an error, or the end of the program
-//                 └──► NAME is unchanged; NAME.new is removed, or kept if a partial file is useful
+//                 └──► NAME is unchanged; NAME.incomplete is removed, or kept if a partial file is useful
 //
 // Devices, pipes and paths in /dev and /proc cannot be rename targets; they are written in place.
 #pragma once
@@ -17,7 +17,7 @@
 namespace motionrack::disk {
 
 /// Suffix of the incomplete file beside its final name.
-inline constexpr const char* beside = ".new";
+inline constexpr const char* beside = ".incomplete";
 
 enum class Rights : std::uint8_t {
     usual,  ///< those of the existing file, or by the umask

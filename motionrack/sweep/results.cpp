@@ -68,7 +68,7 @@ Result<std::unique_ptr<Results>> Results::open(const Sweep& sweep, const std::st
 
 /// Starts the file with the reused rows; it has its final name at once and grows there.
 Result<void> Results::begin_part() {
-    const std::string made = part() + ".new";
+    const std::string made = part() + ".incomplete";
     MOTIONRACK_TRY(trace::CsvWriter csv, trace::CsvWriter::create_log(made, heads(sweep_, all_shown())));
     csv_ = std::make_unique<trace::CsvWriter>(std::move(csv));
     for (std::int64_t i = 0; i < sweep_.points(); ++i)

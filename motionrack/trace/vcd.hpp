@@ -70,7 +70,7 @@ class VcdWriter {
 
     /// Ends the file at `end` (not before the last change), so that viewers show the time after the last change.
     /// Errors: io, the first error; if only the end is missing, writing can continue and close() can be called again.
-    /// If a writer is destroyed without close(), its changes stay in `NAME.new`.
+    /// If a writer is destroyed without close(), its changes stay in `NAME.incomplete`.
     Result<void> close(Instant end);
 
   private:

@@ -43,10 +43,10 @@ TEST_F(AtomicFile, TakesItsNameWhenItIsWhole) {
     EXPECT_EQ(text_of(at("a")), "old");
     ASSERT_TRUE(file->commit());
     EXPECT_EQ(text_of(at("a")), "new text");
-    EXPECT_FALSE(fs::exists(at("a.new")));
+    EXPECT_FALSE(fs::exists(at("a.incomplete")));
     EXPECT_EQ(static_cast<int>(fs::status(at("a")).permissions()), 0640);
-    put(at("b.new"), "that others can read");
-    std::ifstream other(at("b.new"));
+    put(at("b.incomplete"), "that others can read");
+    std::ifstream other(at("b.incomplete"));
     ASSERT_TRUE(write_whole(at("b"), "secret", Rights::owner));
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(other), {}), "that others can read");
     EXPECT_EQ(static_cast<int>(fs::status(at("b")).permissions()), 0600);
@@ -59,13 +59,13 @@ TEST_F(AtomicFile, ThatIsNotCommittedLeavesWhatWasThere) {
         EXPECT_TRUE(file->write("half"));
     }
     EXPECT_EQ(text_of(at("a")), "old");
-    EXPECT_FALSE(fs::exists(at("a.new")));
+    EXPECT_FALSE(fs::exists(at("a.incomplete")));
     {
         auto file = NewFile::create(at("a"), NewFile::Part::keep);
         EXPECT_TRUE(file->write("half"));
     }
     EXPECT_EQ(text_of(at("a")), "old");
-    EXPECT_EQ(text_of(at("a.new")), "half");
+    EXPECT_EQ(text_of(at("a.incomplete")), "half");
 }
 
 TEST_F(AtomicFile, SaysWhyItIsNotWritten) {
@@ -96,7 +96,7 @@ TEST_F(AtomicFile, OnAFullDiskStaysAsItWas) {
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "File too large");
     EXPECT_EQ(text_of(at("a")), "old");
-    EXPECT_FALSE(fs::exists(at("a.new")));
+    EXPECT_FALSE(fs::exists(at("a.incomplete")));
 }
 
 TEST_F(AtomicFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
@@ -132,9 +132,9 @@ TEST_F(AtomicFile, IsRefusedAsAnOutputWhereItIsReadOrALinkOrAnotherOutput) {
     EXPECT_THAT(refused({at("in")}, {at("same")}), HasSubstr("is read"));
     EXPECT_THAT(refused({}, {at("link")}), HasSubstr("symbolic link"));
     EXPECT_THAT(refused({}, {at("out"), at("../") + folder_.filename().string() + "/out"}), HasSubstr("Two things"));
-    EXPECT_THAT(refused({}, {at("out"), at("out.new")}), HasSubstr("Two things"));
-    put(at("out.new"), "in");
-    EXPECT_THAT(refused({at("out.new")}, {at("out")}), HasSubstr("which is read"));
+    EXPECT_THAT(refused({}, {at("out"), at("out.incomplete")}), HasSubstr("Two things"));
+    put(at("out.incomplete"), "in");
+    EXPECT_THAT(refused({at("out.incomplete")}, {at("out")}), HasSubstr("which is read"));
 }
 
 }  // namespace

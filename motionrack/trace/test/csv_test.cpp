@@ -95,7 +95,7 @@ TEST(CsvWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
         csv->add(std::string_view("half"));
     }
     EXPECT_EQ(file_text(scratch.path("a.csv")), "old");
-    EXPECT_NE(file_text(scratch.path("a.csv.new")).find("half"), std::string::npos);
+    EXPECT_NE(file_text(scratch.path("a.csv.incomplete")).find("half"), std::string::npos);
 }
 
 TEST(CsvWriter, SaysAtTheEndThatTheDiskIsFull) {

@@ -88,7 +88,7 @@ TEST(DiffOfRecordings, OfOneThatWasCutOffGoesAsFarAsThatOneDoes) {
         first.write(*writer);
         writer->flush(Instant{first.events.back().at + 1});
         // An unfinished file is read beside its writer.
-        const auto diff = diff_files(scratch.path("cut.h5.new"), scratch.path("whole.h5"));
+        const auto diff = diff_files(scratch.path("cut.h5.incomplete"), scratch.path("whole.h5"));
         ASSERT_TRUE(diff) << diff.error().text();
         EXPECT_TRUE(diff->same()) << diff_text(*diff, "cut", "whole");
         EXPECT_EQ(diff->until, Instant{first.events.back().at + 1});

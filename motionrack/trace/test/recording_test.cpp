@@ -139,8 +139,8 @@ TEST(Recording, OfAKilledProgramHasAllThatWasFlushed) {
     for (const std::size_t flush : {300u, 7'000u, 60'000u}) {
         const PlainRecording plain = busy(100'000);
         write_and_die(plain, scratch.path("a.h5"), flush);
-        EXPECT_THAT(RecordingReader::open(scratch.path("a.h5")).error().message, HasSubstr("a.h5.new"));
-        const auto reader = RecordingReader::open(scratch.path("a.h5.new"));
+        EXPECT_THAT(RecordingReader::open(scratch.path("a.h5")).error().message, HasSubstr("a.h5.incomplete"));
+        const auto reader = RecordingReader::open(scratch.path("a.h5.incomplete"));
         ASSERT_TRUE(reader) << reader.error().text();
         EXPECT_FALSE(reader->whole());
         EXPECT_THAT(reader->cut_sentence(), HasSubstr("was cut off"));

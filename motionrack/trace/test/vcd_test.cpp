@@ -153,7 +153,7 @@ TEST(VcdWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
         vcd.change(vcd.add_wire("w"), 1, Instant{10});
     }
     EXPECT_EQ(file_text(vcd_scratch.path("a.vcd")), "old");
-    EXPECT_NE(file_text(vcd_scratch.path("a.vcd.new")).find("$var"), std::string::npos);
+    EXPECT_NE(file_text(vcd_scratch.path("a.vcd.incomplete")).find("$var"), std::string::npos);
 }
 
 TEST(VcdWriter, SaysThatAFileCannotBeMade) {

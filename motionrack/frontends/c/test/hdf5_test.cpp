@@ -122,14 +122,14 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
     world.pass(100'000'000);
     EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
     EXPECT_FALSE(std::filesystem::exists(h5));
-    std::filesystem::remove(h5 + ".new");
+    std::filesystem::remove(h5 + ".incomplete");
     std::filesystem::remove(csv);
 }
 
 TEST(CHdf5, AnEndThatHasNoRoomIsToldAndTheFileDoesNotTakeItsName) {
     World world;
     world.set_up(1, 4000);
-    const std::string h5 = temporary("end.h5"), part = h5 + ".new";
+    const std::string h5 = temporary("end.h5"), part = h5 + ".incomplete";
     for (const rlim_t beyond : {0, 1, 500, 2'000}) {  // data written up to that point fits
         SCOPED_TRACE(beyond);
         ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
@@ -162,13 +162,13 @@ TEST(CHdf5, ARackThatIsClosedTellsWhatBecameOfItsRecording) {
     EXPECT_EQ(mr_trace_unit(rack, 7), MR_REFUSED);
     const std::string before = mr_last_error();
     {
-        const FullDisk disk(std::filesystem::file_size(h5 + ".new"));
+        const FullDisk disk(std::filesystem::file_size(h5 + ".incomplete"));
         mr_rack_close(rack);
     }
     EXPECT_NE(mr_last_error(), before);
     EXPECT_THAT(mr_last_error(), HasSubstr("was not renamed"));
     EXPECT_FALSE(std::filesystem::exists(h5));
-    std::filesystem::remove(h5 + ".new");
+    std::filesystem::remove(h5 + ".incomplete");
 }
 
 }  // namespace
