@@ -119,7 +119,9 @@ Result<void> Journal::begin() {
     MOTIONRACK_CHECK(file.run(
         fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
     MOTIONRACK_CHECK(remove_old_entries(file, max_entries));
-    return file.run("COMMIT");
+    MOTIONRACK_CHECK(file.run("COMMIT"));
+    // The file itself shows the new run, so that it cannot pass for the clean end of the previous one without its -wal.
+    return file.run("PRAGMA wal_checkpoint(TRUNCATE)");
 }
 
 /// Reads how the previous run ended and its kept values, as far as their seals match.

@@ -173,11 +173,12 @@ Result<void> set_chain_end(const Database& database, const char* name, const Cha
 
 Result<void> remove_old_entries(const Database& database, std::int64_t kept) {
     const std::int64_t last = database.number("SELECT max(number) FROM entry") - kept;
-    Statement found(database.get(), "SELECT number, link FROM entry WHERE number = ?1");
+    // The newest of those to remove; entries that were removed from outside leave gaps.
+    Statement found(database.get(), "SELECT number, link FROM entry WHERE number <= ?1 ORDER BY number DESC LIMIT 1");
     found.bind(1, last);
     if (!found.row()) return {};
     MOTIONRACK_CHECK(set_chain_end(database, "base", {found.number(0), found.text(1)}));
-    return database.run(fmt::format("DELETE FROM entry WHERE number <= {}", last).c_str());
+    return database.run(fmt::format("DELETE FROM entry WHERE number <= {}", found.number(0)).c_str());
 }
 
 namespace {

@@ -57,6 +57,19 @@ TEST_F(DamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
     }
 }
 
+TEST_F(DamagedJournal, DoesNotTakeTheEndOfAnEarlierRunForThatOfAKilledOneWithoutItsLog) {
+    make();
+    std::string killed;
+    {
+        const auto journal = open();
+        write(*journal, "audit", "moved to X 50");
+        killed = text_of(path_);
+    }
+    remove();
+    std::ofstream(path_, std::ios::binary) << killed;
+    EXPECT_FALSE(next().clean);
+}
+
 TEST_F(DamagedJournal, DoesNotTrustAnEndThatChanged) {
     make();
     change("UPDATE run SET ended_ms = ended_ms + 1");
