@@ -19,6 +19,11 @@ tl::unexpected<Error> not_seen(const std::string& path, const std::string& subje
                 {}, path);
 }
 
+/// An owner can change the rights at any time.
+bool is_of_another_user(const struct stat& about) {
+    return about.st_uid != ::geteuid() && about.st_uid != 0;
+}
+
 /// A private group of the user, which many systems create, does not count as others.
 bool is_open_to_others(const struct stat& about) {
     if ((about.st_mode & S_ISVTX) != 0) return false;  // sticky, as /tmp: users may replace only their own files
@@ -30,6 +35,13 @@ Result<void> check_folder(const std::string& path, const std::string& subject) {
     const std::string folder = parent.empty() ? "." : parent.string();
     struct stat about {};
     if (::stat(folder.c_str(), &about) != 0) return errno == ENOENT ? Result<void>() : not_seen(path, subject);
+    if (is_of_another_user(about))
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("Another user (uid {}) may replace {}: the folder {} belongs to them. Nothing was started; "
+                        "chown the folder, or name a file elsewhere.",
+                        about.st_uid, subject, folder),
+            {}, path);
     if (!is_open_to_others(about)) return {};
     return fail(ErrorKind::invalid_input,
                 fmt::format("Others may replace {}: its folder {} is open to them (mode {:o}). Nothing was started; "
@@ -49,6 +61,12 @@ Result<void> check_writers(const std::string& path, const std::string& subject) 
     struct stat about {};
     const bool there = ::stat(path.c_str(), &about) == 0;
     if (!there && errno != ENOENT) return not_seen(path, subject);
+    if (there && is_of_another_user(about))
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("Another user (uid {}) owns {}; they could grant themselves access, or make wrong "
+                                "positions valid. Nothing was started; check its content, then chown it.",
+                                about.st_uid, lower_first(subject)),
+                    {}, path);
     if (there && (about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
         return fail(ErrorKind::invalid_input,
                     fmt::format("Others may write {} (mode {:o}); they could grant themselves access, or make wrong "
