@@ -114,7 +114,7 @@ int GrblSession::store(std::string_view text) {
     return changed.error;
 }
 
-/// Parses 0=G54. The line is checked but not executed.
+/// Parses 0=G54. The line is checked but not executed. It may only set modes, since a reset starts nothing.
 int GrblSession::store_startup_line(std::string_view text) {
     double number = 0;
     if (!take_number(text, number)) return error_bad_number;
@@ -122,6 +122,10 @@ int GrblSession::store_startup_line(std::string_view text) {
     if (!control()) return error_locked;
     control::gcode::Interpreter trial = interpreter();
     if (const auto read = trial.line(text, 0); !read) return static_cast<int>(read.error().status);
+    if (starts_something(trial)) {
+        say("Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output");
+        return error_unsupported;
+    }
     startup_lines_[number == 0 ? 0 : 1] = text;
     return error_none;
 }
@@ -164,7 +168,8 @@ int GrblSession::check_mode() {
 int GrblSession::unlock() {
     if (state() != State::alarm) return error_none;
     if (!control()) return error_locked;
-    if (machine_.state() == MachineState::error_stop) machine_.reset();  // after a STOP; others need the sender's reset
+    if (machine_.state() == MachineState::error_stop)  // after a STOP; others need the sender's reset
+        resets_ = true, machine_.reset(settings_.source("$X")), resets_ = false;
     alarm_ = stopped_ = false;
     doing_ = PendingLine{PendingLine::What::unlocking};
     return answer_later;

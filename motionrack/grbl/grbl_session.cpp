@@ -277,10 +277,7 @@ void GrblSession::startup() {
 // ---- answers
 
 void GrblSession::answer(int error) {
-    if (error == error_none)
-        put("ok\r\n");
-    else
-        put(fmt::format("error:{}\r\n", error));
+    put(error == error_none ? std::string("ok\r\n") : fmt::format("error:{}\r\n", error));
 }
 
 /// Sends ASCII only, without the characters that end a message.

@@ -30,8 +30,10 @@ struct SessionSettings {
     std::function<Result<void>()> take_control = {};
     /// Succeeds if a reset by this sender may stop the present action of the machine. Empty: always.
     std::function<Result<void>()> may_stop = {};
-    /// Identity of this sender, for reports of its reset.
-    std::function<operate::StopOrigin()> source = {};
+    /// Identity of this sender, for reports of its resets; `kind`: "^X", "$X".
+    std::function<operate::StopOrigin(const char* kind)> source = [](const char* kind) {
+        return operate::StopOrigin{"a sender", "", kind};
+    };
     bool onlookers_reset = false;  ///< resets by observers count as this sender's
     /// Called with a sentence when a setting has changed.
     std::function<void(const std::string&)> on_setting = {};

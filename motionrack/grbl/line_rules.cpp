@@ -57,6 +57,17 @@ bool must_stand_first(const Block& block, const Interpreter& interpreter, bool l
            (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
 }
 
+bool starts_something(Interpreter& read) {
+    using Kind = control::gcode::CanonCallKind;
+    while (const control::gcode::CanonCall* call = read.pull())
+        if ((call->kind == Kind::move && call->move.kind != control::MoveKind::dwell) ||
+            (call->kind == Kind::spindle && call->spindle != control::gcode::Spindle::off) ||
+            (call->kind == Kind::coolant && (call->mist || call->flood)) ||
+            (call->kind == Kind::output && call->value != 0))
+            return true;
+    return false;
+}
+
 JogLine read_jog(const std::string& text, Interpreter reader, int axes) {
     using namespace control::gcode;
     const auto wrong = [](int error) { return JogLine{error, {}, 0}; };

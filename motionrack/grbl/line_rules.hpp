@@ -13,6 +13,9 @@ bool grbl_has(const control::gcode::Block& block, int axes);
 /// Returns true if Grbl executes the block only after all previous motion.
 bool must_stand_first(const control::gcode::Block& block, const control::gcode::Interpreter& interpreter, bool laser);
 
+/// Returns true if a line that the interpreter has just read moves an axis or switches something on.
+bool starts_something(control::gcode::Interpreter& read);
+
 /// Target and feed of a jog; or `error`, a Grbl error number.
 struct JogLine {
     int error = error_none;

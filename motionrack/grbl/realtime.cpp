@@ -142,7 +142,7 @@ void GrblSession::resume() {
 /// the sender requests, not with an implicit reset of the Grbl.
 void GrblSession::reset(bool is_asked_for) {
     const MachineState state = machine_.state();
-    const bool stands = operate::idle(state);
+    const bool stands = operate::idle(state), latched = machine_.rack().stop_latch().latched();
     const Result<void> may = stands || !settings_.may_stop ? Result<void>() : settings_.may_stop();
     const int number = state == MachineState::homing ? homing_alarm_ : is_moving(machine_) ? alarm_reset : alarm_none;
     if (may && number != alarm_none) alarm(number, false);
@@ -156,12 +156,10 @@ void GrblSession::reset(bool is_asked_for) {
     held_ = door_ = asleep_ = critical_ = stopped_ = was_g80_ = spindle_stopped_ = false;
     spindle_override_ = 100;
     line_number_ = 0;
-    if (may && (is_asked_for || !machine_.rack().stop_latch().latched())) {
+    if (may && (is_asked_for || !latched)) {
         machine_.set_overrides(1, 1);
         resets_ = true;
-        machine_.reset(stands             ? operate::StopOrigin{}
-                       : settings_.source ? settings_.source()
-                                          : operate::StopOrigin{"a sender", "", "^X"});
+        machine_.reset(stands && !latched ? operate::StopOrigin{} : settings_.source("^X"));
         resets_ = false;
     }
     begin_again(true);

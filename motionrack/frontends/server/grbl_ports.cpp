@@ -157,7 +157,7 @@ class GrblPorts::Inside {
             bytes = visitor.introduction.take_bytes();
             if (writer_ != &visitor && is_slot_free()) let_write(visitor);
         }
-        tcp_port_->hear(std::move(bytes), &visitor == writer_, reading_on(visitor.line));
+        tcp_port_->hear(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
     }
     bool is_slot_free() const {
         return writer_ == nullptr ||
@@ -213,7 +213,7 @@ class GrblPorts::Inside {
         terminal_line_->on_bytes = [this](std::string bytes) {
             look_for_clients();
             if (deaf_ && terminal_->clients() > 0) bytes.clear();
-            terminal_port_->hear(std::move(bytes), true, reading_on(terminal_line_));
+            terminal_port_->hear(std::move(bytes), true, settings_.link, reading_on(terminal_line_));
         };
         watch_.assign(::dup(terminal_->watch()));
         watch_on();

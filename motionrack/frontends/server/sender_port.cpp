@@ -11,7 +11,7 @@ SenderPort::SenderPort(operate::Machine& machine, auth::ControlLease& lease, con
     session.axes = settings.axes;
     session.take_control = [this] { return take_control(); };
     session.may_stop = [this] { return may_stop(); };
-    session.source = [this] { return operate::StopOrigin{"a sender", address_, "^X"}; };
+    session.source = [this](const char* kind) { return operate::StopOrigin{"a sender", speaker_, kind}; };
     session.onlookers_reset = settings.resets_stop_all;
     if (settings.on_setting)
         session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
@@ -36,8 +36,9 @@ void SenderPort::left() {
     machine_.post([self = shared_from_this()] { self->lease_.left(self->id_); });
 }
 
-void SenderPort::hear(std::string bytes, bool writer, std::function<void()> then) {
-    machine_.post([self = shared_from_this(), bytes = std::move(bytes), writer, then = std::move(then)] {
+void SenderPort::hear(std::string bytes, bool writer, const std::string& address, std::function<void()> then) {
+    machine_.post([self = shared_from_this(), bytes = std::move(bytes), writer, address, then = std::move(then)] {
+        self->speaker_ = address;
         if (writer) {
             self->see_control();
             (void)self->lease_.keep(self->id_);

@@ -23,8 +23,8 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     /// A writer is connected from now on. `address`: "127.0.0.1:4711" or a path; `id`: unique for the connection.
     void came(const std::string& user, const std::string& address, const std::string& id);
     void left();
-    /// `then`: called on the motion thread after these bytes were processed.
-    void hear(std::string bytes, bool writer, std::function<void()> then);
+    /// `address`: of the client that sends them. `then`: called on the motion thread after these bytes were processed.
+    void hear(std::string bytes, bool writer, const std::string& address, std::function<void()> then);
 
     // ---- the motion thread
     void tick();
@@ -41,6 +41,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     const bool resets_stop_all_;
     std::unique_ptr<grbl::GrblSession> session_;
     std::string user_ = "a sender", address_, id_ = "grbl";  ///< the current writer
+    std::string speaker_;                                    ///< address of the client whose bytes are processed
     bool had_control_ = false;                               ///< and no other client has taken it since
 };
 

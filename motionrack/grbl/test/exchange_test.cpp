@@ -7,6 +7,10 @@ namespace {
 const std::string exchange_banner = "\r\nGrbl 1.1h ['$' for help]\r\n",
                   exchange_unlock = "[MSG:'$H'|'$X' to unlock]\r\n";
 
+const std::string startup_refused =
+    "[MSG:Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output]\r\n"
+    "error:20\r\n";
+
 /// An exchange on a machine of three axes, in Idle at 0; each row starts with a new machine.
 struct Exchange {
     const char* rule;
@@ -85,6 +89,8 @@ const Exchange exchanges[] = {
     {"a startup line is kept, and run at a reset", "$N0=G20\n$N\n\x18",
      "ok\r\n$N0=G20\r\n$N1=\r\nok\r\n" + exchange_banner + ">G20:ok\r\n"},
     {"a startup line must be right", "$N0=G0G1\n", "error:21\r\n"},
+    {"a startup line starts nothing", "$N0=G91G1X5F600\n$N1=M3S1000\n$N1=M8\n$N\n",
+     startup_refused + startup_refused + startup_refused + "$N0=\r\n$N1=\r\nok\r\n"},
     {"unlock where nothing is locked", "$X\n", "ok\r\n"},
     {"offsets", "$#\n",
      "[G54:0.000,0.000,0.000]\r\n[G55:0.000,0.000,0.000]\r\n[G56:0.000,0.000,0.000]\r\n[G57:0.000,0.000,0.000]\r\n[G58:"
