@@ -139,10 +139,13 @@ void StreamExecutor::add_piece() {
 // ---- operator requests
 
 void StreamExecutor::hold() {
-    if (wish_ == Wish::stop || !has_work() || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
+    if (wish_ == Wish::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) return;
+    if (!path_begun_ && !has_work()) {
+        state_ = ExecutionState::feed_hold;
         return;
+    }
     wish_ = Wish::hold;
-    stop_flag_ = !ride_ && !probing_;
+    stop_flag_ = !ride_ && !last_probe_.runs;
 }
 
 void StreamExecutor::resume() {
@@ -158,7 +161,7 @@ void StreamExecutor::stop() {
         return;
     }
     wish_ = Wish::stop;
-    stop_flag_ = !ride_ || probing_;
+    stop_flag_ = !ride_ || last_probe_.runs;
 }
 
 void StreamExecutor::set_overrides(double feed, double rapid) {

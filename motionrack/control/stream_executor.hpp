@@ -58,6 +58,7 @@ struct ProbeReport {
     std::int32_t line = 0;
     gcode::Probe probe = gcode::Probe::none;
     bool begun = false;  ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
+    bool runs = false;   ///< the move is being executed
     ProbeResult outcome;
 
     bool failed() const { return !begun || (!outcome.hit && gcode::probe_must(probe)); }
@@ -84,8 +85,8 @@ class StreamExecutor {
     /// Queues a move that does not come from a line. Modes do not change, the feed override is ignored, and later lines
     /// start at its end. The move must be within the limits of the axes. Requires has_room().
     void move(const Move& move);
-    /// Decelerates to a stop on the path; drive() then returns feed_hold. No effect without motion. A probing move is
-    /// completed first.
+    /// Decelerates to a stop on the path; drive() then returns feed_hold. Without motion the state is feed_hold at
+    /// once, and later lines wait. A probing move is completed first.
     void hold();
     /// Resumes after a feed hold or a pause.
     void resume();
@@ -216,7 +217,6 @@ class StreamExecutor {
     bool path_begun_ = false;  ///< the axes have moves without a finish()
     bool single_block_ = false;
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
-    bool probing_ = false;
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
     Wish wish_ = Wish::none;

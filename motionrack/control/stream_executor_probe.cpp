@@ -8,22 +8,22 @@ namespace motionrack::control {
 Result<ExecutionState> StreamExecutor::probe() {
     const gcode::CanonCall step = entries_.front().step;
     line_driven_ = step.line;
-    last_probe_ = {last_probe_.count, step.line, step.probe, false, {}};
+    last_probe_ = {last_probe_.count, step.line, step.probe, false, false, {}};
     const Result<PlannedMove> planned =
         plan_single_move(*axes_, settings_.gcode.limits, settings_.accel_reserve, step.move);
     if (!planned) return interrupted(planned.error());
     if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
     state_ = ExecutionState::running;
-    probing_ = true;
+    last_probe_.runs = true;
     const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
-    probing_ = false;
+    last_probe_.runs = false;
     axes_->take_move_starts();
     const Point place = axes_->commanded_position();
     if (!outcome) {
         if (wish_ != Wish::stop) ++last_probe_.count;
         return interrupted(outcome.error());
     }
-    last_probe_ = {last_probe_.count + 1, step.line, step.probe, true, *outcome};
+    last_probe_ = {last_probe_.count + 1, step.line, step.probe, true, false, *outcome};
     probe_waits_ = false;
     --moves_;
     entries_.pop_front();

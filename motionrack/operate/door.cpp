@@ -15,16 +15,15 @@ Result<void> Door::check_closed(const char* what) const {
     return fail(ErrorKind::refused, fmt::format("{}: the door is open. Nothing was moved; close it first.", what));
 }
 
-std::optional<std::string> Door::take_opening(MachineState state) {
+std::optional<std::string> Door::take_opening(MachineState state, bool held) {
     const bool open = contacts_.door_open();
     if (std::exchange(was_open_, open) || !open) return {};
-    const bool in_work = state == MachineState::moving || state == MachineState::hold;
     return fmt::format("The door was opened at {:.3f} s: {}, the spindle is off. Close it, then {}.",
                        to_seconds(contacts_.door_opened()),
-                       in_work                ? "the feed is held"
+                       held                   ? "the feed is held"
                        : is_stationary(state) ? "nothing was moving"
                                               : "the motion was stopped",
-                       in_work ? "resume" : "go on");
+                       held ? "resume" : "go on");
 }
 
 void Door::keep_tools(const Status& status) {

@@ -1,5 +1,6 @@
-// Door of an operated machine. Opening it holds the feed and switches the spindle off, and no motion starts until it is
-// closed. Closing it moves nothing; a resume starts motion and the spindle again.
+// Door of an operated machine. Opening it holds the feed, or ends a probing move, a jog or homing; spindle, laser,
+// belts, stages and outputs go off as at a STOP. Nothing starts until it is closed. Closing it moves nothing; a resume
+// starts motion and the spindle again.
 #pragma once
 
 #include <motionrack/base/result.hpp>
@@ -17,8 +18,9 @@ class Door {
 
     /// Refused while it is open: "The program was not started: the door is open. ..."
     Result<void> check_closed(const char* what) const;
-    /// Returns the alarm if the door was opened since the last look, with the effect in this state.
-    std::optional<std::string> take_opening(MachineState state);
+    /// Returns the alarm if the door was opened since the last look, with the effect in this state. `held`: the feed of
+    /// a program is held, which a resume continues.
+    std::optional<std::string> take_opening(MachineState state, bool held);
     /// Stores the present spindle and coolant states for resume().
     void keep_tools(const Status& status);
     /// Restores the stored states, once.

@@ -70,10 +70,12 @@ std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     return std::nullopt;
 }
 
-Result<void> Jogs::begin(const PendingJog& request, const Take& take, Instant now) {
+/// Taking an axis over takes time, in which a stop may come.
+Result<void> Jogs::begin(const PendingJog& request, const Take& take, Instant now, const Stops& stops) {
     const bool leased = !request.distance;
     if (leased && request.speed != 0 && !held(request.letter)) return {};  // over before its start
     MOTIONRACK_TRY(control::Axis * axis, take(request.letter));
+    if (stops(request.letter)) return {};
     MOTIONRACK_CHECK(leased ? axis->jog(request.speed, now) : axis->move_by(*request.distance, request.speed));
     const bool known =
         std::any_of(moving_.begin(), moving_.end(), [&](const Moving& one) { return one.letter == request.letter; });
@@ -81,7 +83,7 @@ Result<void> Jogs::begin(const PendingJog& request, const Take& take, Instant no
     return {};
 }
 
-std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, const std::function<bool(char letter)>& stops) {
+std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, const Stops& stops) {
     std::vector<Ended> out;
     std::erase_if(moving_, [&](Moving& one) {
         std::optional<Ended> ended = carry_on(one, now, stops(one.letter));
@@ -89,7 +91,7 @@ std::vector<Jogs::Ended> Jogs::step(const Take& take, Instant now, const std::fu
         return ended.has_value();
     });
     for (const PendingJog& request : std::exchange(requests_, {})) {
-        Result<void> begun = begin(request, take, now);
+        Result<void> begun = begin(request, take, now, stops);
         if (begun) continue;
         leases_.erase(request.letter);
         out.push_back({request.letter, true, std::move(begun)});

@@ -30,6 +30,8 @@ class Jogs {
     using Clock = std::function<Instant()>;
     /// Returns an axis of the rack by its letter.
     using Take = std::function<Result<control::Axis*>(char letter)>;
+    /// Returns true if this axis must stop.
+    using Stops = std::function<bool(char letter)>;
     /// End of the jog of an axis that is at standstill again.
     struct Ended {
         char letter = 'X';
@@ -56,7 +58,7 @@ class Jogs {
     bool any() const { return !requests_.empty() || !moving_.empty(); }
     /// Starts requested jogs, and continues or ends running ones; axes to stop decelerate with a ramp. Returns the axes
     /// that have reached standstill. Call at least every few ms.
-    std::vector<Ended> step(const Take& take, Instant now, const std::function<bool(char letter)>& stops);
+    std::vector<Ended> step(const Take& take, Instant now, const Stops& stops);
 
   private:
     struct PendingJog {
@@ -76,7 +78,7 @@ class Jogs {
     };
     bool held(char letter) const;
     std::optional<Ended> carry_on(Moving& one, Instant now, bool stop);
-    Result<void> begin(const PendingJog& request, const Take& take, Instant now);
+    Result<void> begin(const PendingJog& request, const Take& take, Instant now, const Stops& stops);
 
     Duration lease_;
     Clock wall_;

@@ -101,6 +101,10 @@ Result<void> Machine::ready(const char* what) {
         return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
     if (state_ != MachineState::standstill)
         return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state_)));
+    if (reset_wanted_) return refuse("a reset is being carried out; try again at once");
+    if (manual_access_.any()) return refuse("a card is being accessed; try again at once");
+    if (const char letter = manual_access_.moving_axis(); letter != '\0')
+        return refuse(fmt::format("axis {} is moved by register writes; press STOP first", letter));
     return {};
 }
 
@@ -109,14 +113,16 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
     return fail(ErrorKind::invalid_input, fmt::format("{}: the machine has no axis {}.", what, letter));
 }
 
-/// Requires enabled axes without a pending set position, which applies to the position at its command.
+/// Requires enabled axes that stay so, without a pending set position, which applies to the position at its command.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
         return not_now(fmt::format("{}: positions of axes are being declared; try again. Nothing was moved.", what));
-    for (const rack::RackAxis& axis : rack_.config().axes)
-        if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
+    for (const rack::RackAxis& axis : rack_.config().axes) {
+        const auto i = static_cast<std::size_t>(axis.index());
+        if (axes.find(axis.letter) != std::string_view::npos && (!enabled_[i] || disable_wanted_[i]))
             return not_now(
                 fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
+    }
     return {};
 }
 
@@ -197,9 +203,7 @@ Result<void> Machine::resume() {
     if (state_ != MachineState::hold)
         return not_now(
             fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
-    MOTIONRACK_CHECK(may_start("Not resumed"));
-    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not resumed"));
-    MOTIONRACK_CHECK(door_.check_closed("Not resumed"));
+    MOTIONRACK_CHECK(may_begin("Not resumed"));
     door_.give_back_tools(status_);
     stream_->resume();
     enter(MachineState::moving);
@@ -226,6 +230,7 @@ void Machine::cancel(const StopOrigin& by) {
     service_.break_off();
     door_.forget_tools();
     stop_wanted_ = true;
+    stops_at_rest_ = idle(state_);
     if (!idle(state_) && state_ != MachineState::stopping) enter(MachineState::stopping);
     tell_stop(report, status_.reason, stop_listeners_);
 }
@@ -345,22 +350,16 @@ Result<void> Machine::set_position(char axis, double position) {
 }
 
 void Machine::set_coolant(bool mist, bool flood) {
+    if (rack_.stop_latch().latched()) return;
     stream_->set_coolant(mist, flood);
     status_.mist = mist;
     status_.flood = flood;
 }
 
-Result<void> Machine::clear_offsets() {
-    if (stream_->has_work())
-        return not_now("The work offsets were not changed: the machine moves. Stop it, or wait for standstill.");
-    stream_->clear_offsets();
-    return {};
-}
-
 void Machine::forbid_starts(std::string source, std::string text) {
     if (!no_starts_.empty()) return;
     no_starts_ = text;
-    if (state_ == MachineState::moving)
+    if (state_ == MachineState::moving && !stream_->last_probe().runs)
         stream_->hold();
     else if (!idle(state_) && state_ != MachineState::hold)
         cancel({"", "", "Alarm"});
@@ -371,6 +370,12 @@ void Machine::forbid_starts(std::string source, std::string text) {
 Result<void> Machine::may_start(const char* what) const {
     if (no_starts_.empty()) return {};
     return not_now(fmt::format("{}: {}", what, no_starts_));
+}
+
+Result<void> Machine::may_begin(const char* what) {
+    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
+    MOTIONRACK_CHECK(may_start(what));
+    return door_.check_closed(what);
 }
 
 bool Machine::acknowledge_alarm(std::int64_t alarm) {

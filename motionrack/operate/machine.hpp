@@ -23,6 +23,7 @@
 #include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
+#include <motionrack/operate/manual_access.hpp>
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/service.hpp>
 #include <motionrack/operate/status.hpp>
@@ -115,7 +116,7 @@ class Machine {
     Result<void> set_position(char axis, double position);
     void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
     void set_single_block(bool on) { stream_->set_single_block(single_block_ = on); }
-    /// Switches the coolant immediately, otherwise like M7, M8 and M9.
+    /// Switches the coolant immediately, otherwise like M7, M8 and M9. No effect while a stop is in force.
     void set_coolant(bool mist, bool flood);
     /// Clears work offsets, G28 and G30. Refused while something moves.
     Result<void> clear_offsets();
@@ -127,19 +128,12 @@ class Machine {
     void forbid_starts(std::string source, std::string text);
     /// Errors: refused after forbid_starts.
     Result<void> may_start(const char* what) const;
+    /// Requires that anything may begin to move or to radiate, whatever the state of the axes. Errors: refused while a
+    /// stop is in force or the door is open, and after forbid_starts.
+    Result<void> may_begin(const char* what);
     /// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
     /// degrees.
     Result<void> touch_off(char axis, double value);
-    /// Performs one host access to a card, in the loop while the machine is at standstill; `ready` later receives the
-    /// value read. After a write, positions of a card that moves axes are not valid: they must be homed or set.
-    /// Refused: the machine is not at standstill, the card does not support the access.
-    struct BusAccess {
-        std::string card;
-        int bits = 16;                       ///< a width of the card's bus
-        std::uint32_t address = 0;           ///< on the host's bus
-        std::optional<std::uint32_t> value;  ///< to write; none: read, with side effects
-    };
-    Result<void> access(const BusAccess& access, std::function<void(std::uint32_t)> ready);
 
     // ---- queries, on the motion thread
     const Status& status() const { return status_; }
@@ -156,6 +150,8 @@ class Machine {
     Jogs& jogs() { return jogs_; }
     /// Manual calls of a card's function library.
     Service& service() { return service_; }
+    /// Manual accesses to the cards' buses.
+    ManualAccess& manual_access() { return manual_access_; }
     rack::Rack& rack() { return rack_; }
     rack::WireAccess& wires() { return desk_; }
     /// For recordings of on-demand pins, for periodic samples, and for the grating bus, if present.
@@ -166,6 +162,7 @@ class Machine {
 
   private:
     friend class Service;
+    friend class ManualAccess;
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
     Result<void> take_group();
@@ -176,7 +173,6 @@ class Machine {
     void feed_program();
     void jog_all();
     void home_all();
-    void access_bus();
     void change_positions();
     void failed(const Error& error);
     void raise(std::string source, std::string text, char axis = '\0');
@@ -207,8 +203,10 @@ class Machine {
     std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false;
+    bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request
     std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command
     bool stop_taken_ = false;                    ///< the axes have received the stop of the stop latch
+    bool stop_ordered_ = false;                  ///< the present error stop has no other cause than a command
     std::string no_starts_;                      ///< reason that blocks starts; empty: starts are permitted
     std::string ordered_by_;                     ///< description of the stop command in force; empty: none
     // program, or single lines
@@ -226,7 +224,7 @@ class Machine {
     std::optional<rack::HomingOutcome> homed_;
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
-    std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
+    ManualAccess manual_access_{*this};
     // status and listeners
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;

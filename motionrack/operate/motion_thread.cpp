@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 
 namespace motionrack::operate {
 
@@ -39,10 +40,12 @@ void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.look();
     for (std::string& text : latch.contacts().take_alarms()) raise("emergency stop", std::move(text));
-    if (std::optional<std::string> opened = door_.take_opening(state_)) {
+    const bool in_work =
+        (state_ == MachineState::moving && !stream_->last_probe().runs) || state_ == MachineState::hold;
+    if (std::optional<std::string> opened = door_.take_opening(state_, in_work)) {
         raise("door", std::move(*opened));
-        const bool in_work = state_ == MachineState::moving || state_ == MachineState::hold;
-        if (state_ == MachineState::moving) stream_->hold();
+        rack::react(rack_, rack::StopSource::stop_command);
+        if (state_ == MachineState::moving && in_work) stream_->hold();
         if (!in_work && !idle(state_)) cancel();
         if (in_work) door_.keep_tools(status_);
         tools_off();
@@ -82,26 +85,36 @@ std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_b
 
 void Machine::step() {
     if (service_.on()) return service_.step();
-    if (!accesses_.empty()) return access_bus();
+    if (stop_wanted_ && stops_at_rest_) {  // before anything that was commanded after it
+        if (manual_access_.moving_axis() == '\0') return wait_for_standstill();
+        if (Result<void> ended = manual_access_.end_motion(); !ended) failed(ended.error());
+        return;
+    }
+    if (manual_access_.any()) return manual_access_.step();
     if (jogs_.any()) return jog_all();
     for (Alarm& one : validity_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    if (program_flow_ || over_ || stream_->has_work() || stream_->state() == control::ExecutionState::running)
-        return drive();
+    const bool drives = stream_->state() == control::ExecutionState::running ||
+                        (state_ == MachineState::moving && stream_->state() == control::ExecutionState::feed_hold);
+    if (program_flow_ || over_ || stream_->has_work() || drives) return drive();
     if (stop_wanted_) return wait_for_standstill();
-    if (const rack::StopLatch& latch = rack_.stop_latch(); latch.latched() && state_ != MachineState::error_stop)
+    const rack::StopLatch& latch = rack_.stop_latch();
+    const bool another_cause = state_ == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
+    if (latch.latched() && (state_ != MachineState::error_stop || another_cause))
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     host_of(rack_).pass(settings_.slice);
 }
 
-/// Enters the error stop at standstill. Without a source no alarm is raised, since the stop was commanded.
+/// Enters the error stop at standstill. Without a source no alarm is raised unless a position was lost, since the stop
+/// was commanded.
 void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
     std::string lost;
     text += service_.take_note();
     latch.settle(true);
     stop_taken_ = stop_taken_ || latch.latched();
+    stop_ordered_ = latch.latched() && latch.is_ordered();
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (latch.keeps_position(axis.index())) continue;
         validity_.invalidate(axis.letter);
@@ -111,6 +124,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     const std::string unknown = validity_.invalidate_unknown();
     if (!unknown.empty() && !says_lost(text))
         text += fmt::format(" The position of {} is not valid any more; home again.", unknown);
+    if (source.empty() && !(lost + unknown).empty()) source = "position";
     if (!source.empty()) supersede(status_.alarms, lost + unknown);
     tools_off();
     if (!source.empty()) raise(std::move(source), text);
@@ -119,7 +133,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
 
 /// Waits for standstill after a stop.
 void Machine::wait_for_standstill() {
-    stop_wanted_ = false;
+    stop_wanted_ = stops_at_rest_ = false;
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state_ != MachineState::error_stop)  // losses stay, even with an immediate reset
@@ -229,15 +243,21 @@ void Machine::home_all() {
 }
 
 void Machine::change_positions() {
-    Result<void> done;
-    for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
-        const Declared declared = positions_wanted_[i];  // more may arrive meanwhile
+    for (std::size_t left = positions_wanted_.size(); left > 0; --left) {  // more may arrive meanwhile
+        const Declared declared = positions_wanted_.front();
         const Result<control::Axis*> axis = take_axis(declared.letter);
-        done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
+        const Result<void> done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
+        positions_wanted_.erase(positions_wanted_.begin());
+        if (done) continue;
+        status_.reason = done.error().message;
+        if (!validity_.of(declared.letter)) continue;
+        validity_.invalidate(declared.letter);
+        raise("position",
+              fmt::format("The position of axis {} was not declared, and is not valid any more: {}", declared.letter,
+                          done.error().message),
+              declared.letter);
     }
-    if (Result<void> taken = take_group(); done) done = taken;
-    positions_wanted_.clear();
-    if (!done) status_.reason = done.error().message;
+    if (Result<void> taken = take_group(); !taken) failed(taken.error());
 }
 
 // ---- reported status

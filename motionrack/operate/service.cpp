@@ -25,6 +25,11 @@ Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::st
                             found->map().name));
 }
 
+void stop_at_once(FunctionLibrary& library, Interrupt& host) {
+    library.stop_now();
+    for (int i = 0; i < max_looks && library.moving(); ++i) host.pass(look_at_stop_every);
+}
+
 std::string Service::axes_of(const std::string& card) const {
     std::string letters;
     for (const rack::RackAxis& axis : machine_.rack_.config().axes)
@@ -40,13 +45,9 @@ Result<void> Service::check_begin(const std::string& card) const {
         return fail(ErrorKind::refused,
                     fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
     MOTIONRACK_CHECK(library_of(machine_.rack_, card));
-    MOTIONRACK_CHECK(machine_.may_start(what));
+    MOTIONRACK_CHECK(machine_.may_begin(what));
     const std::string letters = axes_of(card);
     if (!letters.empty() || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
-    if (const rack::StopLatch& latch = machine_.rack_.stop_latch(); latch.latched())
-        return fail(ErrorKind::refused,
-                    fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
-    MOTIONRACK_CHECK(machine_.door_.check_closed(what));
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
         return fail(
@@ -194,11 +195,7 @@ void Service::watch_live() {
 /// Possible remaining motion of a real card is an alarm. It stays until its axes are seen at standstill after another
 /// service.
 void Service::stop_axes() {
-    if (!live_) {
-        library_->stop_now();
-        for (int i = 0; i < max_looks && library_->moving(); ++i) host_of(machine_.rack_).pass(look_at_stop_every);
-        return;
-    }
+    if (!live_) return stop_at_once(*library_, host_of(machine_.rack_));
     const LiveStop stop = live_->stop(*library_);
     const std::string source = "card " + card_;
     if (stop.stands)

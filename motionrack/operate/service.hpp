@@ -27,6 +27,9 @@ class Machine;
 /// Functions of a card's library. Errors: invalid_input, listing the available cards; refused if it has no library.
 Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::string& card);
 
+/// Stops all motion that the functions of a library have started, and waits for its standstill.
+void stop_at_once(FunctionLibrary& library, Interrupt& host);
+
 /// Used only by the motion thread: commands record requests, step() executes them.
 class Service {
   public:
@@ -73,14 +76,15 @@ class Service {
     /// One iteration of the loop while the service is active.
     void step();
 
+    /// Letters of the machine's axes that the card moves.
+    std::string axes_of(const std::string& card) const;
+
   private:
     struct Pending {
         CheckedCall call;
         std::string name;
         Answered ready;
     };
-    /// Letters of the machine's axes that the card moves.
-    std::string axes_of(const std::string& card) const;
     Result<void> check_begin(const std::string& card) const;
     Result<void> take_library();
     void take();

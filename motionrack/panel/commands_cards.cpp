@@ -30,6 +30,21 @@ Result<json> set_wire(PanelContext& desk, const json& fields) {
         name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
+/// The button of the page acts in series with the machine's own contacts.
+Result<json> set_estop(PanelContext& desk, bool pressed) {
+    rack::SafetyContacts& contacts = desk.machine.rack().stop_latch().contacts();
+    contacts.press(pressed);
+    if (pressed || !contacts.is_pressed()) return json::object();
+    return fail(ErrorKind::refused,
+                "The emergency stop stays pressed: its wire is low, or one of its contacts is open. The button of this "
+                "page was released; close the contact, or release the wire.");
+}
+
+Result<json> start_part(PanelContext& desk, const std::string& part) {
+    MOTIONRACK_CHECK(desk.machine.may_begin("Nothing was started"));
+    return accepted(rack::start_part(desk.machine.rack(), part));
+}
+
 Result<json> inject_fault(PanelContext& desk, const json& fields) {
     const auto& target = fields.at("target").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_virtual(desk, target, "Nothing was broken"));
@@ -37,15 +52,15 @@ Result<json> inject_fault(PanelContext& desk, const json& fields) {
 }
 
 void access(PanelContext& desk, const json& fields, Ready ready) {
-    operate::Machine::BusAccess access{fields.at("card").get<std::string>(),
-                                       static_cast<int>(fields.at("bits").get<double>()),
-                                       static_cast<std::uint32_t>(fields.at("address").get<double>()),
-                                       {}};
+    operate::ManualAccess::BusAccess access{fields.at("card").get<std::string>(),
+                                            static_cast<int>(fields.at("bits").get<double>()),
+                                            static_cast<std::uint32_t>(fields.at("address").get<double>()),
+                                            {}};
     if (fields.contains("value")) access.value = static_cast<std::uint32_t>(fields.at("value").get<double>());
     if (const Result<void> is = check_virtual(desk, access.card, "The card was not accessed"); !is)
         return ready(tl::unexpected<Error>(is.error()));
-    const Result<void> taken = desk.machine.access(access, [ready](std::uint32_t value) {
-        ready(json{{"value", value}});
+    const Result<void> taken = desk.machine.manual_access().request(access, [ready](Result<std::uint32_t> value) {
+        ready(value ? Result<json>(json{{"value", *value}}) : tl::unexpected<Error>(value.error()));
     });
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
@@ -78,16 +93,13 @@ Result<json> advance_clock(PanelContext& desk, const json& fields) {
 constexpr std::array card_rows = {
     OperationHandler{"set_wire",
                      [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
-    OperationHandler{"set_estop",
-                     [](PanelContext& desk, const Caller&, const json& fields) {
-                         return accepted(desk.machine.wires().force("estop", fields.at("pressed").get<bool>() ? 0 : 1));
-                     }},
+    OperationHandler{"set_estop", [](PanelContext& desk, const Caller&,
+                                     const json& fields) { return set_estop(desk, fields.at("pressed").get<bool>()); }},
     OperationHandler{"inject_fault",
                      [](PanelContext& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
     OperationHandler{"start_part",
                      [](PanelContext& desk, const Caller&, const json& fields) {
-                         return accepted(
-                             rack::start_part(desk.machine.rack(), fields.at("part").get_ref<const std::string&>()));
+                         return start_part(desk, fields.at("part").get_ref<const std::string&>());
                      }},
     OperationHandler{"write_register", nullptr,
                      [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {

@@ -79,15 +79,31 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     return out;
 }
 
-Result<void> not_stopped(PanelContext& desk) {
-    const rack::StopLatch& latch = desk.machine.rack().stop_latch();
-    if (!latch.latched()) return {};
-    return fail(ErrorKind::refused, fmt::format("{} Nothing was marked. {}", latch.sentence(), latch.advice()));
+/// A mark command while its list is made in the worker.
+struct MarkCommand {
+    std::string card, session;
+    std::uint64_t stops = 0;       ///< StopLatch::trips()
+    std::uint64_t mark_stops = 0;  ///< PanelContext::mark_stops
+};
+
+/// Refuses a command that something has ended since it was given.
+Result<void> check_still_wanted(PanelContext& desk, const MarkCommand& command) {
+    MOTIONRACK_CHECK(desk.machine.may_begin("Not marked"));
+    const auto refuse = [](const char* why) {
+        return fail(ErrorKind::refused,
+                    fmt::format("Not marked: {} while the list was made. Nothing was marked; mark again.", why));
+    };
+    if (desk.machine.rack().stop_latch().trips() != command.stops) return refuse("the machine was stopped");
+    if (desk.mark_stops != command.mark_stops) return refuse("the marking was stopped");
+    const auto holder = desk.lease.holder();
+    if (!holder || holder->session != command.session) return refuse("control was lost");
+    return {};
 }
 
 /// Call on the motion thread, between runs.
-Result<json> begin_marking(PanelContext& desk, const std::string& card, const Lists& lists) {
-    MOTIONRACK_CHECK(not_stopped(desk));
+Result<json> begin_marking(PanelContext& desk, const MarkCommand& command, const Lists& lists) {
+    MOTIONRACK_CHECK(check_still_wanted(desk, command));
+    const std::string& card = command.card;
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
     if (!engine.at_rest())
         return fail(
@@ -122,16 +138,18 @@ Result<void> check_card(PanelContext& desk, const std::string& card) {
                 fmt::format("Card {} marks nothing: it is not an RTC5. Nothing was done.", card));
 }
 
-void mark(PanelContext& desk, const json& fields, Ready ready) {
+void mark(PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
-    if (const Result<void> may = not_stopped(desk); !may) return ready(tl::unexpected<Error>(may.error()));
+    if (const Result<void> may = desk.machine.may_begin("Not marked"); !may)
+        return ready(tl::unexpected<Error>(may.error()));
+    const MarkCommand command{card, caller.session, desk.machine.rack().stop_latch().trips(), desk.mark_stops};
     const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(),
                        drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
         return lists_of(config, card, text, drawing, on_parts);
     };
-    desk.run_async<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) {
-        ready(lists ? begin_marking(desk, card, *lists) : tl::unexpected<Error>(lists.error()));
+    desk.run_async<Lists>(work, [&desk, ready, command](const Result<Lists>& lists) {
+        ready(lists ? begin_marking(desk, command, *lists) : tl::unexpected<Error>(lists.error()));
     });
 }
 
@@ -140,6 +158,7 @@ Result<json> stop(PanelContext& desk, const json& fields) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_card(desk, card));
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
+    ++desk.mark_stops;
     engine.set_control_mode(0);
     engine.stop_execution();
     return json::object();
@@ -147,8 +166,8 @@ Result<json> stop(PanelContext& desk, const json& fields) {
 
 constexpr std::array mark_rows = {
     OperationHandler{"mark", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         mark(desk, fields, std::move(ready));
+                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
+                         mark(desk, caller, fields, std::move(ready));
                      }},
     OperationHandler{"mark_stop",
                      [](PanelContext& desk, const Caller&, const json& fields) { return stop(desk, fields); }},

@@ -87,6 +87,7 @@ struct PanelContext {
     Scope scope;
     ActualPath driven;
     std::shared_ptr<const ProgramPlan> plan;  ///< plan of the last started program; nullptr until it is ready
+    std::uint64_t mark_stops = 0;             ///< mark_stop commands so far
     std::int64_t programs = 0;                ///< programs started: number of the plan
     std::string program;                      ///< text of the last started program
     std::string letters;                      ///< letters of the axes

@@ -271,12 +271,11 @@ class AxisCheck {
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
                              u, axis_.letter, number_text(axis_.max_velocity_step), short_text(min_velocity)));
-        if (const double max_servo_accel = servo.current_limit_accel / (1 + servo.load);
-            axis_.max_accel > max_servo_accel)
+        if (const double max_accel = servo.current_limit_accel / (1 + servo.load); axis_.max_accel > max_accel)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
-                             u, axis_.letter, number_text(axis_.max_accel), short_text(max_servo_accel)));
+                             u, axis_.letter, number_text(axis_.max_accel), short_text(max_accel)));
         const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.velocity_per_volt);
         if (axis_.max_velocity > reach * rounding)
             warn("max_velocity_{u}_s", {},

@@ -147,6 +147,10 @@ class Homing {
         std::vector<Work*> group;
         for (Work& work : works_)
             if (work.running->config.homing.order == order) group.push_back(&work);
+        if (group.front()->running->card->host().stop_requested()) {
+            out_.ended = fail(ErrorKind::stopped, "The search for home was stopped before it began.");
+            return;
+        }
         const Instant now = rack_.kernel().now();
         for (Work* work : group) {
             if (Result<void> begun = work->axis->home(work->order, now); !begun) {

@@ -8,6 +8,7 @@
 //   grating bus: cards ──frames──► processors ──volts──► stages ──scales──► decoder
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <motionrack/control/axis_group.hpp>
@@ -54,6 +55,11 @@ struct RunningAxis {
     /// Velocity of the table caused by the rotor at `now`, mm/s or degrees/s, signed.
     double velocity(Instant now) const {
         return servo ? servo->rate(now) * machine->units_per_pulse() : machine->velocity();
+    }
+    /// Returns false at standstill. A servo in position hold oscillates; below 1 % of its velocity it is at standstill.
+    bool moves(Instant now) const {
+        constexpr double trembles = 0.01;
+        return std::fabs(velocity(now)) > (servo ? trembles * config.max_velocity : 0);
     }
 };
 

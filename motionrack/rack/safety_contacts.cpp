@@ -19,6 +19,17 @@ SafetyContacts::SafetyContacts(sim::Kernel& kernel, const RackSafety& settings)
     kernel_.listen(door_, id_, door_pin);
 }
 
+void SafetyContacts::press(bool pressed) {
+    state_.pressed = pressed ? 1 : 0;
+    drive();
+    kernel_.settle();
+}
+
+void SafetyContacts::drive() {
+    const bool closed = !has_channels() || (level(0) != 0 && level(1) != 0);
+    kernel_.set_wire(estop_, closed && state_.pressed == 0 ? 1 : 0);
+}
+
 void SafetyContacts::on_wire(int pin, int changed, Instant now) {
     if (pin == door_pin) {
         if (changed != 0) return;
@@ -27,7 +38,7 @@ void SafetyContacts::on_wire(int pin, int changed, Instant now) {
         return;
     }
     const bool alike = level(0) == level(1);
-    kernel_.set_wire(estop_, level(0) != 0 && level(1) != 0 ? 1 : 0);
+    drive();
     if (alike) state_.differs = state_.told = 0;
     kernel_.schedule(id_, alike ? never : later(now, from_seconds(settings_.estop_discrepancy_ms * 1e-3)));
 }

@@ -4,6 +4,7 @@
 //            ├── both closed ──► estop ──► cards, stop latch        the first contact that opens acts immediately
 //   estop2 ──┘
 //      └── different for longer than permitted ──► a fault: no reset until both agree again
+//   the button of an operator's page acts in series with both
 //
 //   door ──► open: feed hold, or a stop if the driver cannot hold; no motion starts
 //
@@ -26,6 +27,10 @@ class SafetyContacts final : public sim::Device {
 
     /// Returns true if the channels have differed for longer than permitted.
     bool differs() const { return state_.differs != 0; }
+    /// Presses or releases an operator's button, which acts in series with the contacts. Call between runs.
+    void press(bool pressed);
+    /// Returns true while the button is pressed, a contact is open, or the wire `estop` is held low.
+    bool is_pressed() const { return kernel_.level(estop_) == 0; }
     bool door_open() const { return has_door() && kernel_.level(door_) == 0; }
     bool has_door() const { return door_ != sim::WireId::none; }
     /// Instant of the last opening.
@@ -41,8 +46,10 @@ class SafetyContacts final : public sim::Device {
     static constexpr int door_pin = 2;
     struct State {
         Instant differs_at{}, door_opened{};
-        std::int32_t differs = 0, told = 0;
+        std::int32_t differs = 0, told = 0, pressed = 0, unused = 0;
     };
+    bool has_channels() const { return channels_[0] != sim::WireId::none; }
+    void drive();
     int level(int channel) const { return kernel_.level(channels_[static_cast<std::size_t>(channel)]); }
 
     sim::Kernel& kernel_;

@@ -19,8 +19,6 @@ constexpr Duration bounces_for = milliseconds(20);
 constexpr Duration card_has = whole_seconds(2);
 /// Time allowed for the driver to detect standstill.
 constexpr Duration seen_within = milliseconds(300);
-/// A servo in position hold oscillates; below this fraction of its velocity it is at standstill.
-constexpr double trembles = 0.01;
 
 struct SourceWords {
     StopSource source;
@@ -38,11 +36,6 @@ constexpr std::array<SourceWords, stop_sources.size()> words = {{
 
 const SourceWords& words_of(StopSource source) {
     return words[static_cast<std::size_t>(source)];
-}
-
-bool moves(const RunningAxis& axis, Instant now) {
-    const double velocity = std::fabs(axis.velocity(now));
-    return axis.servo ? velocity > trembles * axis.config.max_velocity : velocity > 0;
 }
 
 }  // namespace
@@ -144,7 +137,7 @@ bool StopLatch::trips(const Input& input, Instant now) {
 bool StopLatch::is_behind(const Input& input, Instant now) const {
     if (input.source != StopSource::limit_switch) return false;
     const RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.axis)];
-    return moves(axis, now) && axis.velocity(now) * input.direction < 0;
+    return axis.moves(now) && axis.velocity(now) * input.direction < 0;
 }
 
 /// Returns true if the card itself stops the motion at this input.
@@ -152,13 +145,13 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     const std::vector<RunningAxis>& axes = rack_.axes();
     switch (input.source) {
         case StopSource::limit_switch:
-            return moves(axes[static_cast<std::size_t>(input.axis)], now) && !is_behind(input, now);
+            return axes[static_cast<std::size_t>(input.axis)].moves(now) && !is_behind(input, now);
         case StopSource::emergency_stop:  // look() finds the cards that have received it
-            return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return moves(axis, now); });
+            return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return axis.moves(now); });
         case StopSource::watchdog:
-            return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) { return moves(axis, now); }) &&
+            return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) { return axis.moves(now); }) &&
                    std::all_of(axes.begin(), axes.end(),
-                               [&](const RunningAxis& axis) { return !moves(axis, now) || is_on_card(axis, input); });
+                               [&](const RunningAxis& axis) { return !axis.moves(now) || is_on_card(axis, input); });
         case StopSource::drive_alarm:
         case StopSource::following_error:
         case StopSource::stop_command:
@@ -192,15 +185,17 @@ bool StopLatch::is_stopped_by_card(char letter) const {
 void StopLatch::trip(StopSource source, int input, Instant now) {
     const Input* from = input < 0 ? nullptr : &inputs_[static_cast<std::size_t>(input)];
     ++state_.trips;
-    if ((state_.tripped & bit(source)) == 0) state_.pending |= bit(source);
+    if ((state_.tripped & bit(source)) == 0 || source == StopSource::stop_command) state_.pending |= bit(source);
     state_.tripped |= bit(source);
     note_lost(source, from, now);
-    if (state_.latched == 0) {
-        state_.latched = 1;
+    const bool first = state_.latched == 0;
+    const bool adds_cause = !first && is_ordered() && source != StopSource::stop_command;
+    if (first) ramps_.begin(now);
+    state_.latched = 1;
+    if (first || adds_cause) {
         state_.at = now;
         state_.cause = static_cast<std::int32_t>(source);
         state_.input = input;
-        ramps_.begin(now);
         if (from != nullptr && is_behind(*from, now)) state_.behind = -from->direction;
     }
     if (from == nullptr || !left_to_card(*from, now)) halted_ = true;
@@ -208,7 +203,7 @@ void StopLatch::trip(StopSource source, int input, Instant now) {
 }
 
 void StopLatch::stays_behind(std::size_t axis, Instant now) {
-    if (state_.latched != 0) {
+    if (state_.latched != 0 && !is_ordered()) {
         state_.lost |= 1u << rack_.axes()[axis].config.index();
         state_.unfollowed |= 1u << rack_.axes()[axis].config.index();
         return;
@@ -269,14 +264,12 @@ void StopLatch::look() {
     }
     if (state_.latched == 0) return;
     for (const StopSource source : stop_sources)
-        if ((std::exchange(state_.pending, state_.pending & ~bit(source)) & bit(source)) != 0)
-            for (const StopReaction& reaction : stop_reactions())
-                if (reaction.act != nullptr && reaction.is_to(source)) reaction.act(rack_, reaction);
+        if ((std::exchange(state_.pending, state_.pending & ~bit(source)) & bit(source)) != 0) react(rack_, source);
     if (halted_) return;
     const Instant now = kernel_.now();
     bool any = false, heard = true;
     for (const RunningAxis& axis : rack_.axes()) {
-        if (!moves(axis, now)) continue;
+        if (!axis.moves(now)) continue;
         any = true;
         for (const Input& input : inputs_)
             if (input.source == StopSource::emergency_stop && cause() == input.source && is_on_card(axis, input))

@@ -69,9 +69,9 @@ class StopLatch final : public sim::Device {
     bool latched() const { return state_.latched != 0; }
     /// Flag that makes the latch a source of stop requests: see VirtualHost::set_halted_flag.
     const std::atomic<bool>& halted() const { return halted_; }
-    /// Returns true if a stop command was the only cause.
+    /// Returns true if stop commands were the only cause.
     bool is_ordered() const { return cause() == StopSource::stop_command && state_.by_door == 0; }
-    /// First cause, and its instant; valid while latched.
+    /// First cause, and its instant; valid while latched. A stop command is replaced by the first other cause.
     StopSource cause() const { return static_cast<StopSource>(state_.cause); }
     Instant at() const { return state_.at; }
     /// Returns true if the driver of this axis must decelerate it: the latch is set, and the card does not stop the

@@ -131,6 +131,11 @@ std::span<const StopReaction> stop_reactions() {
     return reactions;
 }
 
+void react(Rack& rack, StopSource source) {
+    for (const StopReaction& reaction : reactions)
+        if (reaction.act != nullptr && reaction.is_to(source)) reaction.act(rack, reaction);
+}
+
 std::span<const StopState> stop_states() {
     return states;
 }

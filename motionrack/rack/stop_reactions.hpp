@@ -39,6 +39,8 @@ struct StopReaction {
 };
 
 std::span<const StopReaction> stop_reactions();
+/// Executes the reactions of the latch itself to this source. Call between runs.
+void react(Rack& rack, StopSource source);
 
 /// A machine state in which a stop is tested.
 struct StopState {

@@ -53,7 +53,8 @@ struct Sight {
     std::int64_t sequence = 0;
     operate::MachineState state = operate::MachineState::standstill;
     bool latched = false;
-    bool abrupt = false;  ///< ends pulses without a ramp
+    bool abrupt = false;     ///< ends pulses without a ramp
+    bool by_writes = false;  ///< register writes drive an axis at standstill of the machine
     int lasers_on = 0;
     double belt_velocity = 0;  ///< sum over all belts and tables
     std::vector<AxisSight> axes;

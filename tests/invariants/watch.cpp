@@ -76,11 +76,14 @@ void RackWatch::look() {
 
 MachineWatch::MachineWatch(operate::Machine& machine, Invariants::Report report)
     : RackWatch(machine.rack(), milliseconds(2), std::move(report)) {
-    machine.listen([this](const operate::Status& status) { see(status); });
+    machine.listen([this, &machine](const operate::Status& status) {
+        see(status, machine.manual_access().moving_axis() != '\0');
+    });
 }
 
-void MachineWatch::see(const operate::Status& status) {
+void MachineWatch::see(const operate::Status& status, bool by_writes) {
     Sight now = sight();
+    now.by_writes = by_writes;
     now.at = status.at;
     now.sequence = status.sequence;
     now.state = status.state;

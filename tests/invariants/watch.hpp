@@ -41,7 +41,7 @@ class MachineWatch : public RackWatch {
     explicit MachineWatch(operate::Machine& machine, Invariants::Report report = fail_test);
 
   private:
-    void see(const operate::Status& status);
+    void see(const operate::Status& status, bool by_writes);
 };
 
 }  // namespace motionrack::test

@@ -136,7 +136,7 @@ TEST(Service, DrivesNothingElse) {
         refused(m.begin_program("G0 X20\n", "p"));
         refused(m.set_position('X', 0));
         EXPECT_FALSE(m.resume());
-        EXPECT_FALSE(m.access({"m", 16, 0, {}}, [](std::uint32_t) {}));
+        EXPECT_FALSE(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {}));
         EXPECT_FALSE(m.service().begin("m", anna, "w1", {}));
     });
     o.run(0.2);

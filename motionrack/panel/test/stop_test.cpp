@@ -98,5 +98,119 @@ TEST_P(StopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
     EXPECT_FALSE(started.belt_waits || started.mask_waits);
 }
 
+/// The demonstration with a door.
+rack::RackConfig with_door() {
+    return config_of(text_of_file("examples/15_panel/demonstration.toml") + "\n[safety]\ndoor = true\n");
+}
+
+std::string message_of(const Answer& answer) {
+    return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : answer.body.dump();
+}
+
+TEST(DoorOnThePage, PutsOutTheLaserAndStopsBeltsAndStagesUntilItIsClosed) {
+    Asked a(with_door());
+    const auto laser = [&] { return *a.machine->wires().get("scan.laser_on"); };
+    const auto belt = [&] { return a.machine->rack().track("line")->track().velocity(to_seconds(a.machine->now())); };
+    const auto refused = [](const Answer& answer) {
+        EXPECT_EQ(answer.status, 409);
+        EXPECT_THAT(message_of(answer), HasSubstr("the door is open"));
+    };
+    a.good(0.1, "take_control");
+    a.good(0.2, "mark", {{"card", "scan"}, {"job", slow_job}});
+    bool was_on = false;
+    for (int i = 0; i < 20; ++i) a.at(0.6 + 0.01 * i, [&] { was_on = was_on || laser() != 0; });
+    a.good(1.0, "set_wire", {{"name", "door"}, {"value", 0}});
+    double marked_mm = 0;
+    const auto see = [&](double seconds, double& mm) {
+        a.at(seconds, eve, "workpiece", {{"scanner", "head"}},
+             [&](const Answer& answer) { mm = answer.body["marked_mm"]; });
+    };
+    see(1.02, marked_mm);
+    a.at(1.05, [&] {
+        EXPECT_TRUE(was_on);
+        EXPECT_EQ(laser(), 0);
+        EXPECT_EQ(belt(), 0);
+    });
+    a.at(1.2, anna, "mark", {{"card", "scan"}, {"job", slow_job}}, refused);
+    a.at(1.2, anna, "start_part", {{"part", "line"}}, refused);
+    a.good(1.5, "set_wire", {{"name", "door"}, {"value", 1}});
+    double later_mm = 0;
+    see(2, later_mm);
+    a.at(2, [&] { EXPECT_EQ(belt(), 0) << "closing it starts nothing"; });
+    a.good(2.1, "start_part", {{"part", "line"}});
+    a.at(3, [&] { EXPECT_EQ(belt(), 50); });
+    a.run(3.1);
+    EXPECT_EQ(later_mm, marked_mm);
+}
+
+/// Something that ends a mark command while its list is made.
+struct EndOfMarking {
+    const char* name;
+    const char* command;
+    json fields;
+    const char* why;
+};
+void PrintTo(const EndOfMarking& end, std::ostream* out) {
+    *out << end.name;
+}
+
+class MarkCommand : public testing::TestWithParam<EndOfMarking> {};
+
+TEST_P(MarkCommand, IsNotCarriedOutIfSomethingEndsItWhileItsListIsMade) {
+    Asked a(with_door());
+    a.good(0.1, "take_control");
+    int answered = 0;
+    a.at(0.2, [&] {
+        a.ask(anna, "mark", {{"card", "scan"}, {"job", slow_job}}, [&](const Answer& answer) {
+            ++answered;
+            EXPECT_EQ(answer.status, 409);
+            EXPECT_THAT(message_of(answer), HasSubstr(GetParam().why));
+        });
+        a.ask(anna, GetParam().command, GetParam().fields,
+              [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    });
+    a.at(0.5, eve, "workpiece", {{"scanner", "head"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.body["marked_mm"], 0); });
+    a.run(1);
+    EXPECT_EQ(answered, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ends, MarkCommand,
+    testing::Values(EndOfMarking{"stop", "stop", json::object(), "Stopped on request"},
+                    EndOfMarking{"mark_stop", "mark_stop", {{"card", "scan"}}, "the marking was stopped"},
+                    EndOfMarking{"release_control", "release_control", json::object(), "control was lost"},
+                    EndOfMarking{"door", "set_wire", {{"name", "door"}, {"value", 0}}, "the door is open"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+TEST(ButtonOnThePage, ActsInSeriesWithTheContactsOfTheMachine) {
+    Asked a(config_of(
+        "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[safety]\nestop_channels = 2\n"));
+    const auto is = [&](double seconds, operate::MachineState state) {
+        a.at(seconds, [&a, state] { EXPECT_EQ(a.machine->state(), state) << operate::name_of(a.machine->state()); });
+    };
+    using enum operate::MachineState;
+    a.good(0.1, "take_control");
+    a.good(0.1, "enable", {{"on", true}});
+    a.good(0.2, "set_estop", {{"pressed", true}});
+    is(0.3, error_stop);
+    a.good(0.3, "set_estop", {{"pressed", false}});
+    a.good(0.35, "reset");
+    is(0.4, standstill);
+    a.good(0.4, "set_wire", {{"name", "estop1"}, {"value", 0}});
+    is(0.45, error_stop);
+    a.good(0.45, "set_wire", {{"name", "estop2"}, {"value", 0}});
+    a.at(0.5, bert, "set_estop", {{"pressed", false}}, [](const Answer& answer) {
+        EXPECT_EQ(answer.status, 409);
+        EXPECT_THAT(message_of(answer), HasSubstr("stays pressed"));
+    });
+    a.good(0.55, "reset");
+    is(0.6, error_stop);
+    for (const char* contact : {"estop1", "estop2"}) a.good(0.7, "set_wire", {{"name", contact}, {"value", 1}});
+    a.good(0.8, "reset");
+    is(0.9, standstill);
+    a.run(1);
+}
+
 }  // namespace
 }  // namespace motionrack::panel

@@ -1,0 +1,30 @@
+// Work offsets.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/operate/machine.hpp>
+
+namespace motionrack::operate {
+
+Result<void> Machine::touch_off(char axis, double value) {
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "The work offset was not set", axis));
+    if (!std::isfinite(value))
+        return fail(ErrorKind::invalid_input, "The work offset was not set: the value is not a number.");
+    if (stream_->has_work())
+        return fail(ErrorKind::refused,
+                    "The work offset was not set: the machine moves. Stop it, or wait for standstill.");
+    const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;
+    if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read)
+        return tl::unexpected<Error>(read.error());
+    return {};
+}
+
+Result<void> Machine::clear_offsets() {
+    if (stream_->has_work())
+        return fail(ErrorKind::refused,
+                    "The work offsets were not changed: the machine moves. Stop it, or wait for standstill.");
+    stream_->clear_offsets();
+    return {};
+}
+
+}  // namespace motionrack::operate

@@ -1,0 +1,168 @@
+// Manual accesses to the cards' buses: their conditions, and the end of motion that register writes start.
+#include <gmock/gmock.h>
+
+#include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/operate/test/operated.hpp>
+
+namespace motionrack::operate {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string with_card = "[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n";
+
+std::string refused_text(const Result<void>& result) {
+    return result ? std::string() : result.error().message;
+}
+
+std::string write_16(Machine& m, const char* card, std::uint32_t address, std::uint32_t value) {
+    return refused_text(m.manual_access().request({card, 16, address, value}, [](const auto&) {}));
+}
+
+/// Writes what makes the X axis of an MCX314 drive in + direction until it is stopped.
+void drive_x(Machine& m) {
+    constexpr std::uint32_t x = 1 << 8, wr0 = 0, wr6 = 12, wr7 = 14;
+    struct Write {
+        std::uint32_t address, value;
+    };
+    for (const auto& [address, value] : {Write{wr6, 0x1200},
+                                         {wr7, 0x007A},
+                                         {wr0, x | 0x00},  // R: multiple 1
+                                         {wr6, 400},
+                                         {wr0, x | 0x02},  // A
+                                         {wr6, 100},
+                                         {wr0, x | 0x04},  // SV
+                                         {wr6, 4000},
+                                         {wr0, x | 0x05},
+                                         {wr0, x | 0x22}})
+        EXPECT_EQ(write_16(m, "m", address, value), "");
+}
+
+bool x_moves(Machine& m) {
+    return m.rack().axes()[0].velocity(m.now()) != 0;
+}
+
+TEST(ManualAccess, ReachesACardThatOnlyMeasuresWhileAxesMoveAndNoOther) {
+    Operated o(two_axes(with_card));
+    int answered = 0;
+    std::string refused;
+    const auto read = [&](Machine& m, const char* card, std::uint32_t address) {
+        return m.manual_access().request({card, 16, address, {}}, [&](const Result<std::uint32_t>&) { ++answered; });
+    };
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X20 F600", 1)); });
+    o.at(0.5, [&](Machine& m) {
+        EXPECT_TRUE(read(m, "glass", 0x2300 + ioflex02::offset("STATUS")));
+        refused = refused_text(read(m, "m", 0));
+    });
+    o.at(0.6, [&](Machine&) { EXPECT_EQ(answered, 1); });
+    o.run(4);
+    EXPECT_THAT(refused, HasSubstr("The card was not accessed: the machine is in state"));
+    EXPECT_NEAR(o.x(), 30, 1e-9) << "the motion went on";
+}
+
+TEST(ManualAccess, WritesNothingWhileAStopIsInForce) {
+    Operated o(two_axes(with_card));
+    const std::uint32_t outputs = 0x2300 + ioflex02::offset("OUTL");
+    o.at(0.1, [](Machine& m) { m.stop(); });
+    for (const double seconds : {0.1, 0.2})  // in the slice of the stop, and in the error stop
+        o.at(seconds, [=](Machine& m) {
+            EXPECT_THAT(write_16(m, "m", 0, 0x0122), HasSubstr("Stopped on request at 0.1"));
+            EXPECT_THAT(write_16(m, "glass", outputs, 0xFF), HasSubstr("The card was not written"));
+            EXPECT_TRUE(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {})) << "it may be read";
+        });
+    o.at(0.3, [](Machine& m) { m.reset(); });
+    o.at(0.4, [=](Machine& m) { EXPECT_EQ(write_16(m, "glass", outputs, 0xFF), ""); });
+    o.at(0.5, [](Machine& m) { m.stop(); });
+    o.at(0.6, [](Machine& m) { EXPECT_EQ(*m.wires().get("glass.out0"), 0) << "the stop has cleared it"; });
+    o.run(0.7);
+}
+
+TEST(ManualAccess, GivesUpAWriteIfAStopComesBeforeIt) {
+    Operated o(two_axes());
+    std::string answer;
+    o.at(0.1, [&](Machine& m) {
+        EXPECT_TRUE(m.manual_access().request({"m", 16, 0, 0x0122}, [&](const Result<std::uint32_t>& done) {
+            answer = done ? "written" : done.error().message;
+        }));
+        m.stop();
+    });
+    o.run(0.2);
+    EXPECT_THAT(answer, HasSubstr("The card was not written: Stopped on request"));
+}
+
+TEST(ManualAccess, WritesToNoCardOfADisabledAxis) {
+    Operated o(two_axes(with_card));
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.enable(false, "Y"));
+        EXPECT_THAT(write_16(m, "m", 0, 0), HasSubstr("axis Y is disabled")) << "also before it is carried out";
+    });
+    o.at(0.2, [](Machine& m) {
+        EXPECT_THAT(write_16(m, "m", 0, 0), HasSubstr("axis Y is disabled"));
+        EXPECT_EQ(write_16(m, "glass", 0x2300 + ioflex02::offset("OUTL"), 1), "") << "it moves no axis";
+    });
+    o.run(0.3);
+}
+
+TEST(ManualAccess, WritesToNoCardThatMovesWhileTheDoorIsOpen) {
+    Operated o(two_axes(with_card + "[safety]\ndoor = true\n"));
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.wires().force("door", 0));
+        EXPECT_THAT(write_16(m, "m", 0, 0), HasSubstr("the door is open"));
+    });
+    o.run(0.2);
+}
+
+/// Everything that ends motion which register writes have started at standstill.
+struct EndOfMotion {
+    const char* name;
+    void (*give)(Machine& m);
+    const char* state;
+};
+void PrintTo(const EndOfMotion& end, std::ostream* out) {
+    *out << end.name;
+}
+
+class MotionByRegisters : public testing::TestWithParam<EndOfMotion> {};
+
+TEST_P(MotionByRegisters, EndsWithEveryStopAndBlocksEveryStart) {
+    Operated o(two_axes("[safety]\ndoor = true\n"));
+    double moved_to = 0;
+    o.at(0.1, [](Machine& m) { drive_x(m); });
+    o.at(0.5, [&](Machine& m) {
+        EXPECT_TRUE(x_moves(m));
+        for (const std::string& refused : {refused_text(m.set_position('X', 0)), refused_text(m.jog('Y', 5)),
+                                           refused_text(m.home("")), refused_text(m.service().begin("m", {}, "", {}))})
+            EXPECT_THAT(refused, HasSubstr("axis X is moved by register writes"));
+        GetParam().give(m);
+    });
+    o.at(0.55, [&](Machine& m) {
+        EXPECT_FALSE(x_moves(m)) << "within 50 ms";
+        moved_to = m.status().axes[0].true_position;
+        EXPECT_FALSE(m.status().axes[0].position_valid);
+    });
+    o.at(1, [&](Machine& m) {
+        EXPECT_EQ(name_of(m.state()), std::string(GetParam().state));
+        EXPECT_EQ(m.status().axes[0].true_position, moved_to);
+        EXPECT_TRUE(m.wires().force("estop", 1));
+        m.reset();
+    });
+    o.at(1.1, [&](Machine& m) {
+        EXPECT_TRUE(m.enable(true));
+        EXPECT_EQ(m.status().axes[0].true_position, moved_to) << "a reset moves nothing";
+        for (const char letter : {'X', 'Y'}) EXPECT_TRUE(m.set_position(letter, 20));
+    });
+    o.at(1.2, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nM2\n", "p")); });
+    o.run(3);
+    EXPECT_NEAR(o.x(), 30, 1e-3) << "the controller drives it again";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ends, MotionByRegisters,
+    testing::Values(EndOfMotion{"stop", [](Machine& m) { m.stop(); }, "error stop"},
+                    EndOfMotion{"reset", [](Machine& m) { m.reset(); }, "standstill"},
+                    EndOfMotion{"disable", [](Machine& m) { EXPECT_TRUE(m.enable(false)); }, "disabled"},
+                    EndOfMotion{"estop", [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); }, "error stop"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace
+}  // namespace motionrack::operate

@@ -1,0 +1,213 @@
+// Commands that meet in one slice: whatever was acknowledged first takes effect first.
+#include <gmock/gmock.h>
+
+#include "operated.hpp"
+
+namespace motionrack::operate {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string door = "[safety]\ndoor = true\n";
+
+void set_all_positions(Machine& m) {
+    for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
+}
+
+std::string refusal_of(const Result<void>& result) {
+    return result ? std::string() : result.error().message;
+}
+
+TEST(Disabling, IsNotOvertakenByAStart) {
+    Operated o(two_axes("[axis.X.switches]\nhome_mm = 0\n"));
+    o.at(0.05, set_all_positions);
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.enable(false));
+        for (const Result<void>& start : {m.begin_program("G21 G90 F600\nG1 X20\n", "p"), m.home("X"), m.jog('X', 5),
+                                          m.jog_by('X', 5, 5), m.jog_to({20, 0, 0, 0, 0, 0}, 5)})
+            EXPECT_THAT(refusal_of(start), HasSubstr("axis X is disabled"));
+        EXPECT_FALSE(m.line("G1 X20 F600", 1));
+    });
+    o.run(3);
+    EXPECT_EQ(o.x(), 0) << "as at first";
+    EXPECT_EQ(o.machine->state(), MachineState::disabled);
+}
+
+TEST(Reset, IsNotOvertakenByAStart) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        m.reset();
+        EXPECT_THAT(refusal_of(m.begin_program("G21 G90 F600\nG1 X20\n", "p")), HasSubstr("a reset is being"));
+        EXPECT_FALSE(m.line("G1 X20 F600", 1));
+    });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 1)); });
+    o.run(1);
+    EXPECT_EQ(o.x(), 12);
+}
+
+TEST(Cancelling, AtStandstillEndsNothingThatIsCommandedAfterIt) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        m.cancel();
+        EXPECT_TRUE(m.jog_by('X', 5, 20));
+    });
+    o.run(1);
+    EXPECT_NEAR(o.x(), 15, 1e-9);
+}
+
+class HoldBeforeTheFirstLine : public testing::TestWithParam<bool> {
+  protected:
+    static rack::RackConfig config() {
+        rack::RackConfig out = two_axes(door);
+        for (rack::RackAxis& axis : out.axes) axis.max_jerk = GetParam() ? 50'000 : 0;
+        return out;
+    }
+};
+
+TEST_P(HoldBeforeTheFirstLine, HoldsTheProgram) {
+    Operated o(config());
+    o.at(0.05, set_all_positions);
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
+        EXPECT_TRUE(m.hold());
+    });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_EQ(m.status().axes[0].commanded, 10);
+        EXPECT_TRUE(m.resume());
+    });
+    o.run(3);
+    EXPECT_NEAR(o.x(), 20, 1e-3);
+}
+
+TEST_P(HoldBeforeTheFirstLine, ComesFromTheDoor) {
+    Operated o(config());
+    o.at(0.05, set_all_positions);
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
+        EXPECT_TRUE(m.wires().force("door", 0));
+    });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_EQ(m.status().axes[0].commanded, 10);
+        EXPECT_TRUE(m.wires().force("door", 1));
+        EXPECT_TRUE(m.resume());
+    });
+    o.run(3);
+    EXPECT_NEAR(o.x(), 20, 1e-3);
+}
+
+TEST_P(HoldBeforeTheFirstLine, ComesFromTheLossOfTheRecord) {
+    Operated o(config());
+    o.at(0.05, set_all_positions);
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
+        m.forbid_starts("journal", "The disk is full.");
+    });
+    o.run(1);
+    EXPECT_EQ(o.x(), 10);
+}
+
+/// A hold that comes when the last line has been executed is a hold, too.
+TEST_P(HoldBeforeTheFirstLine, HoldsASenderBehindItsLastLine) {
+    Operated o(config());
+    o.at(0.05, set_all_positions);
+    bool held = false;
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X11 F1200", 1)); });
+    o.each_status([&](const Status& status) {
+        if (held || status.state != MachineState::moving || o.machine->stream().has_work() ||
+            to_seconds(status.at) < 0.15)
+            return;
+        held = true;
+        EXPECT_TRUE(o.machine->hold());
+        EXPECT_TRUE(o.machine->line("G1 X20", 2));
+    });
+    o.at(2, [&](Machine& m) {
+        if (!held) return;
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_NEAR(m.status().axes[0].commanded, 11, 1e-6);
+        EXPECT_TRUE(m.resume());
+    });
+    o.run(4);
+    if (held) {
+        EXPECT_NEAR(o.x(), 20, 1e-3);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Profiles, HoldBeforeTheFirstLine, testing::Bool(),
+                         [](const auto& each) { return each.param ? "JerkLimited" : "Trapezoid"; });
+
+/// A probing move of 100 mm that touches nothing.
+class ProbingMove : public testing::TestWithParam<bool> {};
+
+TEST_P(ProbingMove, EndsWhenTheDoorOpensOrTheRecordIsLost) {
+    rack::RackConfig config = *rack::read_rack_file((source_root / "examples/16_probe/machine.toml").string()).config;
+    config.safety.door = true;
+    Operated o(config);
+    double stood = 0;
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G91\nG38.3 X100 F600\nG1 X1\nM2\n", "p")); });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::moving);
+        EXPECT_GT(m.status().axes[0].velocity, 5);
+        if (GetParam())
+            EXPECT_TRUE(m.wires().force("door", 0));
+        else
+            m.forbid_starts("journal", "The disk is full.");
+    });
+    o.at(1.2, [&](Machine& m) {
+        EXPECT_EQ(m.status().axes[0].velocity, 0);
+        stood = m.status().axes[0].commanded;
+    });
+    o.run(2);
+    EXPECT_EQ(o.x(), stood);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+    ASSERT_FALSE(o.machine->status().alarms.empty());
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid);
+}
+
+INSTANTIATE_TEST_SUITE_P(By, ProbingMove, testing::Bool(),
+                         [](const auto& each) { return each.param ? "TheDoor" : "TheRecord"; });
+
+/// STOP at full velocity, then another cause in the ramp or at standstill.
+class AnotherCause : public testing::TestWithParam<double> {};
+
+TEST_P(AnotherCause, BehindAStopCommandHasItsOwnAlarm) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F6000\nG1 X200\nM2\n", "p")); });
+    o.at(1, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
+    o.at(1 + GetParam(), [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
+    o.at(2, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        ASSERT_EQ(m.status().alarms.size(), 1U);
+        EXPECT_EQ(m.status().alarms[0].source, "emergency stop");
+        EXPECT_EQ(m.status().axes[0].position_valid, GetParam() > 0.1);
+        EXPECT_FALSE(m.rack().stop_latch().is_ordered());
+        m.reset();
+    });
+    o.at(2.1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop) << "it is still pressed";
+        EXPECT_TRUE(m.wires().force("estop", 1));
+        m.reset();
+    });
+    o.run(2.2);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+}
+
+INSTANTIATE_TEST_SUITE_P(After, AnotherCause, testing::Values(0.004, 0.5),
+                         [](const auto& each) { return each.param < 0.1 ? "InTheRamp" : "AtStandstill"; });
+
+TEST(DeclaredPositions, AreAllCarriedOutHoweverFastTheyCome) {
+    Operated o(carriage());
+    double last = 0;
+    o.each_status([&](const Status& status) {
+        if (to_seconds(status.at) < 0.1 || to_seconds(status.at) > 0.4) return;
+        const double position = 10 + 100 * to_seconds(status.at);
+        if (o.machine->set_position('X', position)) last = position;
+    });
+    o.run(1.5);
+    EXPECT_GT(last, 40);
+    EXPECT_NEAR(o.x(), last, 0.05);
+}
+
+}  // namespace
+}  // namespace motionrack::operate
