@@ -31,11 +31,6 @@ tl::unexpected<Error> not_now(std::string text) {
     return fail(ErrorKind::refused, std::move(text));
 }
 
-Result<void> not_stopped(const rack::StopLatch& latch, const char* what) {
-    if (!latch.latched()) return {};
-    return not_now(fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
-}
-
 Result<void> has_axes(const rack::RackConfig& config, const char* what) {
     if (!config.axes.empty()) return {};
     return not_now(
@@ -90,7 +85,7 @@ void Machine::quit() {
 
 /// Requires standstill and an enabled machine.
 Result<void> Machine::ready(const char* what) {
-    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
+    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), what));
     const auto refuse = [&](const std::string& why) {
         return not_now(fmt::format("{}: {}. Nothing was moved.", what, why));
     };
@@ -178,7 +173,7 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
         problem.place.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
     };
-    if (Result<void> can = not_stopped(rack_.stop_latch(), "The line was not accepted"); !can)
+    if (Result<void> can = rack::check_released(rack_.stop_latch(), "The line was not accepted"); !can)
         return refuse(can.error().message);
     if (Result<void> can = may_start("The line was not accepted"); !can) return refuse(can.error().message);
     if (program_runs_) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
@@ -257,7 +252,7 @@ Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
 
 Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
-    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
+    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
@@ -290,7 +285,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 }
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
-    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), "Not jogged"));
+    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
@@ -373,7 +368,7 @@ Result<void> Machine::may_start(const char* what) const {
 }
 
 Result<void> Machine::may_begin(const char* what) {
-    MOTIONRACK_CHECK(not_stopped(rack_.stop_latch(), what));
+    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), what));
     MOTIONRACK_CHECK(may_start(what));
     return door_.check_closed(what);
 }

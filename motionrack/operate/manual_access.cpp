@@ -22,13 +22,11 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 }  // namespace
 
 Result<void> ManualAccess::check_write(const std::string& card) const {
-    const rack::RackConfig& config = machine_.rack_.config();
-    if (const rack::StopLatch& latch = machine_.rack_.stop_latch(); latch.latched())
-        return fail(ErrorKind::refused,
-                    fmt::format("{}: {} Nothing was moved. {}", not_written, latch.sentence(), latch.advice()));
-    MOTIONRACK_CHECK(machine_.may_start(not_written));
-    if (measures_only(config, card)) return {};
-    MOTIONRACK_CHECK(machine_.door_.check_closed(not_written));
+    if (measures_only(machine_.rack_.config(), card)) {
+        MOTIONRACK_CHECK(rack::check_released(machine_.rack_.stop_latch(), not_written));
+        return machine_.may_start(not_written);
+    }
+    MOTIONRACK_CHECK(machine_.may_begin(not_written));
     return machine_.axes_may_move(not_written, machine_.service_.axes_of(card));
 }
 

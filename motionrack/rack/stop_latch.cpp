@@ -371,4 +371,10 @@ std::string_view StopLatch::advice() const {
     return words_of(cause()).advice;
 }
 
+Result<void> check_released(const StopLatch& latch, std::string_view what) {
+    if (!latch.latched()) return {};
+    return fail(ErrorKind::refused,
+                fmt::format("{}: {} Nothing was moved. {}", what, latch.sentence(), latch.advice()));
+}
+
 }  // namespace motionrack::rack

@@ -146,4 +146,7 @@ class StopLatch final : public sim::Device {
     std::atomic<bool> halted_{false};
 };
 
+/// Errors: refused while the latch is set: "`what`: The emergency stop was pressed at 1.200 s. Nothing was moved. ..."
+Result<void> check_released(const StopLatch& latch, std::string_view what);
+
 }  // namespace motionrack::rack
