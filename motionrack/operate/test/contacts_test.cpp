@@ -15,13 +15,6 @@ const std::string swapped_limits =
     "[axis.X.switches]\nlimit_minus_mm = -5\nlimit_plus_mm = 40\nhome_mm = 0\n"
     "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n";
 
-/// Sets all positions to their present values.
-void declare_all(Operated& o) {
-    o.at(0.02, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
-    });
-}
-
 std::string last_alarm(const Machine& m) {
     return m.status().alarms.empty() ? std::string() : m.status().alarms.back().text;
 }
@@ -30,7 +23,7 @@ class SwappedLimits : public testing::TestWithParam<bool> {};
 
 TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
     Operated o(two_axes(swapped_limits));
-    declare_all(o);
+    o.at(0.02, set_all_positions);
     o.at(0.1, [](Machine& m) {
         if (GetParam()) {
             EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\nM2\n", "p"));
@@ -79,7 +72,7 @@ class OneChannel : public testing::TestWithParam<const char*> {};
 TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffers) {
     const char* const channel = GetParam();
     Operated o(two_axes(two_channels));
-    declare_all(o);
+    o.at(0.02, set_all_positions);
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
     o.at(1, [channel](Machine& m) { EXPECT_TRUE(m.wires().force(channel, 0)); });
     o.at(1.01, [](Machine& m) { EXPECT_EQ(m.status().axes[0].velocity, 0) << "the first contact acts at once"; });
@@ -108,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Wires, OneChannel, testing::Values("estop1", "estop2"))
 
 TEST(TwoChannels, ThatOpenTogetherAreAPressedButtonAndNoFault) {
     Operated o(two_axes(two_channels));
-    declare_all(o);
+    o.at(0.02, set_all_positions);
     o.at(1, [](Machine& m) {
         EXPECT_TRUE(m.wires().force("estop1", 0));
         EXPECT_TRUE(m.wires().force("estop2", 0));
@@ -131,7 +124,7 @@ void open_door(Machine& m, bool open) {
 
 TEST(Door, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
     Operated o(two_axes(with_door));
-    declare_all(o);
+    o.at(0.02, set_all_positions);
     double held = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200 M3 S1000\nG1 X60\nM2\n", "p")); });
     o.at(1, [](Machine& m) {
@@ -158,7 +151,7 @@ TEST(Door, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
 
 TEST(Door, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
-    declare_all(o);
+    o.at(0.02, set_all_positions);
     double stood = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
     o.at(1, [](Machine& m) { open_door(m, true); });

@@ -11,12 +11,8 @@ using testing::HasSubstr;
 
 const std::string with_card = "[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n";
 
-std::string refused_text(const Result<void>& result) {
-    return result ? std::string() : result.error().message;
-}
-
 std::string write_16(Machine& m, const char* card, std::uint32_t address, std::uint32_t value) {
-    return refused_text(m.manual_access().request({card, 16, address, value}, [](const auto&) {}));
+    return refusal_of(m.manual_access().request({card, 16, address, value}, [](const auto&) {}));
 }
 
 /// Writes what makes the X axis of an MCX314 drive in + direction until it is stopped.
@@ -52,7 +48,7 @@ TEST(ManualAccess, ReachesACardThatOnlyMeasuresWhileAxesMoveAndNoOther) {
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X20 F600", 1)); });
     o.at(0.5, [&](Machine& m) {
         EXPECT_TRUE(read(m, "glass", 0x2300 + ioflex02::offset("STATUS")));
-        refused = refused_text(read(m, "m", 0));
+        refused = refusal_of(read(m, "m", 0));
     });
     o.at(0.6, [&](Machine&) { EXPECT_EQ(answered, 1); });
     o.run(4);
@@ -130,8 +126,8 @@ TEST_P(MotionByRegisters, EndsWithEveryStopAndBlocksEveryStart) {
     o.at(0.1, [](Machine& m) { drive_x(m); });
     o.at(0.5, [&](Machine& m) {
         EXPECT_TRUE(x_moves(m));
-        for (const std::string& refused : {refused_text(m.set_position('X', 0)), refused_text(m.jog('Y', 5)),
-                                           refused_text(m.home("")), refused_text(m.service().begin("m", {}, "", {}))})
+        for (const std::string& refused : {refusal_of(m.set_position('X', 0)), refusal_of(m.jog('Y', 5)),
+                                           refusal_of(m.home("")), refusal_of(m.service().begin("m", {}, "", {}))})
             EXPECT_THAT(refused, HasSubstr("axis X is moved by register writes"));
         GetParam().give(m);
     });

@@ -36,6 +36,16 @@ inline rack::RackConfig carriage() {
     return *rack::read_rack_file((source_root / "examples/11_carriage/machine.toml").string()).config;
 }
 
+/// Sets all positions to their present values.
+inline void set_all_positions(Machine& m) {
+    for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
+}
+
+/// Returns the message of a refused command; empty: it was accepted.
+inline std::string refusal_of(const Result<void>& result) {
+    return result ? std::string() : result.error().message;
+}
+
 /// A machine, and commands that are given at their instants.
 class Operated {
   public:

@@ -106,11 +106,10 @@ TEST(Machine, MovesNoAxisThatIsDisabled) {
 TEST(Machine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        const auto refused = [](const Result<void>& order) { return order ? std::string() : order.error().message; };
-        EXPECT_THAT(refused(m.jog('X', 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
-        EXPECT_THAT(refused(m.jog('X', -1e6)), HasSubstr("Nothing was moved"));
-        EXPECT_THAT(refused(m.jog_by('X', 1, 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
-        EXPECT_THAT(refused(m.jog_by('X', -1e6, 5)), HasSubstr("the distance is 1e+06 mm, but the travel"));
+        EXPECT_THAT(refusal_of(m.jog('X', 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
+        EXPECT_THAT(refusal_of(m.jog('X', -1e6)), HasSubstr("Nothing was moved"));
+        EXPECT_THAT(refusal_of(m.jog_by('X', 1, 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
+        EXPECT_THAT(refusal_of(m.jog_by('X', -1e6, 5)), HasSubstr("the distance is 1e+06 mm, but the travel"));
         EXPECT_EQ(m.state(), MachineState::standstill);
     });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 1, 5)); });

@@ -10,14 +10,6 @@ using testing::HasSubstr;
 
 const std::string door = "[safety]\ndoor = true\n";
 
-void set_all_positions(Machine& m) {
-    for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
-}
-
-std::string refusal_of(const Result<void>& result) {
-    return result ? std::string() : result.error().message;
-}
-
 TEST(Disabling, IsNotOvertakenByAStart) {
     Operated o(two_axes("[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.05, set_all_positions);
@@ -59,42 +51,35 @@ class HoldBeforeTheFirstLine : public testing::TestWithParam<bool> {
   protected:
     static rack::RackConfig config() {
         rack::RackConfig out = two_axes(door);
-        for (rack::RackAxis& axis : out.axes) axis.max_jerk = GetParam() ? 50'000 : 0;
+        out.controller.profile = GetParam() ? "jerk_limited" : "trapezoid";
         return out;
+    }
+    /// Holds a program by `hold` in the slice of its start, and resumes it 0.9 s later, after `before_resume`.
+    static void expect_held_until_resumed(void (*hold)(Machine& m), void (*before_resume)(Machine& m)) {
+        Operated o(config());
+        o.at(0.05, set_all_positions);
+        o.at(0.1, [=](Machine& m) {
+            EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
+            hold(m);
+        });
+        o.at(1, [=](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::hold);
+            EXPECT_EQ(m.status().axes[0].commanded, 10);
+            before_resume(m);
+            EXPECT_TRUE(m.resume());
+        });
+        o.run(3);
+        EXPECT_NEAR(o.x(), 20, 1e-3);
     }
 };
 
 TEST_P(HoldBeforeTheFirstLine, HoldsTheProgram) {
-    Operated o(config());
-    o.at(0.05, set_all_positions);
-    o.at(0.1, [](Machine& m) {
-        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
-        EXPECT_TRUE(m.hold());
-    });
-    o.at(1, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::hold);
-        EXPECT_EQ(m.status().axes[0].commanded, 10);
-        EXPECT_TRUE(m.resume());
-    });
-    o.run(3);
-    EXPECT_NEAR(o.x(), 20, 1e-3);
+    expect_held_until_resumed([](Machine& m) { EXPECT_TRUE(m.hold()); }, [](Machine&) {});
 }
 
 TEST_P(HoldBeforeTheFirstLine, ComesFromTheDoor) {
-    Operated o(config());
-    o.at(0.05, set_all_positions);
-    o.at(0.1, [](Machine& m) {
-        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM2\n", "p"));
-        EXPECT_TRUE(m.wires().force("door", 0));
-    });
-    o.at(1, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::hold);
-        EXPECT_EQ(m.status().axes[0].commanded, 10);
-        EXPECT_TRUE(m.wires().force("door", 1));
-        EXPECT_TRUE(m.resume());
-    });
-    o.run(3);
-    EXPECT_NEAR(o.x(), 20, 1e-3);
+    expect_held_until_resumed([](Machine& m) { EXPECT_TRUE(m.wires().force("door", 0)); },
+                              [](Machine& m) { EXPECT_TRUE(m.wires().force("door", 1)); });
 }
 
 TEST_P(HoldBeforeTheFirstLine, ComesFromTheLossOfTheRecord) {
@@ -106,32 +91,6 @@ TEST_P(HoldBeforeTheFirstLine, ComesFromTheLossOfTheRecord) {
     });
     o.run(1);
     EXPECT_EQ(o.x(), 10);
-}
-
-/// A hold that comes when the last line has been executed is a hold, too.
-TEST_P(HoldBeforeTheFirstLine, HoldsASenderBehindItsLastLine) {
-    Operated o(config());
-    o.at(0.05, set_all_positions);
-    bool held = false;
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X11 F1200", 1)); });
-    o.each_status([&](const Status& status) {
-        if (held || status.state != MachineState::moving || o.machine->stream().has_work() ||
-            to_seconds(status.at) < 0.15)
-            return;
-        held = true;
-        EXPECT_TRUE(o.machine->hold());
-        EXPECT_TRUE(o.machine->line("G1 X20", 2));
-    });
-    o.at(2, [&](Machine& m) {
-        if (!held) return;
-        EXPECT_EQ(m.state(), MachineState::hold);
-        EXPECT_NEAR(m.status().axes[0].commanded, 11, 1e-6);
-        EXPECT_TRUE(m.resume());
-    });
-    o.run(4);
-    if (held) {
-        EXPECT_NEAR(o.x(), 20, 1e-3);
-    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Profiles, HoldBeforeTheFirstLine, testing::Bool(),
