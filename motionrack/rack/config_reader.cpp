@@ -123,11 +123,14 @@ class RackReader {
             card.slot = scratch.slot;
             return;
         }
-        std::vector<std::string_view> common_names;
-        for (const Field& field : card_fields()) common_names.push_back(field.key);
-        for (const Field& field : known->settings) setting_names.push_back(field.key);
+        std::vector<FormerKey> former_names;
+        for (const Field& field : known->settings) {
+            setting_names.push_back(field.key);
+            if (!field.old_key.empty()) former_names.push_back({field.old_key, field.key});
+        }
         Section common = section;
         common.also = setting_names;
+        common.former = former_names;
         read_fields(node, card_fields(), &card, common, problems_);
         TomlNode settings = node;
         std::erase_if(settings.children, [&](const TomlNode& child) {
