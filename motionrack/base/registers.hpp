@@ -33,7 +33,7 @@ struct RegisterInfo {
 
 /// Checks the fields of a register: disjoint, within its width, contiguous, not empty, with unique names.
 constexpr DeclarationError fields_flaw(const RegisterInfo& reg) {
-    if (reg.width < 1 || reg.width > 32) return {reg.name, ": the width is not 1 to 32 bits"};
+    if (reg.width < 1 || reg.width > 32) return {reg.name, ": the width must be 1 to 32 bits"};
     if (const DeclarationError flaw = names_flaw(reg.name, "field", reg.fields); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < reg.fields.size(); ++i) {
         const FieldInfo& field = reg.fields[i];

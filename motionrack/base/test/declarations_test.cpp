@@ -39,7 +39,7 @@ TEST(RegisterTables, AllowAFieldAsWideAs32Bits) {
     constexpr FieldInfo all[] = {{"ALL", 0xFFFFFFFF, "everything"}};
     EXPECT_TRUE(fields_flaw({"R", 0, 32, Access::read, false, "", "a register", all}).empty());
     EXPECT_EQ(fields_flaw({"R", 0, 33, Access::read, false, "", "a register", {}}).text(),
-              "R: the width is not 1 to 32 bits");
+              "R: the width must be 1 to 32 bits");
 }
 
 TEST(RegisterTables, AllowOneOffsetOncePerDirectionAndBank) {

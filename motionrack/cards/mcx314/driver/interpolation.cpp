@@ -98,7 +98,10 @@ Result<void> Driver::SetCP(unsigned axes, std::int64_t centre) {
 
 Result<void> Driver::set_arc_tolerance(double part) {
     if (!(part >= 0 && part <= 1))
-        return fail(ErrorKind::refused, fmt::format("set_arc_tolerance: {} is not 0 to 1. Nothing was changed.", part));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("set_arc_tolerance: {} is out of range; it must be 0 to 1. The tolerance was not changed.",
+                        part));
     arc_tolerance_ = part;
     return {};
 }
