@@ -267,9 +267,9 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_flag("--grbl-resets-stop-all", options->grbl_resets_stop_all,
                       "a reset (^X) of any sender stops the machine, also while another client has control");
     command->footer(
-        "Example: motionrack serve router.toml --journal router.journal\nA real MCX314 in place of the card bench: "
-        "motionrack serve rack.toml --live bench=port:/dev/port,offset=0x300,width=8\nThe printed address has a code "
-        "for the first user; see docs/howto/serve.md.\nCtrl-C stops the axes and ends with code 0.");
+        "Example: motionrack serve router.toml --journal router.journal\nA real MCX314 or DataBoard 4002 in place of "
+        "the card bench: motionrack serve rack.toml --live bench=port:/dev/port,offset=0x300,width=8\nThe printed "
+        "address has a code for the first user; see docs/howto/serve.md.\nCtrl-C stops the axes and ends with code 0.");
     command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });
 }
 
