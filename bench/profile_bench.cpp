@@ -1,4 +1,5 @@
-// Speed of the time-optimal profile of one axis between two states, compared with the S-curve from rest to rest.
+// Speed of the time-optimal profile of one axis between two states, compared with the S-curve from standstill
+// to standstill.
 
 #include <benchmark/benchmark.h>
 

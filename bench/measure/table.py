@@ -89,9 +89,9 @@ PROGRAMS = [
     Program(
         "axis",
         "One axis beside verilator",
-        "One drive from rest to rest. *Heard*: the instant of every pulse is computed and delivered; else pulses "
-        "are counted. *Clocked*: `tests/verilog/mcx314_axis.v` compiled by verilator. Before the measurement, the "
-        "pulses of both are compared, to the tick.",
+        "One drive from standstill to standstill. *Heard*: the instant of every pulse is computed and delivered; else "
+        "pulses are counted. *Clocked*: `tests/verilog/mcx314_axis.v` compiled by verilator. Before the measurement, "
+        "the pulses of both are compared, to the tick.",
         [
             Bench(
                 "drive/servo",
@@ -176,10 +176,12 @@ PROGRAMS = [
         "Profiles and look-ahead",
         "16,384 random moves of all cases, so that no branch predictor learns them.",
         [
-            Bench("trapezoid_plan", "a trapezoid from rest to rest", PLAN, "trapezoid_plan_by_steps_of_1_ms"),
+            Bench(
+                "trapezoid_plan", "a trapezoid from standstill to standstill", PLAN, "trapezoid_plan_by_steps_of_1_ms"
+            ),
             Bench("trapezoid_plan_between_velocities", "between two speeds", PLAN),
             Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
-            Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
+            Bench("s_curve_plan", "an S-curve from standstill to standstill", PLAN, "s_curve_plan_by_bisection"),
             Bench("s_curve_plan_by_bisection", "its peak velocity found by bisection", PLAN),
             Bench(
                 "sample_s_curve",
@@ -222,7 +224,7 @@ PROGRAMS = [
             Bench("s_curve_from_rest_to_rest", "the S-curve, for rest to rest alone", PLAN),
             Bench(
                 "travel_from_rest_to_rest",
-                "the time-optimal motion, from rest to rest",
+                "the time-optimal motion, from standstill to standstill",
                 PLAN,
                 "s_curve_from_rest_to_rest",
             ),

@@ -66,7 +66,7 @@ class Machine:
 
     Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; commands are taken between two slices,
     often in the middle of a drive. The same commands at the same times give the same event trace.
-    Positions of axes with a home switch are not valid before these are homed or declared.
+    Positions of axes with a home switch are not valid before these are homed or set.
     """
 
     def __init__(self, rack: Rack) -> None:

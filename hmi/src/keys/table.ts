@@ -63,7 +63,7 @@ export const KEYS: readonly Key[] = [
     press: () => perform(actions.touchOff),
   },
   { keys: ['r', '~'], shown: 'r or ~', text: 'Run the program', press: () => perform(actions.run) },
-  { keys: ['t'], shown: 't', text: 'One step of the program', press: () => perform(actions.step) },
+  { keys: ['t'], shown: 't', text: 'Single block', press: () => perform(actions.step) },
   { keys: ['p', '!'], shown: 'p or !', text: 'Pause (feed hold)', press: () => perform(actions.hold) },
   { keys: ['s'], shown: 's', text: 'Resume', press: () => perform(actions.resume) },
   {

@@ -96,10 +96,9 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
     MOTIONRACK_TRY(const Events old, driver_.enable_events(event::POSITION | event::STOP));
     if (old.was_reset()) {
         position_valid_ = false;
-        return refuse(
-            what,
-            "the card was reset since it was set up; its table and position are lost. Home it, or declare its "
-            "position: either initialises the card again");
+        return refuse(what,
+                      "the card was reset since it was set up; its table and position are lost. Home it, or set its "
+                      "position: either initialises the card again");
     }
     progress_time_ = progress_time(settings_.scale.speed(rate));
     progress_from_ = last_counts_;
