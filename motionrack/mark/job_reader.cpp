@@ -134,8 +134,9 @@ JobRead read_job(std::string_view text, const std::string& file) {
         const bool known = std::find(names.begin(), names.end(), node.key) != names.end();
         const bool many = node.key == "drawing" && node.type == TomlType::array;
         if (!known || (!many && node.type != TomlType::table)) {
-            problems.error(node.key_place, fmt::format("Unknown section {}{}.", rack::in_quotes(node.key),
-                                                       rack::did_you_mean(node.key, names)));
+            const std::string hint = rack::did_you_mean(node.key, names);
+            problems.error(node.key_place,
+                           fmt::format("Unknown section {}{}", rack::in_quotes(node.key), hint.empty() ? "." : hint));
             continue;
         }
         if (!many) reader.read(node, node.key);

@@ -64,8 +64,8 @@ class AxisCheck {
         if (type == nullptr || !source_.sound({"channel"})) return;
         if (type->channel_count() == 0) {
             error("card", {},
-                  fmt::format("Axis {} names the card {}, but a {} moves no axis.", axis_.letter, in_quotes(axis_.card),
-                              type->name));
+                  fmt::format("Axis {} names the card {}, but cards of type {} do not drive axes.", axis_.letter,
+                              in_quotes(axis_.card), type->name));
             return;
         }
         if (channel_index(config_, axis_) < 0) {

@@ -197,7 +197,7 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
         {"[card.p1]\ntype = \"ioflex02\"\nbase_address = 0x2310\n", "a multiple of 256, such as 8960"},
         {"[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\n",
          "the same serial number 1"},
-        {"[card.p1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"p1\"\n", "moves no axis"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"p1\"\n", "do not drive axes"},
         {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a4\" = \"estop\"\n", "p1.a4"},
         {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a0\" = \"estop\"\n\"p1.in0\" = \"estop\"\n",
          "p1.a0, which p1.in0 is too, is wired twice"},
