@@ -1,46 +1,47 @@
 /* The function library of the MCX314 four-axis pulse chip for C: the names and argument lists of the library's source,
- * and calls of our own (mcx314_..) for what the source names without listing it, for several chips, errors and time.
+ * and further calls (mcx314_..) for functions that the source names but does not list, for several chips, errors and
+ * time.
  *
  * Link with libmcx314lib.so (-lmcx314lib), on Windows with mcx314lib.dll. A program that moves axis X by 1000 pulses
- * and tells where it is:
+ * and prints its position:
  *
- *     SetRange(800000);                 // all axes: speeds in units of 10 pulses a second
+ *     SetRange(800000);                 // all axes: speeds in units of 10 pulses per second
  *     TCurve_F(1, 100, 4000, 400, 1000);
- *     mcx314_wait(1, 10000);            // until it stands, 10 s at most
+ *     mcx314_wait(1, 10000);            // until standstill, at most 10 s
  *     printf("%d\n", (int)ReadLPS(1));
  *
- * It runs on a card of the rack file that the environment variable MOTIONRACK_RACK names:
+ * The environment variable MOTIONRACK_RACK selects the card: a rack file,
  *
  *     MOTIONRACK_RACK=machine.toml ./program
  *
- * or on a real card, in Linux:
+ * or a real card, on Linux:
  *
  *     MOTIONRACK_RACK=port:/dev/port,offset=0x300,width=8 ./program
  *
- * Windows. Of a rack file the library there takes the cards alone; a real card is reached by a driver of others:
+ * Windows. The library uses only the cards of a rack file; a real card needs a third-party port driver:
  *
  *     set MOTIONRACK_RACK=card.c1 = "mcx314"
  *     set MOTIONRACK_RACK=port:inpoutx64.dll,offset=0x300,width=8
  *
- * Chips. The first function opens the first mcx314 card of that rack file, unless mcx314_open() was called before. All
- * functions work on the selected chip: the one opened last, or that of mcx314_select().
+ * Chips. The first call of a function opens the first mcx314 card of that rack file, unless mcx314_open() was called
+ * before. All functions apply to the selected chip: the chip opened last, or that of mcx314_select().
  *
- * Axes. `axis` is a mask: X 1, Y 2, Z 4, U 8 and their sums. Functions that read one axis take one of 1, 2, 4, 8.
+ * Axes. `axis` is a mask: X 1, Y 2, Z 4, U 8 and their sums. Functions that read one axis accept only 1, 2, 4 or 8.
  *
- * Units. Those of the registers. With the multiple M = 8,000,000 / R: speeds V and SV are in M pulses a second,
- * accelerations A and D in 125 M pulses/s2, the jerk is 62,500,000 / K M pulses/s3.
+ * Units. Those of the registers. With the multiple M = 8,000,000 / R, speeds V and SV are in M pulses/s, accelerations
+ * A and D in 125 M pulses/s2, and the jerk is 62,500,000 / K M pulses/s3.
  *
- * Errors. The source's functions return nothing. A call that is out of range, or not possible now, is refused: nothing
- * is written, mcx314_last_error() has the sentence (kept for each thread), and the handler of mcx314_on_error() is
- * called, in the place of the source's message boxes. Functions of our own also return -1.
+ * Errors. The source's functions return nothing. A call that is out of range, or not possible at present, is refused:
+ * it writes nothing, sets the sentence of mcx314_last_error() (per thread), and calls the handler of mcx314_on_error(),
+ * which replaces the source's message boxes. The functions mcx314_.. also return -1.
  *
- * Time. On a real card it is the computer's. On a virtual card time passes while functions run (each access of a
- * register takes the bus its time), in mcx314_wait() and in mcx314_advance_ms(); nowhere else. A loop that polls
- * ReadCV() or ReadLPS() therefore comes to an end. HomeType1 to HomeType4, mcx314_contour_.. and mcx314_pattern_.. wait
- * inside; no other function does.
+ * Time. A real card has the computer's time. The time of a virtual card advances in mcx314_wait(), in
+ * mcx314_advance_ms(), and by the bus time of each register access, so that a loop that polls ReadCV() or ReadLPS()
+ * ends. HomeType1 to HomeType4, mcx314_contour_.. and mcx314_pattern_.. block until their end or until the chip has
+ * room; no other function blocks.
  *
- * Threads. Functions may be called from any thread; a call waits until another one has ended. Chips and the selection
- * are those of the process.
+ * Threads. Functions may be called from any thread; concurrent calls are serialised. Chips and the selection belong to
+ * the process.
  */
 #ifndef MCX314LIB_H
 #define MCX314LIB_H
@@ -59,57 +60,57 @@ extern "C" {
 
 /* ---- Initial ---- */
 
-/* Pulse output: 0 two pulse trains, 1 pulse and direction. Refused while an axis of the mask drives. */
+/* Sets the pulse output: 0 two pulse trains, 1 pulse and direction. Refused while an axis of the mask drives. */
 MCX314_API void SetPulseMode(int axis, int mode);
 
-/* The multiple M, 1 .. 500; R = 8,000,000 / M, cut to a whole number. Refused while an axis of the mask drives. A
- * multiple must be set before the first drive, by one of these three. */
+/* Sets the multiple M, 1 .. 500; R = 8,000,000 / M, rounded down. Refused while an axis of the mask drives. This
+ * function, SetRange or SetMaxSpeed must set a multiple before the first drive. */
 MCX314_API void SetMultiple(int axis, int data);
 
-/* R of all axes, 8,000,000 .. 16,000. Refused while an axis drives. */
+/* Sets R of all axes, 8,000,000 .. 16,000. Refused while an axis drives. */
 MCX314_API void SetRange(int data);
 
-/* The smallest whole multiple, for all axes, with which V <= 8,000 reaches this speed: 1 .. 4,000,000 pulses a second.
- */
+/* Sets, for all axes, the lowest whole multiple with which V <= 8,000 reaches this speed: 1 .. 4,000,000 pulses/s. */
 MCX314_API void SetMaxSpeed(int data);
 
 /* ---- Basic motion ---- */
 
-/* Initial speed, drive speed, acceleration, deceleration: 1 .. 8,000. V acts also while driving. Decelerations take A
- * until D was set, and again after mcx314_asymmetric(axis, 0). */
+/* Set initial speed, drive speed, acceleration, deceleration: 1 .. 8,000. V also takes effect while driving.
+ * Decelerations use A until D is set, and again after mcx314_asymmetric(axis, 0). */
 MCX314_API void SetSV(int axis, int data);
 MCX314_API void SetV(int axis, int data);
 MCX314_API void SetA(int axis, int data);
 MCX314_API void SetD(int axis, int data);
 
-/* K, the acceleration's rate: 1 .. 65,535. */
+/* Sets K, the acceleration rate: 1 .. 65,535. */
 MCX314_API void SetAA(int axis, int data);
 
-/* Pulses reserved for the end at SV: 0 .. 65,535. Where it was not called since the reset, each drive has what it needs
- * to end at SV. */
+/* Sets AO, the pulses reserved for the end at SV: 0 .. 65,535. By default the library computes it for each drive. */
 MCX314_API void SetAO(int axis, int data);
 
-/* Output pulses of a fixed drive: -268,435,455 .. 268,435,455, the sign is the direction. */
+/* Sets the output pulses of a fixed drive: -268,435,455 .. 268,435,455; the sign is the direction. */
 MCX314_API void Pulse(int axis, int data);
 
-/* The chip finds the deceleration of all axes itself. */
+/* Makes the chip compute the deceleration point of all axes. */
 MCX314_API void AutoDec(void);
 
-/* Sets the pulses after which fixed drives decelerate: 0 .. 268,435,455. The source has both names. */
+/* Set the pulses after which fixed drives decelerate: 0 .. 268,435,455. The source has both names. */
 MCX314_API void ManualDec(int axis, int DecPulse);
 MCX314_API void ManDec(int axis, int DecPulse);
 
-/* Fixed drives, with T-curve and with S-curve; pulses as in Pulse(). Refused while an axis of the mask drives. */
+/* Start fixed drives, with T-curve and with S-curve; pulses as in Pulse(). Refused while an axis of the mask drives. */
 MCX314_API void TCurve_F(int axis, int m_SV, int m_V, int m_A, int m_Pulse);
 MCX314_API void SCurve_F(int axis, int m_SV, int m_V, int m_A, int m_K, int m_Pulse);
 
-/* Continuous drives in + direction, until mcx314_stop() or a stop input. Refused while an axis of the mask drives. */
+/* Start continuous drives in + direction, until mcx314_stop() or a stop input. Refused while an axis of the mask
+ * drives.
+ */
 MCX314_API void TCurve_C(int axis, int m_SV, int m_V, int m_A);
 MCX314_API void SCurve_C(int axis, int m_SV, int m_V, int m_A, int m_K);
 
 /* ---- Interpolation ---- */
 
-/* A line. The source names the structure without listing it. */
+/* Data of a line. The source names the structure but does not list it. */
 typedef struct LINEDATA {
     int SV;   /* initial speed, 1 .. 8,000; not used by Line.._C */
     int V;    /* drive speed of the longest axis, 1 .. 8,000 */
@@ -119,8 +120,8 @@ typedef struct LINEDATA {
     int P[4]; /* finish point of X, Y, Z, U relative to the start, -8,388,608 .. 8,388,607; all 0: that of SetFP() */
 } LINEDATA;
 
-/* An arc of two axes, which begins where they stand; LPS() gives that place its numbers. The first of them (X before Y
- * before Z before U) points right, the second up. */
+/* Data of an arc of two axes, which starts at their present positions (see LPS()). The first axis (X before Y before Z
+ * before U) points right, the second up. */
 typedef struct CIRCLEDATA {
     int SV;   /* initial speed, 1 .. 8,000; not used by Circle.._C */
     int V;    /* speed of the axis that steps regularly, 1 .. 8,000 */
@@ -130,7 +131,7 @@ typedef struct CIRCLEDATA {
     int C[4]; /* centre relative to the start; 0, 0: centre and finish are those of SetCP() and SetFP() */
 } CIRCLEDATA;
 
-/* Lines of two axes (masks 3, 5, 9, 6, 10, 12) and of three (7, 11, 13, 14): constant speed, T-curve, S-curve. */
+/* Start lines of two axes (masks 3, 5, 9, 6, 10, 12) and of three (7, 11, 13, 14): constant speed, T-curve, S-curve. */
 MCX314_API void Line2D_C(LINEDATA* pLD, int axis);
 MCX314_API void Line3D_C(LINEDATA* pLD, int axis);
 MCX314_API void Line2D_T(LINEDATA* pLD, int axis);
@@ -138,15 +139,15 @@ MCX314_API void Line3D_T(LINEDATA* pLD, int axis);
 MCX314_API void Line2D_S(LINEDATA* pLD, int axis);
 MCX314_API void Line3D_S(LINEDATA* pLD, int axis);
 
-/* Arcs of two axes: constant speed, T-curve. The T-curve decelerates at the point of ManualDec() of the first axis if
- * that is in force, else at one that is computed. Refused where the finish point is beside the circle by more than 1 %
- * of the radius (at least 3 pulses). */
+/* Start arcs of two axes: constant speed, T-curve. The T-curve decelerates at the point of ManualDec() of the first
+ * axis if that applies, else at a computed point. Refused if the finish point is off the circle by more than 1 % of the
+ * radius (at least 3 pulses). */
 MCX314_API void CircleCW_C(CIRCLEDATA* pCD, int axis);
 MCX314_API void CircleCCW_C(CIRCLEDATA* pCD, int axis);
 MCX314_API void CircleCW_T(CIRCLEDATA* pCD, int axis);
 MCX314_API void CircleCCW_T(CIRCLEDATA* pCD, int axis);
 
-/* Centre of arcs and finish point of lines and arcs for structures that have none, relative to the start:
+/* Set the centre of arcs and the finish point of lines and arcs for structures without them, relative to the start:
  * -8,388,608 .. 8,388,607. The source has both names of each. */
 MCX314_API void SetCP(int axis, int data);
 MCX314_API void SetC(int axis, int data);
@@ -155,158 +156,162 @@ MCX314_API void SetP(int axis, int data);
 
 /* ---- Signals ---- */
 
-/* The limit switches in + and in - direction act at: 0 Low, 1 High. */
+/* Set the active level of the limit switches in + and in - direction: 0 Low, 1 High. */
 MCX314_API void HLMTP(int n, int axis);
 MCX314_API void HLMTM(int n, int axis);
 
-/* Limit switches stop: 0 at once, 1 decelerating. */
+/* Sets how limit switches stop: 0 immediately, 1 with deceleration. */
 MCX314_API void HLMTSig(int n, int axis);
 
-/* Software limits of all axes at COMP+ and COMP-: 0 off, 1 on. (The source tells levels; COMP has none.) */
+/* Switch the software limits of all axes at COMP+ and COMP-: 0 off, 1 on. (The source describes levels; COMP has none.)
+ */
 MCX314_API void SLMTP(int n);
 MCX314_API void SLMTM(int n);
 
-/* COMP+ and COMP- of all axes are compared with: 0 the logical position, 1 the real position. */
+/* Sets the position that COMP+ and COMP- of all axes are compared with: 0 logical, 1 real. */
 MCX314_API void SLMTSig(int n);
 
-/* Encoder inputs: 0 quadrature A/B, 1 up and down pulses. */
+/* Sets the encoder inputs: 0 quadrature A/B, 1 up and down pulses. */
 MCX314_API void EncoderMode(int n, int axis);
 
-/* Edges of A/B counted: 0 all, 1 every second, 2 every fourth. */
+/* Sets the counted edges of A/B: 0 all, 1 every second, 2 every fourth. */
 MCX314_API void EncoderCWCCW(int n, int axis);
 
-/* Alarm and in-position inputs of all axes: 0 off, 1 on. */
+/* Switch the alarm and the in-position inputs of all axes: 0 off, 1 on. */
 MCX314_API void EnableALM(int n);
 MCX314_API void EnableInPos(int n);
 
-/* Alarm and in-position act at: 0 Low, 1 High. */
+/* Set the active level of alarm and in-position: 0 Low, 1 High. */
 MCX314_API void ALMSig(int n, int axis);
 MCX314_API void InPosSig(int n, int axis);
 
 /* ---- Home ---- */
 
-/* Search the home switch in - direction and wait until that has ended; LP and EP are 0 at home. WR1Reg is WR1 with the
- * home switch enabled at its level: IN0 .. IN3. In types 3 and 4 the encoder's index Z is at IN2, at its level; where
- * IN2 alone is enabled, it is the home switch, and Z is at IN3. 1 decelerates at the switch; 2 then goes back at SV and
- * again, at half of SV, to the switch; 3 decelerates at the switch and goes on to Z at SV; 4 decelerates, goes on to Z
- * at half of SV, and then does as 2. The axes, which the source leaves open, are those of mcx314_home_axes(). */
+/* Search the home switch in - direction and block until the end of the search; LP and EP are 0 at home. WR1Reg is WR1
+ * with the home switch enabled at its level: IN0 .. IN3. In types 3 and 4 the encoder's index Z is at IN2, at its
+ * level; if only IN2 is enabled, it is the home switch, and Z is at IN3. Type 1 decelerates at the switch. Type 2 then
+ * moves back at SV, and to the switch again at half of SV. Type 3 decelerates at the switch and continues to Z at SV.
+ * Type 4 decelerates, continues to Z at half of SV, and then does as type 2. The axes, which the source leaves open,
+ * are those of mcx314_home_axes(). */
 MCX314_API void HomeType1(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType2(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType3(int WR1Reg, int SV, int V, int A);
 MCX314_API void HomeType4(int WR1Reg, int SV, int V, int A);
 
-/* The axes that HomeType1 to HomeType4 home, all at once; X at first. */
+/* Sets the axes that HomeType1 to HomeType4 home, all at the same time; initially X. */
 MCX314_API int mcx314_home_axes(int axis);
 
 /* ---- Positions ---- */
 
-/* Sets the logical position LP and the real (encoder) position EP: 32 bits, negative ones as two's complement. */
+/* Set the logical position LP and the real (encoder) position EP: 32 bits, two's complement. */
 MCX314_API void LPS(int axis, unsigned data);
 MCX314_API void EPS(int axis, unsigned data);
 
-/* Positions of one axis: cast them to int. 0 if refused. */
+/* Return the positions of one axis; cast them to int. 0 if refused. */
 MCX314_API unsigned ReadLPS(int axis);
 MCX314_API unsigned ReadEPS(int axis);
 
-/* Present speed of one axis (V units, 0 at rest), and acceleration (A units, at constant speed the last one). */
+/* Return the present speed of one axis (V units, 0 at standstill) and its acceleration (A units; at constant speed the
+ * last one). */
 MCX314_API unsigned ReadCV(int axis);
 MCX314_API unsigned ReadCA(int axis);
 
-/* COMP+ and COMP-, the software limits: 32 bits with sign. */
+/* Set COMP+ and COMP-, the software limits: 32 bits, signed. */
 MCX314_API void SetCompP(int axis, int data);
 MCX314_API void SetCompM(int axis, int data);
 
-/* Resets the chip; all registers and the multiple have to be set again. */
+/* Resets the chip; all registers and the multiple must be set again. */
 MCX314_API void RESET(void);
 
 /* ---- Chips ---- */
 
-/* Opens a card of a rack and selects it. `rack`: path of a rack file or the text of one ("card.c1 = \"mcx314\""), which
- * is then a world of its own with a time of its own; NULL: the rack of the selected chip. `card`: its name; NULL: the
- * rack's first mcx314 card that is not open. Or a real card: `rack` is uio:PATH, memory:PATH or port:PATH, and after it
- * ,offset=N ,stride=N ,width=8 ,map=N ,interrupt=PATH ,gap_ns=N as it needs them; `card` is NULL then, and time is the
- * computer's; refused where a program of motionrack has it open already (Linux), or no card answers (all reads FFFFh).
- * A card that answers no more makes each later call an error. Returns the chip's handle, 1 or greater, or -1. */
+/* Opens a card and selects it. A virtual card: `rack` is the path of a rack file or its text ("card.c1 = \"mcx314\""),
+ * an independent rack with its own clock; NULL: the rack of the selected chip. `card` is its name; NULL: the first
+ * mcx314 card of the rack that is not open. A real card: `rack` is uio:PATH, memory:PATH or port:PATH, followed by
+ * ,offset=N ,stride=N ,width=8 ,map=N ,interrupt=PATH ,gap_ns=N as needed; `card` is NULL, and time is the computer's.
+ * Refused if a program of motionrack has the card open (Linux), or if no card answers (all reads FFFFh). After a card
+ * stops responding, every later call fails. Returns the chip's handle, 1 or greater, or -1. */
 MCX314_API int mcx314_open(const char* rack, const char* card);
 
-/* The functions that follow work on this chip. */
+/* Selects the chip for all further calls. */
 MCX314_API int mcx314_select(int handle);
 
-/* Closes a chip; its rack ends with its last chip. If it was the selected one, select another. Axes of a real card
- * drive on: stop them first. */
+/* Closes a chip; the last chip of a rack also closes the rack. If the chip was selected, select another one. Axes of a
+ * real card continue to drive: stop them first. */
 MCX314_API int mcx314_close(int handle);
 
 /* ---- Errors ---- */
 
-/* The sentence of the last error in this thread, "" if there was none since mcx314_clear_error(). Valid until the next
- * error in this thread. */
+/* Returns the sentence of the last error in this thread since mcx314_clear_error(), or "". Valid until the next error
+ * in this thread. */
 MCX314_API const char* mcx314_last_error(void);
 
 MCX314_API void mcx314_clear_error(void);
 
-/* From here on every error calls this function with its sentence and `user`; NULL: none. It may call this library. */
+/* Sets the function that every error calls with its sentence and `user`; NULL: none. It may call this library. */
 MCX314_API void mcx314_on_error(void (*handler)(const char* sentence, void* user), void* user);
 
 /* ---- Time ---- */
 
-/* Waits until none of the axes drives, at most `milliseconds`. Returns 0 if they stopped as commanded; -1 after
- * the time, or if a limit, an alarm or the emergency stop ended a drive. */
+/* Waits until none of the axes drives, at most `milliseconds`. Returns 0 if they stopped as commanded; -1 after a
+ * time-out, or if a limit, an alarm or the emergency stop ended a drive. */
 MCX314_API int mcx314_wait(int axis, int milliseconds);
 
-/* Lets the world run for 0 .. 2,147,483,647 ms. */
+/* Advances virtual time by 0 .. 2,147,483,647 ms. */
 MCX314_API int mcx314_advance_ms(int milliseconds);
 
-/* The selected chip's time in microseconds since its rack was opened; -1 if there is none. */
+/* Returns the selected chip's time in microseconds since its rack was opened; -1 without a chip. */
 MCX314_API int64_t mcx314_now_us(void);
 
 /* ---- Axis status ---- */
 
-/* Those of the axes that drive, as a mask; 0: none. */
+/* Mask of the driving axes; 0: none. */
 MCX314_API int mcx314_moving(int axis);
 
-/* Those of the axes that are at a limit switch or beyond a software limit, or were stopped there, as a mask. */
+/* Mask of the axes that are at a limit switch or beyond a software limit, or were stopped there. */
 MCX314_API int mcx314_at_limit(int axis);
 
-/* A line for each axis: whether it drives, where it is, why it stopped and what to do next. "" if refused. Valid until
- * the next call in this thread. */
+/* Returns one line per axis: whether it drives, its position, the cause of its stop and the remedy. "" if refused.
+ * Valid until the next call in this thread. */
 MCX314_API const char* mcx314_report(int axis);
 
 /* ---- Stops, ramps, outputs ---- */
 
-/* Stops the axes, with everything that is interpolated with them: decelerating, or at once. */
+/* Stop the axes and all axes interpolated with them: with deceleration, or immediately. */
 MCX314_API int mcx314_stop(int axis);
 MCX314_API int mcx314_stop_now(int axis);
 
-/* Decelerations use D instead of A: 0 off, 1 on. */
+/* Makes decelerations use D instead of A: 0 off, 1 on. */
 MCX314_API int mcx314_asymmetric(int axis, int on);
 
-/* Level, 0 or 1, of the general outputs OUT0 .. OUT7 of the axes: servo on, brakes. */
+/* Sets the level, 0 or 1, of a general output OUT0 .. OUT7 of the axes: servo on, brakes. */
 MCX314_API int mcx314_set_output(int axis, int output, int level);
 
 /* ---- Plans ---- */
 
-/* What a fixed drive will do, exact to the chip's clock. */
+/* Motion of a fixed drive, exact to the chip's clock. */
 typedef struct MCX314_PLAN {
-    double seconds; /* from the command to the last pulse */
-    double top_hz;  /* maximum speed, pulses per second */
-    double end_hz;  /* the speed at the last pulse; above SV where the way is too short for ramps */
-    int dec_point;  /* pulses after which the speed falls */
-    int offset;     /* AO with which it does; not used after ManualDec() and where D is another than A */
+    double seconds; /* time from the command to the last pulse */
+    double top_hz;  /* maximum speed, pulses/s */
+    double end_hz;  /* speed at the last pulse; above SV if the distance is too short for the ramps */
+    int dec_point;  /* pulses after which the drive decelerates */
+    int offset;     /* AO of that deceleration; not used after ManualDec() or if D differs from A */
 } MCX314_PLAN;
 
-/* Plans TCurve_F (K 0) or SCurve_F with these numbers for one axis, as it is set; nothing is moved or written. */
+/* Plans TCurve_F (K 0) or SCurve_F with these values and the present settings of one axis; moves and writes nothing. */
 MCX314_API int mcx314_plan(int axis, int SV, int V, int A, int K, int pulses, MCX314_PLAN* plan);
 
 /* ---- Manual operation ---- */
 
-/* Jogs one axis at V, the sign is the direction; 0 stops. Jogs for 250 ms: call it again before, with the same
- * speed or another. A reversal decelerates to a stop first. SV and A are those of the first call. */
+/* Jogs one axis at V; the sign is the direction; 0 stops. A jog lasts 250 ms: renew it by another call, with the same
+ * or another speed. A reversal decelerates to a stop first. SV and A of the first call apply. */
 MCX314_API int mcx314_jog(int axis, int SV, int V, int A);
 
 /* Moves by `pulses` (signed) at V. */
 MCX314_API int mcx314_jog_step(int axis, int SV, int V, int A, int pulses);
 
-/* Homes one axis as HomeType1 .. 4 (type 1 .. 4), but does not wait: it runs for 250 ms; call it again before. */
+/* Homes one axis as HomeType1 .. 4 (type 1 .. 4) without blocking: the search lasts 250 ms; renew it by another
+ * call. */
 MCX314_API int mcx314_jog_home(int axis, int type, int WR1Reg, int SV, int V, int A);
 
 /* ---- Interrupts ---- */
@@ -318,16 +323,16 @@ enum mcx314_cause {
     MCX314_BELOW_COMPM = 0x04,    /* below COMP- */
     MCX314_BELOW_COMPP = 0x08,    /* below COMP+ */
     MCX314_ABOVE_COMPP = 0x10,    /* at or above COMP+ */
-    MCX314_CONSTANT_END = 0x20,   /* constant speed has ended */
-    MCX314_CONSTANT_START = 0x40, /* constant speed has begun */
-    MCX314_DRIVE_END = 0x80       /* the drive has ended */
+    MCX314_CONSTANT_END = 0x20,   /* end of constant speed */
+    MCX314_CONSTANT_START = 0x40, /* start of constant speed */
+    MCX314_DRIVE_END = 0x80       /* end of the drive */
 };
 
-/* Enables causes (a sum) and disables them. */
+/* Enable and disable causes (a sum). */
 MCX314_API int mcx314_enable_interrupt(int axis, int causes);
 MCX314_API int mcx314_disable_interrupt(int axis, int causes);
 
-/* The causes that came for one axis since the last call; they are cleared. */
+/* Pending causes of one axis; clears them. */
 MCX314_API int mcx314_read_interrupt(int axis);
 
 /* ---- Continuous interpolation ---- */
@@ -335,13 +340,14 @@ MCX314_API int mcx314_read_interrupt(int axis);
 /* Speeds of a contour. */
 typedef struct MCX314_CONTOUR {
     int SV; /* initial and final speed; not used without A */
-    int V;  /* drive speed, 1 .. 8,000, at most 2,000,000 pulses a second */
+    int V;  /* drive speed, 1 .. 8,000, at most 2,000,000 pulses/s */
     int A;  /* acceleration, 1 .. 8,000; 0: constant speed V from the first pulse to the last */
     int D;  /* deceleration at the end; 0: as A */
 } MCX314_CONTOUR;
 
-/* mcx314_contour_begin(), then lines and arcs as often as wanted, then mcx314_contour_end(), which waits for the end. P
- * and C (of X, Y, Z, U) are relative to the segment's start. V: speed from this segment on, 0: unchanged. */
+/* Execute a contour: mcx314_contour_begin(), any number of lines and arcs, mcx314_contour_end(), which waits for the
+ * end. P and C (of X, Y, Z, U) are relative to the start of the segment. V: speed from this segment on; 0:
+ * unchanged. */
 MCX314_API int mcx314_contour_begin(const MCX314_CONTOUR* data);
 MCX314_API int mcx314_contour_line(int axis, const int P[4], int V);
 MCX314_API int mcx314_contour_arc(int axis, const int P[4], const int C[4], int clockwise, int V);
@@ -352,21 +358,21 @@ MCX314_API int mcx314_contour_end(void);
 /* Speeds of a bit-pattern drive. */
 typedef struct MCX314_PATTERN {
     int SV;       /* initial speed; not used without A */
-    int V;        /* drive speed, 1 .. 8,000: steps of the pattern a second, times the multiple */
+    int V;        /* drive speed, 1 .. 8,000: pattern steps per second, times the multiple */
     int A;        /* acceleration and deceleration, 1 .. 8,000; 0: constant speed V */
-    int DecPoint; /* steps of the pattern after which it decelerates; used with A */
+    int DecPoint; /* pattern steps after which the drive decelerates; used with A */
 } MCX314_PATTERN;
 
-/* Sixteen steps of each axis, in the order X, Y, Z, U of those that take part, the lowest bit first: a 1 in `plus`
- * steps in
- * + direction, in `minus` in - direction, in both: the drive ends here. */
+/* Sixteen steps of each participating axis, in the order X, Y, Z, U, lowest bit first: a 1 in `plus` is a step in +
+ * direction, a 1 in `minus` a step in - direction, a 1 in both the end of the drive. */
 typedef struct MCX314_STEPS {
     unsigned plus[3];
     unsigned minus[3];
 } MCX314_STEPS;
 
-/* mcx314_pattern_begin() with two or three axes, up to three mcx314_pattern_steps(), mcx314_pattern_start(), more steps
- * while it runs (they wait for room), mcx314_pattern_end(), which waits for the end. */
+/* Execute a pattern: mcx314_pattern_begin() with two or three axes, up to three mcx314_pattern_steps(),
+ * mcx314_pattern_start(), more steps while it runs (they wait for room), mcx314_pattern_end(), which waits for the
+ * end. */
 MCX314_API int mcx314_pattern_begin(const MCX314_PATTERN* data, int axis);
 MCX314_API int mcx314_pattern_steps(const MCX314_STEPS* steps);
 MCX314_API int mcx314_pattern_start(void);
@@ -374,10 +380,11 @@ MCX314_API int mcx314_pattern_end(void);
 
 /* ---- The virtual card ---- */
 
-/* A register or value of the selected card by its name ("RR0", "x.WR2", "x.LP"), without effects and taking no time. */
+/* Reads a register or value of the selected card by its name ("RR0", "x.WR2", "x.LP"), without side effects; time does
+ * not advance. */
 MCX314_API int mcx314_peek(const char* name, int64_t* value);
 
-/* Drives a wire of the rack ("motion.xlmtp", "X.home") from outside, 0 or 1, until it is released: NAN. */
+/* Forces a wire of the rack ("motion.xlmtp", "X.home") to 0 or 1; NAN releases it. */
 MCX314_API int mcx314_set_wire(const char* wire, double value);
 
 #ifdef __cplusplus
