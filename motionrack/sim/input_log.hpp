@@ -26,7 +26,7 @@ class InputLog {
     void add(const LoggedInput& input) {
         if (keeps_) inputs_.push_back(input);
     }
-    /// Stops recording: for worlds that run without end and are never replayed.
+    /// Stops recording, for simulations without end that are never replayed.
     void keep_no_more() { keeps_ = false; }
     const std::vector<LoggedInput>& inputs() const { return inputs_; }
 

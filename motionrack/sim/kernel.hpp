@@ -117,7 +117,7 @@ class Kernel {
 
     Snapshot snapshot();
     void restore(const Snapshot& snapshot);
-    /// Hash of the state; equal for equal worlds.
+    /// Hash of the state; equal for equal simulations.
     std::uint64_t state_hash();
     /// Hash of the histories of wires and conditions; equal for equal histories.
     std::uint64_t trace_hash() const { return state_.trace_hash; }

@@ -289,7 +289,7 @@ class Rack:
         """
         return Waves(self._world, os.fspath(path), signals)
 
-    # ---- the whole world ----
+    # ---- the whole rack ----
 
     def copy(self) -> Rack:
         """An independent rack in the same state: the same calls have the same results in both.
@@ -297,7 +297,7 @@ class Rack:
         return Rack(self._world.copy(), self.warnings)
 
     def snapshot(self) -> Snapshot:
-        """The state of the whole world, for :meth:`restore`. The state of function libraries belongs to the host and
+        """The state of the whole rack, for :meth:`restore`. The state of function libraries belongs to the host and
         is not included."""
         return Snapshot(self._world.copy())
 

@@ -131,7 +131,7 @@ int mr_fault(mr_rack* rack, const char* fault, const char* target) {
                    [&] { return rack->session->fault(fault, target); });
 }
 
-// ---- the whole world
+// ---- the whole rack
 
 int mr_snapshot(mr_rack* rack, mr_rack** copy) {
     if (copy != nullptr) *copy = nullptr;

@@ -25,7 +25,7 @@ const
   cVer = '02.51, 07.08.2003';
 
 type
-  { Calibration command and status of an axis. }
+  { Calibration command and state of an axis. }
   tIOFlexCmd = (cNop, cRes, cResNm, cResNmSig);
   tIOFlexSts = (sNotCal, sCal);
 
@@ -43,22 +43,22 @@ type
     function ReadPosition3: Longint;
     procedure ReadTimeClrPosition(var Time, Pos0, Pos1, Pos2, Pos3: Longint);
     procedure WriteCmd(Cmd0, Cmd1, Cmd2, Cmd3: tIOFlexCmd);
-    { Ours: a command for one axis 0 to 3; the others keep what they wait for. }
+    { Extension: a command for one axis 0 to 3; pending calibrations of the other axes continue. }
     procedure WriteCmdAxis(Axis: Integer; Cmd: tIOFlexCmd);
     procedure ReadSts(var Sts0, Sts1, Sts2, Sts3: tIOFlexSts);
   end;
 
-{ The image that Init fills the array with, and its bytes: nil and 0 stand for the one that the rack file gives the card,
-  or else the one that is built in. }
+{ Image that Init loads into the array, and its size in bytes; nil and 0: the image of the card in the rack file, or
+  else the built-in image. }
 function GetFlexBinAddr: Pointer;
 function GetFlexBinSize: Longint;
 
-{ From now on Init takes this image, which must stay where it is; nil: as before. }
+{ Sets the image of Init; it must stay at its address. nil: the image of the rack file or the built-in one. }
 procedure SetFlexBin(Addr: Pointer; Size: Longint);
 
-{ Makes a custom image, of at most Size bytes, and gives its bytes; 0 if it could not be made: mr_last_error says
-  why. Project and Ident as the card shall have them ('position' and $25 are what Init takes); Modes: how the four axes
-  count, words MODE. }
+{ Creates a custom image of at most Size bytes and returns its size; 0 after an error, with its sentence in
+  mr_last_error. Project and Ident: those of the card (Init accepts 'position' and $25); Modes: counting modes of the
+  four axes, words MODE. }
 function MakeFlexBin(const Project: AnsiString; Ident: Byte; const Modes: array of Word; Addr: Pointer; Size: Longint):
   Longint;
 
@@ -113,7 +113,7 @@ begin
   MakeFlexBin := Bytes;
 end;
 
-{ Reads an image; a file that cannot be read, or is longer than an image can be, is not one. }
+{ Reads an image; returns none if the file cannot be read or is longer than an image can be. }
 procedure TakeFile(const Name: AnsiString);
 const
   Most = 132000;

@@ -1,4 +1,4 @@
-{ The unit uIOFlex2 of the IOFLEX02 for Free Pascal: the card's configuration object and its outcomes, over the C
+{ The unit uIOFlex2 of the IOFLEX02 for Free Pascal: the card's configuration object and its results, over the C
   interface (libmotionrack.so). uFlex2Pos adds the functions of the project "position".
 
     uses uIOFlex2;
@@ -21,9 +21,9 @@ unit uIOFlex2;
 interface
 
 const
-  { Outcomes of Configure, and of Init of tIOFlexPos. }
+  { Results of Configure, and of Init of tIOFlexPos. }
   Flex_Ok = 0;          { the array is configured }
-  Flex_ErrCfg = 1;      { configuration failed: the image is cut short, damaged or none }
+  Flex_ErrCfg = 1;      { configuration failed: the image is truncated, damaged or not an image }
   Flex_ErrDevice = 2;   { no card, or a wrong base address; not configured yet }
   Flex_ErrProject = 3;  { another project or version in the array }
 
@@ -33,29 +33,29 @@ type
   { The card's configuration object: array, inputs, outputs. }
   tIOFlex02 = object
     Result: Integer;
-    { Sets the base address, and nothing else; Configure comes next. }
+    { Sets only the base address; call Configure next. }
     constructor Init(Addr: Word);
     destructor Done; virtual;
-    { Fills the array with a configuration image, as motionrack image make writes it, of that many bytes. nil: with the
-      one that the rack file gives the card, or else the one that is built in. Takes seconds of the rack's time. }
+    { Loads a configuration image of Size bytes, written by motionrack image make, into the array. nil: the image of the
+      card in the rack file, or else the built-in image. Advances the rack's virtual time by seconds. }
     procedure Configure(Image: Pointer; Size: Longint);
-    { Message for the code in Result; empty if it is Flex_Ok. }
+    { Returns the message for the code in Result; empty for Flex_Ok. }
     function Why: AnsiString;
     function GetIdent: Byte;
-    { Low and high 8 outputs of connector X5. }
+    { Write the low and the high 8 outputs of connector X5. }
     procedure WriteOutL(Data: Byte);
     procedure WriteOutH(Data: Byte);
-    { Low and high 8 of the 16 inputs: from bit 0 on A, B, Z and Cal of axes 0 and 1, and of axes 2 and 3. }
+    { Return the low and the high 8 of the 16 inputs. From bit 0 on: A, B, Z and Cal of axes 0 and 1; of axes 2 and 3. }
     function ReadInL: Byte;
     function ReadInH: Byte;
   protected
     Handle: Pointer;
   end;
 
-{ The rack that the cards are in: nil before the first Init. }
+{ Returns the rack of the cards; nil before the first Init. }
 function Rack: Pointer;
 
-{ Lets virtual time pass, and drives a wire; the rest of motionrack/c.h can be declared alike. }
+{ Advance virtual time, and force a wire; the rest of motionrack/c.h can be declared alike. }
 function mr_advance_ns(Rack: Pointer; Ns: QWord): Longint; cdecl; external 'motionrack';
 function mr_wire_set(Rack: Pointer; Wire: PAnsiChar; Value: Double): Longint; cdecl; external 'motionrack';
 function mr_wire_get(Rack: Pointer; Wire: PAnsiChar; var Value: Double): Longint; cdecl; external 'motionrack';
@@ -80,7 +80,7 @@ function flex2pos_ReadInL(Flex: Pointer): Byte; cdecl; external 'motionrack';
 function flex2pos_ReadInH(Flex: Pointer): Byte; cdecl; external 'motionrack';
 
 type
-  { A handle, and the object that it was opened for: objects have no state before their first Init. }
+  { A handle and the object of its Init: objects have no state before their first Init. }
   tOpened = record
     Owner, Handle: Pointer;
   end;
@@ -108,7 +108,7 @@ begin
     end;
 end;
 
-{ The handle, or nil and the reason in NotOpened. }
+{ Returns the handle, or nil and the reason in NotOpened. }
 function OpenFor(Owner: Pointer): Pointer;
 var
   RackFile: AnsiString;
@@ -185,7 +185,7 @@ begin
 end;
 
 initialization
-  { The library reckons with infinities; Free Pascal would stop the program at the first one. }
+  { The library computes with infinities; Free Pascal would stop the program at the first one. }
   SetExceptionMask([exInvalidOp, exDenormalized, exZeroDivide, exOverflow, exUnderflow, exPrecision]);
 
 finalization

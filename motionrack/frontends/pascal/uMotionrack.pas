@@ -1,5 +1,5 @@
-{ motionrack/c.h for Free Pascal: every function of the C interface (libmotionrack.so) under its own name. What they do,
-  their limits and errors stand on the page of the C interface, docs/reference/c.md.
+{ motionrack/c.h for Free Pascal: every function of the C interface (libmotionrack.so) under its own name. The page of the
+  C interface, docs/reference/c.md, describes the functions, their limits and errors.
 
     uses uMotionrack;
     var Rack: pmr_rack;
@@ -25,7 +25,7 @@ unit uMotionrack;
 interface
 
 const
-  { What a function returns. }
+  { Result of a function. }
   MR_OK = 0;
   MR_BAD_CALL = 1;
   MR_BAD_INPUT = 2;
@@ -35,14 +35,14 @@ const
   MR_INTERNAL = 6;
   MR_STOPPED = 7;
 
-  { Scales of a frame. }
+  { Scales per frame. }
   MR_MAX_SCALES = 128;
 
 type
   { A running rack. }
   pmr_rack = Pointer;
 
-  { The scales of one instant. }
+  { Counts of all scales at one instant. }
   mr_frame = record
     Sequence, Words: Longword;
     Time100ps: Int64;
@@ -50,7 +50,7 @@ type
     Addresses: array[0..MR_MAX_SCALES - 1] of Byte;
   end;
 
-  { Of mr_conditions and mr_on_condition. }
+  { Call-back of mr_conditions and mr_on_condition. }
   tmr_condition = procedure(User: Pointer; Number: QWord; At100ps: Int64; Card: PAnsiChar; Code: Longint;
     Sentence: PAnsiChar); cdecl;
 
@@ -69,7 +69,7 @@ type
   pmr_fault_info = ^mr_fault_info;
   tmr_fault = procedure(User: Pointer; Fault: pmr_fault_info); cdecl;
 
-  { An answer other than 0 stops the program. }
+  { A result other than 0 stops the program. }
   tmr_progress = function(User: Pointer; Seconds: Double; Line, Lines: Int64): Longint; cdecl;
 
   mr_run_options = record
@@ -135,12 +135,12 @@ function mr_run_program(Rack: pmr_rack; PathOrText: PAnsiChar; Options: pmr_run_
 function mr_home(Rack: pmr_rack; Axes: PAnsiChar): Longint; cdecl; external 'motionrack';
 function mr_report(Rack: pmr_rack): PAnsiChar; cdecl; external 'motionrack';
 
-{ ---- The whole world ---- }
+{ ---- The whole rack ---- }
 function mr_snapshot(Rack: pmr_rack; var Copy: pmr_rack): Longint; cdecl; external 'motionrack';
 function mr_state_hash(Rack: pmr_rack): QWord; cdecl; external 'motionrack';
 function mr_conditions(Rack: pmr_rack; Since: QWord; Tell: tmr_condition; User: Pointer): Longint; cdecl;
   external 'motionrack';
-{ Call may be nil: no more. }
+{ Call = nil ends the calls. }
 function mr_on_condition(Rack: pmr_rack; Call: tmr_condition; User: Pointer): Longint; cdecl; external 'motionrack';
 
 { ---- Recordings ---- }
@@ -154,6 +154,6 @@ uses
   Math;
 
 initialization
-  { The library reckons with infinities; Free Pascal would stop the program at the first one. }
+  { The library computes with infinities; Free Pascal would stop the program at the first one. }
   SetExceptionMask([exInvalidOp, exDenormalized, exZeroDivide, exOverflow, exUnderflow, exPrecision]);
 end.
