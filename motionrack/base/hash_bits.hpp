@@ -5,7 +5,7 @@
 
 namespace motionrack {
 
-/// All bits of `x` mixed (the last step of SplitMix64); one to one, 0 gives 0.
+/// Mixes all bits of `x` (the last step of SplitMix64); one to one, 0 gives 0.
 constexpr std::uint64_t mixed_bits(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
     x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;

@@ -18,8 +18,8 @@ inline constexpr double contacts_repeat = 0.02;
 struct EdgeConflict {
     bool with_release = false;  ///< relative to the release position; otherwise to the previous activation
     bool beyond = false;        ///< further towards the switch; otherwise before it
-    double apart = 0;           ///< minimum distance
-    double limit = 0;           ///< maximum distance for a sound switch
+    double apart = 0;           ///< distance between the two edges, in the units of the caller (lower bound)
+    double limit = 0;           ///< maximum distance for a sound switch, in the same units
 
     /// "it acted .. beyond the place where it was released, ..", with distances formatted by `text_of`.
     template <typename TextOf>

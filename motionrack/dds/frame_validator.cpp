@@ -6,7 +6,7 @@ namespace motionrack::dds {
 
 namespace {
 
-/// Sequence numbers less than this apart are ahead, all others behind.
+/// Sequence numbers within this distance are newer; all others are older.
 constexpr std::uint32_t half = 0x8000'0000U;
 
 /// The event of a validation result, if it has one of its own.

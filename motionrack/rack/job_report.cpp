@@ -29,7 +29,7 @@ const char* kind_text(control::MoveKind kind) {
     return "";
 }
 
-/// Finds the lines of a text by number.
+/// Index of the lines of a text, by number.
 class LineIndex {
   public:
     explicit LineIndex(std::string_view text) {

@@ -19,7 +19,7 @@
 
 namespace motionrack::rack {
 
-/// Makes on-demand pins be driven: subscribes to the wires that have followers.
+/// Drives on-demand pins: subscribes to the wires that have followers.
 class WireTap final : public sim::Device {
   public:
     /// Call before the rack starts and after everything else is built.

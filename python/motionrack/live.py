@@ -127,7 +127,7 @@ class LiveCard(MappedCard):
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
-        """Releases a stop. Nothing moves by that, and stopped drives do not continue."""
+        """Releases a stop. No axis moves; stopped drives do not resume."""
         self._port.reset_stop()
 
     @property

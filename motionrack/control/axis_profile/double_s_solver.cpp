@@ -203,7 +203,8 @@ void DoubleSSolver::find_between(double min_s, double max_s) {
     }
 }
 
-/// Peak at 1, valley at -1: y^2 + 2 b y + c = 0 of y = s^2.
+/// Solves for s where both holds exist, the peak at acceleration 1 and the valley at -1: y^2 + 2 b y + c = 0 with
+/// y = s^2.
 double DoubleSSolver::with_both_holds() const {
     const double b = end_foot_ + 0.5;
     const double c = 0.5 * both_ * (1 + rise_) + end_foot_ - reach_;
@@ -212,7 +213,8 @@ double DoubleSSolver::with_both_holds() const {
     return std::sqrt(std::max(0.0, y));
 }
 
-/// Peak at 1: u^4 - 2 u^3 + (1 + 2 end_foot) u^2 + c = 0 of u = 1 + s.
+/// Solves for s where only the peak has a hold, at acceleration 1: u^4 - 2 u^3 + (1 + 2 end_foot) u^2 + c = 0 with
+/// u = 1 + s.
 double DoubleSSolver::with_hold(double min_s, double max_s) const {
     const double twice = 2 * end_foot_;
     const double c = both_ * (1 + rise_) - twice - 2 * reach_;
@@ -227,7 +229,8 @@ double DoubleSSolver::with_hold(double min_s, double max_s) const {
     return u - 1;
 }
 
-/// d^4 + 4 both d^2 - 4 reach d - rise^2 = 0 of d = P + s, the duration of the phases with jerk -1.
+/// Solves for s without holds: d^4 + 4 both d^2 - 4 reach d - rise^2 = 0 with d = P + s, the duration of the phases
+/// with jerk -1.
 double DoubleSSolver::without_hold(double min_s, double max_s) const {
     const auto fall_at = [&](double s) {
         const double peak = std::sqrt(rise_ + s * s);

@@ -49,7 +49,7 @@ bool lead_in_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t
 
 enum class CornerJoin : std::uint8_t {
     straight_on,  ///< the second move starts at the end of the first
-    meeting,      ///< both meet at `at`
+    meeting,      ///< the two offset moves intersect at `at`
     around,       ///< an arc of the cutter radius about the corner connects them
     none          ///< the cutter does not fit into the corner
 };

@@ -33,9 +33,11 @@ struct Settings {
     Point g28 = {};                                          ///< target of G28, machine coordinates
     Point g30 = {};                                          ///< target of G30, machine coordinates
     ToolTable tools = {};  ///< for G43, G41 and G42; empty: any tool number is valid, with zero length and diameter
-    std::int64_t max_lines = 5'000'000;   ///< budget of loops and calls, in addition to the lines of the program; >= 0
-    std::int64_t max_steps = 20'000'000;  ///< budget of cycles, in addition to 16 calls per line; >= 0
-    SubprogramSource subprogram = {};     ///< none: only the subs in the text of the program
+    /// Maximum number of lines that loops and calls may execute, beyond those of the program; >= 0.
+    std::int64_t max_lines = 5'000'000;
+    /// Maximum number of moves that cycles may generate, beyond 16 per line; >= 0.
+    std::int64_t max_steps = 20'000'000;
+    SubprogramSource subprogram = {};  ///< none: only the subs in the text of the program
 };
 
 /// Refuses settings with numbers that are not finite or above 1e9, or with inverted limits.

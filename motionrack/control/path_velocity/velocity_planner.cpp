@@ -260,9 +260,9 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
     }
 }
 
-/// Computes the greatest points below left_ whose downward curvature respects the jerk limit at the velocity of left_:
-/// a convex hull. Sums cover only the range between two corners, so that low velocities near a standstill keep their
-/// digits.
+/// Computes the maximum control points below left_ whose downward curvature respects the jerk limit at the velocity of
+/// left_: a convex hull. Sums cover only the range between two corners, so that low velocities near a standstill keep
+/// their digits.
 void VelocityPlanner::limit_deceleration_jerk() {
     const std::size_t n = cells_.size();
     square_.resize(n + 2);

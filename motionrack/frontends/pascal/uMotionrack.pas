@@ -1,5 +1,5 @@
-{ motionrack/c.h for Free Pascal: every function of the C interface (libmotionrack.so) under its own name. The page of the
-  C interface, docs/reference/c.md, describes the functions, their limits and errors.
+{ motionrack/c.h for Free Pascal: every function of the C interface (libmotionrack.so) under its own name. The page of
+  the C interface, docs/reference/c.md, describes the functions, their limits and errors.
 
     uses uMotionrack;
     var Rack: pmr_rack;

@@ -78,7 +78,7 @@ std::span<const std::string_view> LinearScale::fault_names() {
 
 // ---- the closed form
 
-/// Counts per count of the position, for a grating that is longer by `ppm`.
+/// Sets the ratio of scale counts to position counts, for a grating that is longer by `ppm`.
 void LinearScale::set_ratio(double ppm) {
     Wide num = Wide{settings_.places_nm} * 1'000 * settings_.interpolation,
          den = Wide{settings_.pitch_pm} * settings_.places;

@@ -38,8 +38,8 @@ Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t 
     return walk;
 }
 
-/// S-ramp: the same, with a variable rate. It ends one step of the speed before the target, or before SV if that is the
-/// end of a stop.
+/// Computes an S-ramp up to the last speed step before the target speed (before SV for a stop); the acceleration
+/// varies.
 Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::int64_t phase_limit) {
     const std::int64_t jerk = jerk_ticks(axis), top_rate = ramp_rate(axis, from);
     const std::int64_t end = axis.gen.stopping ? rules::used_speed(axis.start_speed) : -1;

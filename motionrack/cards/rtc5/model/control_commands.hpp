@@ -36,7 +36,7 @@ struct ControlCommand {
     std::array<ControlParam, max_params> all_params{};
     std::size_t answers = 0;    ///< number of answers
     bool whole_answers = true;  ///< false: doubles
-    bool asks = false;          ///< it first takes the time of a query
+    bool asks = false;          ///< takes one query duration before executing
     Refusal refusal = Refusal::parameter;
     /// Executes the command with parameters that check() has accepted. Errors: those of the card; nothing is changed
     /// then.
