@@ -124,7 +124,7 @@ TEST_F(ImageCommand, RefusesWhatMakesNoImage) {
     for (const char* axis : {"4=x2", "0", "1=", "1=x3", "1=filter=16", "1=filter=", "1=reversed,,x2", "x=x2"}) {
         const Ran ran = image("make -o irc.bin --axis " + std::string(axis));
         EXPECT_EQ(ran.code, 2) << axis << ran.out;
-        EXPECT_NE(ran.out.find("No image was made."), std::string::npos) << axis << ran.out;
+        EXPECT_NE(ran.out.find("No image was created."), std::string::npos) << axis << ran.out;
     }
     EXPECT_EQ(image("make -o irc.bin --project 'a name that is too long'").code, 3);
     EXPECT_EQ(image("make -o irc.bin --ident 256").code, 1);

@@ -19,7 +19,7 @@ Result<std::string> closed_loop(const std::string& csv) {
         for (std::size_t run = 0; run < turns.size(); ++run)
             turns[run].push_back(static_cast<float>(row[run + 1] / 4'000));
     }
-    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was made.");
+    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was created.");
     std::array<trace::SvgChart, 3> charts;
     const std::array<const char*, 3> titles = {"1 mV a count, the motor alone: turns",
                                                "10 mV a count, the motor alone: turns",

@@ -19,7 +19,7 @@ Result<std::string> old_host(const std::string& csv) {
         counts.push_back(static_cast<float>(row[1] / 1'000));
         speed.push_back(static_cast<float>(row[2] / 1'000));
     }
-    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was made.");
+    if (seconds.empty()) return fail(ErrorKind::io, csv + " could not be read, or is empty. No picture was created.");
     std::array<trace::SvgChart, 2> charts;
     charts[0].title = "position, thousands of counts; A is 0";
     charts[0].series = {{"", "z", seconds, counts}};

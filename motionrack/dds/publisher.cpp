@@ -27,7 +27,7 @@ class NetworkPublisher final : public Publisher {
         MOTIONRACK_TRY(participant_, join(settings.bus, settings.domain));
         topic_ =
             Entity(dds_create_topic(participant_.get(), &motionrack_dds_WireSample_desc, topic_name, nullptr, nullptr));
-        if (topic_.get() < 0) return engine_error("The frames' topic cannot be made", topic_.get());
+        if (topic_.get() < 0) return engine_error("The frames' topic could not be created", topic_.get());
         const Qos qos = qos_of(settings.bus, false);
         writer_ = Entity(dds_create_writer(participant_.get(), topic_.get(), qos.get(), nullptr));
         if (writer_.get() < 0) return engine_error("Frames cannot be published", writer_.get());

@@ -23,7 +23,7 @@ class NetworkSubscriber final : public Subscriber {
             participant = own_.get();
         }
         topic_ = Entity(dds_create_topic(participant, &motionrack_dds_WireSample_desc, topic_name, nullptr, nullptr));
-        if (topic_.get() < 0) return engine_error("The frames' topic cannot be made", topic_.get());
+        if (topic_.get() < 0) return engine_error("The frames' topic could not be created", topic_.get());
         const Qos qos = qos_of(settings.bus, settings.other_participants_only);
         const std::unique_ptr<dds_listener_t, void (*)(dds_listener_t*)> listener(dds_create_listener(this),
                                                                                   dds_delete_listener);

@@ -62,7 +62,7 @@ Result<Entity> join(const std::string& bus, int domain);
 /// writers.
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos qos_of(const std::string& bus, bool ignore_own);
-/// `code` as an error. `what`: "The frames' topic cannot be made".
+/// `code` as an error. `what`: "The frames' topic could not be created".
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code);
 
 }  // namespace motionrack::dds

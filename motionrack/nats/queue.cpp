@@ -218,7 +218,8 @@ class JetStreamQueue final : public Queue {
         consumer.AckWait = silence_ms * nanoseconds_a_ms;
         consumer.MaxAckPending = -1;
         const natsStatus status = js_AddConsumer(nullptr, js_.get(), points_stream, &consumer, nullptr, nullptr);
-        return status == NATS_OK ? Result<void>() : Result<void>(trouble(status, "The workers' queue cannot be made"));
+        return status == NATS_OK ? Result<void>()
+                                 : Result<void>(trouble(status, "The workers' queue could not be created"));
     }
 
     Result<void> make_stream(const char* name, const char* subject, jsRetentionPolicy retention) {
@@ -235,7 +236,7 @@ class JetStreamQueue final : public Queue {
         const natsStatus status = js_AddStream(nullptr, js_.get(), &stream, nullptr, nullptr);
         return status == NATS_OK
                    ? Result<void>()
-                   : Result<void>(trouble(status, fmt::format("The stream {} cannot be made", name).c_str()));
+                   : Result<void>(trouble(status, fmt::format("The stream {} could not be created", name).c_str()));
     }
 
     Result<void> join_workers() {

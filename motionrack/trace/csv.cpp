@@ -74,8 +74,8 @@ Result<CsvWriter> CsvWriter::begin(Result<disk::NewFile> file, const std::string
     MOTIONRACK_ASSERT(!columns.empty());
     if (!file) {
         return fail(ErrorKind::io,
-                    fmt::format("The CSV file could not be made: {}. Choose another place.", file.error().message), {},
-                    path);
+                    fmt::format("The CSV file could not be created: {}. Choose another place.", file.error().message),
+                    {}, path);
     }
     CsvWriter writer;
     writer.file_ = std::move(*file);

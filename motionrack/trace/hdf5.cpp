@@ -155,7 +155,7 @@ Result<Hdf5File> Hdf5File::create(const std::string& path) {
     // System errors are more specific than library errors if the file cannot be created.
     Result<disk::NewFile> made = disk::NewFile::create(path);
     const auto not_made = [&](const std::string& reason) {
-        return fail(ErrorKind::io, fmt::format("The recording could not be made: {}. Choose another place.", reason),
+        return fail(ErrorKind::io, fmt::format("The recording could not be created: {}. Choose another place.", reason),
                     {}, path);
     };
     if (!made) return not_made(made.error().message);

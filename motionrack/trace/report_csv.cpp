@@ -128,7 +128,7 @@ Result<ReportData> report_from_csv(const std::string& path) {
     data.verdict = {true, fmt::format("{} samples; a CSV file does not have the end of the run.", data.seconds.size())};
     for (ReportAxis& axis : data.axes) add_tops(axis);
     data.notes.push_back(
-        "The page was made only from samples: limits, pulses, counts, moves and the programmed path are not in the "
+        "The page was created only from samples: limits, pulses, counts, moves and the programmed path are not in the "
         "file, and the peak values are those of the samples.");
     if (rows.cut()) data.notes.push_back("The file does not end with a whole row: it was cut off.");
     return data;

@@ -93,8 +93,8 @@ Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& 
     Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Part::keep);
     if (!file) {
         return fail(ErrorKind::io,
-                    fmt::format("The VCD file could not be made: {}. Choose another place.", file.error().message), {},
-                    path);
+                    fmt::format("The VCD file could not be created: {}. Choose another place.", file.error().message),
+                    {}, path);
     }
     VcdWriter writer;
     writer.path_ = path;

@@ -28,7 +28,7 @@ class Rack:
     def __init__(self, world: _core.RackHandle, warnings: Iterable[str] = ()) -> None:
         if not isinstance(world, _core.RackHandle):
             raise TypeError(
-                f"A Rack is not made by Rack({world!r}). Use Rack.from_file(path), Rack.from_text(text) or"
+                f"A Rack is not created by Rack({world!r}). Use Rack.from_file(path), Rack.from_text(text) or"
                 " Rack.template(name)."
             )
         self._world = world

@@ -29,9 +29,9 @@ db::Waiting waiting(bool interrupt) {
 
 db::DriverSettings settings_of(double counts_per_mm, int select) {
     if (!(counts_per_mm > 0 && counts_per_mm < 1e9))
-        refuse(fmt::format("counts_per_mm is {}; it must be above 0. Nothing was made.", counts_per_mm));
+        refuse(fmt::format("counts_per_mm is {}; it must be above 0. Nothing was created.", counts_per_mm));
     if (select < 0 || select > 255)
-        refuse(fmt::format("The card's number is {}; it must be 0 to 255. Nothing was made.", select));
+        refuse(fmt::format("The card's number is {}; it must be 0 to 255. Nothing was created.", select));
     db::DriverSettings out;
     out.counts_per_mm = counts_per_mm;
     out.select = static_cast<std::uint8_t>(select);
@@ -140,14 +140,14 @@ void bind_events(BoardClass& c) {
 
 db::SlopeTable table_of(const std::vector<std::pair<int, Wide>>& entries) {
     if (entries.size() != db::SlopeTable::entries)
-        refuse(fmt::format("A slope table has {} intervals, not {}; nothing was made.", db::SlopeTable::entries,
+        refuse(fmt::format("A slope table has {} intervals, not {}; nothing was created.", db::SlopeTable::entries,
                            entries.size()));
     db::SlopeTable out;
     for (int i = 0; i < db::SlopeTable::entries; ++i) {
         const auto [rate, position] = entries[static_cast<std::size_t>(i)];
         if (rate < 0 || rate > db::max_rate || position < 0 || position > 16'777'215)
             refuse(fmt::format(
-                "Interval {} is ({}, {}); rates are 0 to {}, positions 0 to 16777215 counts. Nothing was made.", i,
+                "Interval {} is ({}, {}); rates are 0 to {}, positions 0 to 16777215 counts. Nothing was created.", i,
                 rate, position, db::max_rate));
         out.set(i, {rate, position});
     }
@@ -180,7 +180,7 @@ void bind_slopes(py::module_& m) {
                      refuse("A speed scale is counts_per_pulse or counts_per_volt, one of the two.");
                  const double value = counts_per_pulse ? *counts_per_pulse : *counts_per_volt;
                  if (!(value > 0 && value < 1e12))
-                     refuse(fmt::format("A speed scale is {}; it must be more than 0. Nothing was made.", value));
+                     refuse(fmt::format("A speed scale is {}; it must be more than 0. Nothing was created.", value));
                  db::SpeedScale out;
                  out.trim = value_of(db::trim_from_text(trim));
                  out.analog = counts_per_volt.has_value();

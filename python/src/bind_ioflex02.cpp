@@ -156,13 +156,13 @@ void bind_layer(FlexClass& c) {
 
 py::bytes make_image(const std::string& project, int ident, const std::array<int, 4>& modes, const py::bytes& bits) {
     if (ident < 0 || ident > 255)
-        refuse(fmt::format("The version is {}; it must be 0 to 255. No image was made.", ident));
+        refuse(fmt::format("The version is {}; it must be 0 to 255. No image was created.", ident));
     io::ImageContent content;
     content.project = project;
     content.ident = static_cast<std::uint8_t>(ident);
     for (std::size_t i = 0; i < modes.size(); ++i) {
         if (modes[i] < 0 || modes[i] > 0xFF)
-            refuse(fmt::format("The mode of axis {} is {}; it must be 0 to 255. No image was made.", i, modes[i]));
+            refuse(fmt::format("The mode of axis {} is {}; it must be 0 to 255. No image was created.", i, modes[i]));
         content.payload[2 * i] = static_cast<std::uint8_t>(modes[i]);
     }
     const std::vector<std::uint8_t> more = bytes_of(bits);

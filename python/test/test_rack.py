@@ -50,7 +50,7 @@ class Making(unittest.TestCase):
             Rack.from_file("/no/such.toml")
 
     def test_a_path_in_the_wrong_place_is_told_the_right_one(self) -> None:
-        with self.assertRaisesRegex(TypeError, r"not made by Rack\('my.toml'\). Use Rack.from_file"):
+        with self.assertRaisesRegex(TypeError, r"not created by Rack\('my.toml'\). Use Rack.from_file"):
             Rack("my.toml")  # type: ignore[arg-type]
 
     def test_all_errors_are_of_one_kind(self) -> None:

@@ -55,7 +55,7 @@ bool leave_the_network() {
 }  // namespace
 
 Machines::Machines(int count) {
-    if (!make(count)) why_not_ = "Nothing was tested: network namespaces cannot be made here (" + why_not_ + ")";
+    if (!make(count)) why_not_ = "Nothing was tested: network namespaces cannot be created here (" + why_not_ + ")";
 }
 
 Machines::~Machines() {

@@ -59,11 +59,11 @@ std::uint32_t ImageHeader::number(std::size_t at) const {
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content) {
     if (content.project.empty() || content.project.size() > max_name)
         return fail(ErrorKind::refused,
-                    fmt::format("The project's name has {} characters, it must have 1 to {}. No image was made.",
+                    fmt::format("The project's name has {} characters, it must have 1 to {}. No image was created.",
                                 content.project.size(), max_name));
     if (content.payload.size() < min_payload || content.payload.size() > max_payload)
         return fail(ErrorKind::refused,
-                    fmt::format("The payload has {} bytes, but an image has {} to {}. No image was made.",
+                    fmt::format("The payload has {} bytes, but an image has {} to {}. No image was created.",
                                 content.payload.size(), min_payload, max_payload));
     std::vector<std::uint8_t> out(image_header);
     std::copy(image_magic.begin(), image_magic.end(), out.begin());

@@ -195,7 +195,7 @@ void flex2pos_ReadSts(flex2pos* flex, int Sts[4]) {
 int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* payload, size_t payload_size, uint8_t* image,
                         size_t* size) {
     return guarded(
-        {{size, "The pointer to the image's size is null. Nothing was made."}}, [&]() -> motionrack::Result<void> {
+        {{size, "The pointer to the image's size is null. Nothing was created."}}, [&]() -> motionrack::Result<void> {
             io::ImageContent content;
             content.ident = ident;
             if (project != nullptr) content.project = project;

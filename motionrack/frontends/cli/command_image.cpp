@@ -55,7 +55,7 @@ Result<std::uint16_t> with_word(std::uint16_t mode, std::string_view word) {
     }
     return fail(ErrorKind::invalid_input,
                 fmt::format("An axis cannot count '{}'; it can be reversed, x4, x2, x1, index_low and filter=0 to "
-                            "filter=15. No image was made.",
+                            "filter=15. No image was created.",
                             word));
 }
 
@@ -64,7 +64,7 @@ Result<void> set_axis(std::array<std::uint16_t, io::axis_count>& modes, std::str
     if (text.size() < 3 || text[0] < '0' || text[0] > '3' || text[1] != '=')
         return fail(ErrorKind::invalid_input,
                     fmt::format("'{}' is not an axis with its words; write for instance --axis "
-                                "1=reversed,x2 with an axis 0 to 3. No image was made.",
+                                "1=reversed,x2 with an axis 0 to 3. No image was created.",
                                 text));
     std::uint16_t& mode = modes[static_cast<std::size_t>(text[0] - '0')];
     for (std::string_view rest = text.substr(2); !rest.empty();) {

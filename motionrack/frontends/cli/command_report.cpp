@@ -26,7 +26,7 @@ Result<trace::ReportData> read_data(const std::string& path) {
     if (kind == trace::FileKind::csv) return trace::report_from_csv(path);
     if (kind == trace::FileKind::vcd)
         return fail(ErrorKind::invalid_input,
-                    "A VCD file has wires and counters, but no positions, so a page cannot be made from it. Take "
+                    "A VCD file has wires and counters, but no positions, so a page cannot be created from it. Take "
                     "a recording (--record) or the samples (--csv) of the run.",
                     {}, path);
     MOTIONRACK_TRY(const trace::RecordingReader recording, trace::RecordingReader::open(path));

@@ -40,7 +40,7 @@ int OpenFile::give() {
 namespace {
 
 tl::unexpected<Error> failed(const std::string& what) {
-    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
+    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not created: {}: {}.", what, std::strerror(errno)));
 }
 
 /// Reserves a link for one program at a time, by a name that is released when the program ends for any reason.
@@ -59,9 +59,10 @@ Result<OpenFile> reserve(const std::string& link) {
                static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size())) == 0)
         return out;
     if (errno != EADDRINUSE) return failed("bind");
-    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: another running program has the link {}. "
-                                           "Give another path, or end that program.",
-                                           link));
+    return fail(ErrorKind::io,
+                fmt::format("The pseudo-terminal was not created: another running program has the link {}. "
+                            "Give another path, or end that program.",
+                            link));
 }
 
 /// Checks the path of the link: free, or a link left by an earlier run.
@@ -71,8 +72,9 @@ Result<void> check_place(const std::string& link) {
     const auto refused = [&](const std::string& why) {
         return fail(
             ErrorKind::io,
-            fmt::format("The pseudo-terminal was not made: {} {}. It was not changed; give another path, or remove it.",
-                        link, why));
+            fmt::format(
+                "The pseudo-terminal was not created: {} {}. It was not changed; give another path, or remove it.",
+                link, why));
     };
     if (!S_ISLNK(about.st_mode)) return refused("is there and is not a symbolic link");
     std::error_code trouble;
@@ -94,7 +96,7 @@ Result<void> lead(const std::string& link, const std::string& target) {
     if (!trouble) return {};
     std::error_code ignored;
     fs::remove(beside, ignored);
-    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target,
+    return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not created: the link {} to {}: {}.", link, target,
                                            trouble.message()));
 }
 

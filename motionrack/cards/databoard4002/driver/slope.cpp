@@ -34,23 +34,24 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
         {"The top speed", d.top_speed}, {"The acceleration", d.acceleration}, {"The deceleration", d.deceleration}};
     for (const auto& each : positive)
         if (!(each.value > 0 && each.value < 1e12))
-            return fail(ErrorKind::refused, fmt::format("{} is {}, but it must be greater than 0. No table was made.",
-                                                        each.name, each.value));
+            return fail(
+                ErrorKind::refused,
+                fmt::format("{} is {}, but it must be greater than 0. No table was created.", each.name, each.value));
     if (!(d.load >= 0 && d.load < 1e6))
         return fail(ErrorKind::refused,
-                    fmt::format("The load is {}; it must be 0 or more. No table was made.", d.load));
+                    fmt::format("The load is {}; it must be 0 or more. No table was created.", d.load));
     if (!(d.lag_s >= 0 && d.lag_s < 1e6))
         return fail(ErrorKind::refused,
-                    fmt::format("The lag is {} s; it must be 0 or more. No table was made.", d.lag_s));
+                    fmt::format("The lag is {} s; it must be 0 or more. No table was created.", d.lag_s));
     if (!(d.creep_speed >= 0 && d.creep_speed < d.top_speed))
         return fail(ErrorKind::refused,
                     fmt::format("The creep speed is {} counts/s, but it must be below the top speed, {} counts/s. No "
-                                "table was made.",
+                                "table was created.",
                                 d.creep_speed, d.top_speed));
     if (d.top_speed > scale.speed(max_rate))
         return fail(ErrorKind::refused,
                     fmt::format("The top speed is {} counts/s, but this machine reaches {} at the card's greatest "
-                                "rate. No table was made.",
+                                "rate. No table was created.",
                                 d.top_speed, scale.speed(max_rate)));
     return {};
 }
@@ -68,14 +69,14 @@ Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, doubl
         if (rate == 0)
             return fail(ErrorKind::refused,
                         fmt::format("The lowest step is {:.3f} counts/s, but the card's slowest rate gives {:.3f}. Use "
-                                    "a higher creep speed. No table was made.",
+                                    "a higher creep speed. No table was created.",
                                     speed, scale.speed(1)));
         const double longer = i == 0 ? 4 * lag * scale.speed(rate) : lag * step;
         position = std::max(position + scale.speed(rate) * step / ramp + longer, position + 1);
         if (position > static_cast<double>(max_move_counts))
             return fail(ErrorKind::refused,
                         fmt::format("A ramp to {} counts/s with {:.3f} counts/s2 is longer than {} counts. Use a lower "
-                                    "top speed or a steeper ramp. No table was made.",
+                                    "top speed or a steeper ramp. No table was created.",
                                     d.top_speed, ramp, max_move_counts));
         table.set(first + i, {rate, static_cast<std::int64_t>(position + 0.5)});
     }

@@ -77,7 +77,7 @@ TEST_F(Databoard4002Library, FollowsASlopeThatItDesigns) {
     EXPECT_THAT(text("design_slope", {10'000, 100'000, 1000, 0}), HasSubstr("48 intervals up to 10000 counts/s"));
     EXPECT_EQ(text("on_regulation"), "Given.");
     EXPECT_EQ(text("move_to", {5000, 2000}), "The card is at 5000 counts.");
-    EXPECT_THAT(text("design_slope", {400'001, 100'000, 1000, 0}), HasSubstr("No table was made"));
+    EXPECT_THAT(text("design_slope", {400'001, 100'000, 1000, 0}), HasSubstr("No table was created"));
 }
 
 TEST_F(Databoard4002Library, ReadsStatusAndEvents) {
