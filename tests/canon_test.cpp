@@ -69,7 +69,7 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     EXPECT_THAT(motionrack("canon - < parts/part.ngc").out, HasSubstr("no folder to search for its file"));
     std::filesystem::remove(folder / "parts/hole.ngc");
     const Ran missing = motionrack("check parts/part.ngc");
-    EXPECT_THAT(missing.out, HasSubstr("beside it is not there"));
+    EXPECT_THAT(missing.out, HasSubstr("was not found beside it"));
     EXPECT_EQ(missing.code, 2);
 }
 

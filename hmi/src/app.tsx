@@ -107,7 +107,7 @@ function Phone(): JSX.Element {
         </Panel>
       ) : null}
       <Alarms />
-      <p class="hint">This narrow screen watches and stops. Everything else is on a wider one.</p>
+      <p class="hint">This view shows the status and STOP. Use a wider screen to operate the machine.</p>
     </div>
   );
 }

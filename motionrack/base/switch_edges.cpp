@@ -7,8 +7,9 @@
 namespace motionrack {
 
 std::string EdgeConflict::said(std::string_view way, std::string_view max_distance) const {
-    return fmt::format("it acted {} {} the place where it {} in this search, and a sound switch explains {}", way,
-                       beyond ? "beyond" : "before", with_release ? "was released" : "had acted", max_distance);
+    return fmt::format(
+        "it became active {} {} the position at which it {} in this search; a sound switch deviates by at most {}", way,
+        beyond ? "beyond" : "before", with_release ? "was released" : "became active", max_distance);
 }
 
 void SwitchEdges::begin(std::optional<double> hysteresis, double repeats) {

@@ -21,7 +21,7 @@ struct EdgeConflict {
     double apart = 0;           ///< distance between the two edges, in the units of the caller (lower bound)
     double limit = 0;           ///< maximum distance for a sound switch, in the same units
 
-    /// "it acted .. beyond the place where it was released, ..", with distances formatted by `text_of`.
+    /// "it became active .. beyond the position at which it was released ..", with distances formatted by `text_of`.
     template <typename TextOf>
     std::string text(TextOf text_of) const {
         return said(text_of(apart), text_of(limit));

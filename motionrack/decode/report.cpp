@@ -116,7 +116,7 @@ std::string analysis_text(const Analysis& analysis, const std::string& name, std
                            lines_of(channel), wide, channel.count, channel.up, channel.down, channel.mean_per_s,
                            channel.peak ? fmt::format("{:.1f}", channel.peak->counts_per_s) : "-", channel.illegal,
                            channel.z.empty() ? "-" : fmt::format("{}", channel.indexes));
-    out += fmt::format("peak: the most counts in a window of {}\n", duration(analysis.window_s));
+    out += fmt::format("peak: the maximum counts in a window of {}\n", duration(analysis.window_s));
     for (const ChannelResult& channel : analysis.channels)
         out += illegal_text(channel, places, shown) + index_text(channel, places, shown);
     return out;

@@ -23,7 +23,7 @@ std::optional<std::string> Door::take_opening(MachineState state, bool held) {
                        held                   ? "the feed is held"
                        : is_stationary(state) ? "nothing was moving"
                                               : "the motion was stopped",
-                       held ? "resume" : "go on");
+                       held ? "resume" : "continue");
 }
 
 void Door::keep_tools(const Status& status) {

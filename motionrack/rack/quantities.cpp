@@ -155,8 +155,8 @@ Result<void> push_axis(Rack& rack, RunningAxis& axis, std::string_view name, dou
     const double push = row->push(axis, value, rack.kernel().now());
     if (!(std::fabs(push) <= max_push))
         return fail(ErrorKind::refused,
-                    fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; {:.0f} are the most "
-                                "at once. Nothing was done.",
+                    fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; the limit is {:.0f}. "
+                                "Nothing was done.",
                                 name, value, push, max_push));
     // A rotor in step springs back unless it is pushed past the middle of an electrical cycle.
     const double min_push =

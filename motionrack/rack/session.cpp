@@ -214,8 +214,7 @@ Result<void> Session::set_trace_unit(double ns) {
 
 Result<void> Session::start_trace(const std::string& path, std::string_view signals, std::string_view version) {
     if (recorder_ && !recorder_->failed())
-        return fail(ErrorKind::refused,
-                    "A recording runs already; stop it before the next one is started. It goes on.");
+        return fail(ErrorKind::refused, "A recording is running and continues. Nothing was started. Stop it first.");
     WaveSettings settings;
     settings.path = path;
     MOTIONRACK_TRY(settings.format, wave_format(path));
@@ -239,8 +238,8 @@ Result<void> Session::stop_trace() {
     Result<void> ended = recorder_->finish();
     if (!ended) {
         ended.error().message += recorder_->can_end_again()
-                                     ? " The recording goes on; end it again, or begin another in its place."
-                                     : " The recording is lost; begin another one.";
+                                     ? " The recording continues; stop it again, or start another one."
+                                     : " The recording is lost; start another one.";
         return ended;
     }
     recorder_.reset();

@@ -13,7 +13,7 @@ constexpr ReadLimit limit{std::size_t{64} << 20, "a subprogram"};
 Result<std::string> read(const std::filesystem::path& file) {
     std::error_code unknown;
     if (!std::filesystem::exists(file, unknown) && !unknown)
-        return fail(ErrorKind::invalid_input, fmt::format("{} beside it is not there", file.string()));
+        return fail(ErrorKind::invalid_input, fmt::format("{} was not found beside it", file.string()));
     return read_whole_file(file.string(), limit);
 }
 

@@ -66,14 +66,17 @@ void WireAccess::add_axes() {
             if (end.name == "enc_a" || end.name == "enc_b") {
                 wire.kind = WireKind::track;
                 wire.which = end.name == "enc_b";
-                wire.refused =
-                    fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
+                wire.refused = fmt::format(
+                    "{} cannot be forced: it is the output of the encoder. Force the input of the card that it leads "
+                    "to",
+                    name);
             } else if (end.volts > 0) {
                 wire.unit = end.volts;
             } else if (end.direction == PinDirection::input) {
                 wire.kind = WireKind::pulses;
                 wire.refused = fmt::format(
-                    "{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
+                    "{} cannot be forced: it follows all pulses of a channel. Move it by the card or by set_quantity",
+                    name);
                 for (const RackWire& joined : config.wires)
                     if (config.end_name(joined.to) == name)
                         wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
@@ -96,13 +99,14 @@ void WireAccess::add_stages() {
         wires_[drive] = {WireKind::plain, rack_.kernel().find_wire(drive), -1, 0, stage_drive_unit, 1, {}};
         for (const char* line : {".scale.a", ".scale.b", ".scale.z"}) {
             const std::string name = stage.name + line;
-            wires_[name] = {WireKind::plain,
-                            rack_.kernel().find_wire(name),
-                            -1,
-                            0,
-                            1,
-                            1,
-                            fmt::format("{} is the scale's own output; drive the decoder's input", name)};
+            wires_[name] = {
+                WireKind::plain,
+                rack_.kernel().find_wire(name),
+                -1,
+                0,
+                1,
+                1,
+                fmt::format("{} cannot be forced: it is the output of the scale. Force the decoder's input", name)};
         }
     }
 }

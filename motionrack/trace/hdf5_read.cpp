@@ -55,7 +55,7 @@ Result<Reader> Hdf5File::column(const std::string& path) const {
     const auto refuse = [&](const std::string& what) {
         return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
     };
-    if (!has(path)) return refuse("is not there");
+    if (!has(path)) return refuse("was not found");
     Reader out;
     out.file_ = path_;
     out.path_ = path;

@@ -155,11 +155,11 @@ class Mcx314:
     def SetAA(self, axes: int, value: int) -> None:
         """K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3."""
     def SetAO(self, axes: int, value: int | None) -> None:
-        """Pulses reserved for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there."""
+        """Pulses reserved for the end at SV, 0 to 65,535; None (default): computed for each drive."""
     def Pulse(self, axes: int, value: int) -> None:
         """Output pulses of a fixed drive, -268,435,455 to 268,435,455."""
     def AutoDec(self, axes: int = 15) -> None:
-        """The chip finds the deceleration point itself. Arcs cannot."""
+        """Makes the chip compute the deceleration point; not for arcs."""
     def ManualDec(self, axes: int, value: int) -> None:
         """Sets the pulses after which fixed drives decelerate, 0 to 268,435,455."""
     def SetAsymmetric(self, axes: int, on: bool) -> None:
@@ -181,7 +181,7 @@ class Mcx314:
     def SCurve_C(self, axes: int, sv: int, v: int, a: int, k: int, negative: bool = False) -> None:
         """Continuous drive with an S-curve, until it is stopped; units as of SCurve_F."""
     def DriveFixed(self, axes: int) -> None:
-        """Starts what Pulse set, each axis in its direction, all at the same tick."""
+        """Starts the drives set by Pulse, each axis in its direction, all at the same tick."""
     def stop(self, axes: int, quick: bool = False) -> None:
         """Stops the axes, with everything that is interpolated with them: decelerating to SV, or at once."""
     def change_speed(self, axes: int, v: int) -> None:
@@ -1021,7 +1021,7 @@ class Ioflex02:
     cResNm: int
     cResNmSig: int
     def Init(self, Addr: int) -> int:
-        """Sets the base address, looks whether one card answers there, and loads the array with the image that the rack file gives the card, or else the built-in one; takes seconds of the rack's time. 0: done, else see why."""
+        """Sets the base address, checks that one card answers there, and loads the array with the image that the rack file gives the card, or else the built-in one; takes seconds of the rack's time. 0: done, else see why."""
     @property
     def Result(self) -> int:
         """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
@@ -1069,10 +1069,10 @@ class Ioflex02:
     def reset(self) -> None:
         """Positions and the card's time begin at 0."""
     def Configure(self, image: bytes, Addr: int | None = None) -> int:
-        """Loads the array with a custom image (bytes, as make_image or motionrack image make give them), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
+        """Loads the array with a custom image (bytes, of make_image or motionrack image make), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
     @staticmethod
     def make_image(project: str = 'position', ident: int = 37, modes: Sequence[int] = [0, 0, 0, 0], bits: bytes = b'') -> bytes:
-        """A custom configuration image: its project, version, how the axes count (words MODE), and bytes that the array keeps and does not look at."""
+        """A custom configuration image: its project, version, how the axes count (words MODE), and bytes that the array stores but does not use."""
     @staticmethod
     def image_info(image: bytes) -> dict[str, Any]:
         """Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""

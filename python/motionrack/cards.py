@@ -118,7 +118,7 @@ class Card(MappedCard):
     def wait_interrupt(self, timeout: float) -> None:
         """Waits until its interrupt line is active; Timeout after ``timeout`` s."""
         if not _core.wait_interrupt(self._world, self._name, ticks_of(timeout)):
-            raise Timeout(f"Card {self._name} asked for no interrupt within {timeout:g} s.")
+            raise Timeout(f"Card {self._name}: timed out after {timeout:g} s: no interrupt.")
 
     def refused_frames(self) -> int:
         """Frames that a motion card on a grating bus did not publish since the start. Refused for other cards."""

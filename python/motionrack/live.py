@@ -187,7 +187,7 @@ class LiveCard(MappedCard):
         if not self._port.wait_interrupt(timeout):
             if self.stopped:
                 raise Stopped(f"The card at {self._place} was stopped while it was waited for its interrupt.")
-            raise Timeout(f"The card at {self._place} asked for no interrupt within {timeout:g} s.")
+            raise Timeout(f"The card at {self._place}: timed out after {timeout:g} s: no interrupt.")
 
     def _check_bits(self, bits: int) -> None:
         width = int(self._map["registers"][0]["width"])

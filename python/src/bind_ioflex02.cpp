@@ -47,7 +47,7 @@ void bind_source(FlexClass& c) {
             });
         },
         py::arg("Addr"),
-        "Sets the base address, looks whether one card answers there, and loads the array with the image that the rack "
+        "Sets the base address, checks that one card answers there, and loads the array with the image that the rack "
         "file gives the card, or else the built-in one; takes seconds of the rack's time. 0: done, else see why.");
     c.def_property_readonly(
         "Result", [](const Flex& self) { return self.driver->Result; },
@@ -197,14 +197,14 @@ void bind_images(FlexClass& c) {
             });
         },
         py::arg("image"), py::arg("Addr") = py::none(),
-        "Loads the array with a custom image (bytes, as make_image or motionrack image make give them), at a "
+        "Loads the array with a custom image (bytes, of make_image or motionrack image make), at a "
         "base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or "
         "version.");
     c.def_static("make_image", &make_image, py::arg("project") = std::string(io::position_project),
                  py::arg("ident") = static_cast<int>(io::position_ident), py::arg("modes") = std::array<int, 4>{},
                  py::arg("bits") = py::bytes(""),
                  "A custom configuration image: its project, version, how the axes count (words MODE), and bytes "
-                 "that the array keeps and does not look at.");
+                 "that the array stores but does not use.");
     c.def_static("image_info", &image_info, py::arg("image"),
                  "Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it "
                  "(fits). InvalidInput for one that the card would refuse.");

@@ -50,10 +50,10 @@ void bind_parameters(Mcx314Class& c) {
            "Deceleration, 1 to 8,000 units of 125 * M pulses/s2; used where SetAsymmetric is on.");
     number("SetAA", &Driver::SetAA, "K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3.");
     c.def("SetAO", call<Driver>(&Driver::SetAO), py::arg("axes"), py::arg("value"),
-          "Pulses reserved for the end at SV, 0 to 65,535; None, as at first: what each drive needs to end there.");
+          "Pulses reserved for the end at SV, 0 to 65,535; None (default): computed for each drive.");
     number("Pulse", &Driver::Pulse, "Output pulses of a fixed drive, -268,435,455 to 268,435,455.");
     c.def("AutoDec", call<Driver>(&Driver::AutoDec), py::arg("axes") = mcx314::xyzu,
-          "The chip finds the deceleration point itself. Arcs cannot.");
+          "Makes the chip compute the deceleration point; not for arcs.");
     number("ManualDec", &Driver::ManualDec, "Sets the pulses after which fixed drives decelerate, 0 to 268,435,455.");
     c.def("SetAsymmetric", call<Driver>(&Driver::SetAsymmetric), py::arg("axes"), py::arg("on"),
           "Decelerations use D instead of A.");
@@ -77,7 +77,7 @@ void bind_drives(Mcx314Class& c) {
           py::arg("k"), py::arg("negative") = false,
           "Continuous drive with an S-curve, until it is stopped; units as of SCurve_F.");
     c.def("DriveFixed", call<Driver>(&Driver::DriveFixed), py::arg("axes"),
-          "Starts what Pulse set, each axis in its direction, all at the same tick.");
+          "Starts the drives set by Pulse, each axis in its direction, all at the same tick.");
     c.def(
         "stop",
         [](Mcx314& self, unsigned axes, bool quick) {

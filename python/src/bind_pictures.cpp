@@ -25,7 +25,7 @@ std::string timeline(const std::string& title, const Doubles& seconds, const std
         trace::SvgChart& chart = drawn.emplace_back(trace::SvgChart{name, {}, {}});
         for (const auto& [line, look, values] : lines) {
             if (values.size() != seconds.size())
-                refuse("Every line of a picture has as many values as there are instants; nothing was drawn.");
+                refuse("Every line of a picture must have one value per instant. Nothing was drawn.");
             chart.series.push_back({line, look, time, {values.data(), static_cast<std::size_t>(values.size())}});
         }
     }

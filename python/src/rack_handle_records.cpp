@@ -11,8 +11,7 @@ Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Du
                                        std::size_t max_samples) {
     running();
     if (sampler_)
-        return fail(ErrorKind::refused,
-                    "A recording runs already; stop it before the next one is started. It goes on.");
+        return fail(ErrorKind::refused, "A recording is running and continues. Nothing was started. Stop it first.");
     if (period < microseconds(1) || period > whole_seconds(3600))
         return fail(
             ErrorKind::refused,
@@ -41,7 +40,8 @@ Result<Sampler> RackHandle::end_samples() {
 Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
     running();
     if (recorder_)
-        return fail(ErrorKind::refused, "Waves are recorded already; end that before the next file. It goes on.");
+        return fail(ErrorKind::refused,
+                    "A recording of waves is running and continues. Nothing was started. Stop it first.");
     rack::WaveSettings settings;
     settings.path = path;
     MOTIONRACK_TRY(settings.format, rack::wave_format(path));
@@ -54,7 +54,7 @@ Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<
 
 Result<void> RackHandle::end_waves() {
     rack();
-    if (!recorder_) return fail(ErrorKind::refused, "No waves are recorded; nothing was done.");
+    if (!recorder_) return fail(ErrorKind::refused, "No recording of waves runs; nothing was done.");
     const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
     next_register_look_ = never;
     return ended->finish();

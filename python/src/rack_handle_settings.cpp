@@ -23,14 +23,12 @@ Result<void> RackHandle::plan_faults(const std::vector<std::string>& texts) {
 Result<void> RackHandle::set_sample_period(Duration period) {
     if (period == sample_period_) return {};
     if (rack().started())
-        return fail(
-            ErrorKind::refused,
-            fmt::format(
-                "The samples' period was {} s when the rack's time began; it cannot become {} s. Nothing was run.",
-                to_seconds(sample_period_), to_seconds(period)));
+        return fail(ErrorKind::refused, fmt::format("The sampling period is {} s since the start of the rack; it "
+                                                    "cannot be changed to {} s. Nothing was run.",
+                                                    to_seconds(sample_period_), to_seconds(period)));
     if (period < microseconds(1) || period > whole_seconds(3600))
         return fail(ErrorKind::refused,
-                    fmt::format("The samples' period is {} s; it must be 1e-6 to 3600 s. Nothing was run.",
+                    fmt::format("The sampling period is {} s; it must be 1e-6 to 3600 s. Nothing was run.",
                                 to_seconds(period)));
     sample_period_ = period;
     return {};
@@ -43,9 +41,10 @@ Result<void> RackHandle::set_profile(const std::string& profile) {
                     fmt::format("The profile is {}; it must be trapezoid or jerk_limited. Nothing was run.",
                                 rack::in_quotes(profile)));
     if (rack().started())
-        return fail(ErrorKind::refused,
-                    fmt::format("The profile was {} when the rack's time began; it cannot become {}. Nothing was run.",
-                                config_.controller.profile, profile));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The profile is {} since the start of the rack; it cannot be changed to {}. Nothing was run.",
+                        config_.controller.profile, profile));
     config_.controller.profile = profile;
     build();
     return {};
@@ -55,7 +54,7 @@ Result<void> RackHandle::set_card(const std::string& name, const std::string& ke
     if (rack().started())
         return fail(
             ErrorKind::refused,
-            "The rack's time has begun, so its cards cannot be changed; nothing was changed. Change the card of "
+            "The rack has started; its cards cannot be changed any more. Nothing was changed. Change the card of "
             "Rack.new_instance().");
     const auto card = std::find_if(config_.cards.begin(), config_.cards.end(),
                                    [&](const rack::RackCard& each) { return each.name == name; });

@@ -20,7 +20,7 @@ const READY = 0x80;
 const LOOKS = 40;
 const refused: Exchanged = { why: '' };
 const late = (sent: string): Exchanged => ({
-  why: `The card was not ready after ${LOOKS} looks at STAT. ${sent} Look whether its program hangs, or reset it.`,
+  why: `The card was not ready after ${LOOKS} reads of STAT. ${sent} Check whether its program hangs, or reset it.`,
 });
 
 async function ready(bus: Bus): Promise<boolean | null> {

@@ -252,13 +252,13 @@ export function Functions({ card }: { card: CardInfo }): JSX.Element {
       ? 'A real card is in service: its functions move its motors. STOP stops all its axes at once.'
       : 'In service: the controller drives nothing. STOP and every switch stop all axes at once and end the service.'
     : card.axes.length > 0
-      ? `The controller drives ${card.axes.map((axis) => axis.letter).join(', ')} with this card. The service takes the ` +
-        'card from it, resets it, and leaves positions that are not valid: home afterwards.'
+      ? `The controller drives ${card.axes.map((axis) => axis.letter).join(', ')} with this card. Service disconnects the ` +
+        'controller, resets the card and invalidates its positions. Home afterwards.'
       : `${card.live === null ? '' : 'A real card. '}No axis of the machine is on this card: the first call begins its service, and resets the card.`;
   return (
     <Panel title="Functions of its library" class="wide functions" note={told} tools={<Service card={card} />}>
       {one === undefined ? (
-        <Empty>The functions are being asked for.</Empty>
+        <Empty>Loading the functions.</Empty>
       ) : (
         <div class="functioncolumns">
           <List functions={functions.value} chosen={one.name} onChoose={(name) => (chosen.value = name)} />

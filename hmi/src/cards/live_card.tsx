@@ -28,11 +28,11 @@ export function LiveCard(props: {
         <strong class={`livecard ${moves ? 'moves' : ''}`}>{moves ? 'REAL CARD, IN SERVICE' : 'REAL CARD'}</strong>
       }>
       <p>
-        At <code>{props.place}</code>. Its motors are real: have an emergency stop of its wires. Its limit switches and
-        inputs act in the card itself and stop nothing of the machine here.
+        At <code>{props.place}</code>. Its motors are real: provide a hard-wired emergency stop. Its limit switches and
+        inputs act in the card only and do not stop the machine of the rack.
       </p>
       {seen === null || none !== '' ? (
-        <Empty>{none !== '' ? none : 'The card is being asked for.'}</Empty>
+        <Empty>{none !== '' ? none : 'Reading the card.'}</Empty>
       ) : (
         props.children(seen)
       )}

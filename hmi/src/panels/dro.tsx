@@ -142,7 +142,7 @@ export function Dro(): JSX.Element {
       {!narrow.value && (
         <div class="row">
           <Field
-            label={`${axisLetter()} stands at`}
+            label={`${axisLetter()} position`}
             value={placeText.value}
             mode="decimal"
             unit={unitName(state.axisOf(axisLetter())?.unit ?? '')}

@@ -18,7 +18,7 @@ export function Picker(props: {
   const fits = matching(channelList.value, props.chosen, filter.value);
   const add = (name: string): void => {
     if (props.chosen.length >= props.max)
-      notice('refused', `${props.max} channels are the most at once. Take one away first.`);
+      notice('refused', `At most ${props.max} channels. Remove one first.`);
     else props.onChange([...props.chosen, name]);
   };
   return (

@@ -31,11 +31,13 @@ TEST(SwitchEdges, ThatActFarBeyondOrBeforeTheReleaseDoNot) {
     SwitchEdges search = edges();
     search.released(95, 0);
     EXPECT_EQ(words(search.acted(102.5, 0)),
-              "it acted 7.50 beyond the place where it was released in this search, and a sound switch explains 7.00");
+              "it became active 7.50 beyond the position at which it was released in this search; a sound switch "
+              "deviates by at most 7.00");
     search = edges();
     search.released(95, 3);
     EXPECT_EQ(words(search.acted(92, 0)),
-              "it acted 3.00 before the place where it was released in this search, and a sound switch explains 2.00");
+              "it became active 3.00 before the position at which it was released in this search; a sound switch "
+              "deviates by at most 2.00");
 }
 
 TEST(SwitchEdges, AreThoseOfTheApproachBefore) {
@@ -49,7 +51,8 @@ TEST(SwitchEdges, AreThoseOfTheApproachBefore) {
     EXPECT_FALSE(search.acted(100, 0));
     search.released(80, 0);
     EXPECT_EQ(words(search.acted(90, 0)),
-              "it acted 10.00 before the place where it had acted in this search, and a sound switch explains 2.00");
+              "it became active 10.00 before the position at which it became active in this search; a sound switch "
+              "deviates by at most 2.00");
 }
 
 TEST(SwitchEdges, ThatBounceForLongAreReleasedFromTheFirstPlaceToTheLast) {

@@ -16,7 +16,7 @@ std::string loader_error() {
         case ERROR_MOD_NOT_FOUND:
         case ERROR_FILE_NOT_FOUND:
         case ERROR_PATH_NOT_FOUND:
-            return "it, or a library that it needs, is not there";
+            return "it, or a library that it needs, was not found";
         case ERROR_BAD_EXE_FORMAT:
             return "it is for programs of another number of bits";
         default:

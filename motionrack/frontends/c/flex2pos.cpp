@@ -206,8 +206,8 @@ int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* paylo
             *size = made.size();
             if (room < made.size())
                 return motionrack::fail(motionrack::ErrorKind::invalid_input,
-                                        fmt::format("The image has {} bytes, but there is room for {}. It was not "
-                                                    "written; call again with the size that was given.",
+                                        fmt::format("The image has {} bytes, but the buffer only {}. The image was "
+                                                    "not written. Call again with the returned size.",
                                                     made.size(), room));
             std::copy(made.begin(), made.end(), image);
             return {};

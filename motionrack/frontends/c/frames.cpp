@@ -90,7 +90,7 @@ int mr_frame_wait(mr_rack* rack, const char* card, uint64_t timeout_ns, mr_frame
     return guarded({{rack, no_rack}, {card, no_card}, {frame, no_frame}}, [&]() -> Result<void> {
         if (timeout_ns > rack::Session::max_ns)
             return fail(ErrorKind::refused,
-                        fmt::format("The timeout is {} ns, but {} ns are the most. Nothing was done.", timeout_ns,
+                        fmt::format("The time-out is {} ns; it must be 0 to {} ns. Nothing was done.", timeout_ns,
                                     rack::Session::max_ns));
         const Duration timeout = nanoseconds(static_cast<std::int64_t>(timeout_ns));
         return read_frame(*rack->session, card, *frame,

@@ -6,7 +6,7 @@ namespace motionrack::cli {
 
 void add_frames(CLI::App& app, Action& chosen) {
     CLI::App* group = app.add_subcommand(
-        "frames", "Frames of a grating bus: those of a rack, live; over the network to other computers, and from them");
+        "frames", "Frames of a grating bus: show those of a rack, live; publish to and receive from other computers");
     group->require_subcommand(0, 1);
     add_frames_show(*group, chosen);
     add_frames_publish(*group, chosen);

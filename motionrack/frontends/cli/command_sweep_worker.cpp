@@ -46,7 +46,7 @@ void add_sweep_worker(CLI::App& app, Action& chosen) {
         ->check(CLI::Range(0.0, 1e6));
     command->footer(
         "Example: motionrack sweep-worker --nats nats://bench:4222\n"
-        "A point of a killed worker goes to another one after 5 s; a worker that is stopped by Ctrl-C returns its "
+        "A point of a killed worker is reassigned after 5 s; a worker that is stopped by Ctrl-C returns its "
         "points at once. Workers take only points that their own version\n"
         "of motionrack queued.");
     command->callback([settings, &chosen] { chosen = [settings] { return work(*settings); }; });

@@ -20,7 +20,7 @@ Result<decltype(&motionrack_png_of)> load_module() {
     namespace fs = std::filesystem;
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    std::string why = "its module png.so is not there";
+    std::string why = "its module png.so was not found";
     for (const char* place : {MOTIONRACK_MODULES, "../lib/motionrack"}) {
         const fs::path path = folder / place / "png.so";
         if (error || !fs::exists(path, error)) continue;

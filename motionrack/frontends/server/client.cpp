@@ -129,29 +129,29 @@ void Client::token(const Request& request) {
 void Client::subscribe(const Request& request) {
     const json& wanted = request.fields["subscribe"];
     const auto wrong = [&](std::string sentence) {
-        refuse(request.id, 400, "invalid_input", std::move(sentence) + " Nothing was changed.");
+        refuse(request.id, 400, "invalid_input", std::move(sentence) + " Nothing was subscribed.");
     };
     if (role() == Role::none)
         return refuse(request.id, 401, "denied",
                       "A remote client needs a token. Send it first: {\"id\":1,\"token\":\"..\"}.");
-    if (!wanted.is_object()) return wrong("To subscribe takes {\"channels\":[..],\"rate_hz\":20}.");
+    if (!wanted.is_object()) return wrong("subscribe requires {\"channels\":[..],\"rate_hz\":20}.");
     double rate = first_rate;
     std::vector<std::string> names;
     for (const auto& [key, value] : wanted.items()) {
         if (key == "rate_hz") {
-            if (!value.is_number()) return wrong("rate_hz is a number.");
+            if (!value.is_number()) return wrong("rate_hz must be a number.");
             rate = value.get<double>();
         } else if (key == "channels") {
-            if (!value.is_array()) return wrong("channels is a list of names.");
+            if (!value.is_array()) return wrong("channels must be a list of names.");
             if (value.size() > panel::Panel::max_channels)
-                return wrong(fmt::format("{} channels are too many; at most {} are sent.", value.size(),
+                return wrong(fmt::format("{} channels are too many; the limit is {}.", value.size(),
                                          panel::Panel::max_channels));
             for (const json& name : value) {
-                if (!name.is_string()) return wrong("channels is a list of names.");
+                if (!name.is_string()) return wrong("channels must be a list of names.");
                 names.push_back(name);
             }
         } else {
-            return wrong("To subscribe takes channels and rate_hz, nothing else.");
+            return wrong("subscribe accepts only channels and rate_hz.");
         }
     }
     if (!(rate >= min_rate && rate <= max_rate))

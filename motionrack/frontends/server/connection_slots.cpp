@@ -57,7 +57,7 @@ bool ConnectionSlots::end_a_caller() {
         return of_its_network(a) < of_its_network(b);
     });
     OpenConnection* const open = ended->open;
-    open->end("Connection limit reached; this connection was closed in favour of a newer one.");
+    open->end("Connection limit reached. This connection was closed in favour of a newer one.");
     leave(open);
     return true;
 }

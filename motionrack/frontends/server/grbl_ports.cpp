@@ -94,11 +94,9 @@ class GrblPorts::Inside {
         if (!trouble) acceptor_.bind(place, trouble);
         if (!trouble) acceptor_.listen(16, trouble);
         if (trouble)
-            return fail(
-                ErrorKind::io,
-                fmt::format(
-                    "The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.",
-                    port, trouble.message()));
+            return fail(ErrorKind::io, fmt::format("The Grbl port 127.0.0.1:{} was not opened: {}. Choose another "
+                                                   "port, or end the program that uses it.",
+                                                   port, trouble.message()));
         port_number_ = acceptor_.local_endpoint().port();
         tcp_port_ = make_port([this](const PortMessage& said) { broadcast(said); });
         accept_on();

@@ -31,11 +31,11 @@ bool is_websocket_key(std::string_view key) {
 /// Checks that RFC 6455 (4.2) requires of a server.
 std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     if (head.websocket_version != "13") {
-        HttpAnswer answer =
-            http_error(426, "invalid_input",
-                       fmt::format("The handshake asks for version \"{}\" of the WebSocket protocol; version 13 is "
-                                   "spoken here. No WebSocket was opened.",
-                                   shown(head.websocket_version)));
+        HttpAnswer answer = http_error(
+            426, "invalid_input",
+            fmt::format("The handshake requests version \"{}\" of the WebSocket protocol; only version 13 is "
+                        "supported. No WebSocket was opened.",
+                        shown(head.websocket_version)));
         return with(with(std::move(answer), "Sec-WebSocket-Version", "13"), "Upgrade", "websocket");
     }
     if (!is_websocket_key(head.websocket_key))

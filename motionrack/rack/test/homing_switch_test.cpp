@@ -66,9 +66,10 @@ class HomeSwitch : public testing::TestWithParam<int> {
 INSTANTIATE_TEST_SUITE_P(Types, HomeSwitch, testing::Values(1, 2, 3, 4));
 
 TEST_P(HomeSwitch, ThatBreaksOnTheWayOffItAndComesBackIsNotHome) {
-    expect_refused(homed(axis_from(0), "X", GetParam(),
-                         {{"BACK_WAIT", 4, "home.stuck_open"}, {approach(), twice() ? 10 : 2, "home.stuck_open=0"}}),
-                   "beyond the place where it was released in this search, and a sound switch explains 0.07");
+    expect_refused(
+        homed(axis_from(0), "X", GetParam(),
+              {{"BACK_WAIT", 4, "home.stuck_open"}, {approach(), twice() ? 10 : 2, "home.stuck_open=0"}}),
+        "beyond the position at which it was released in this search; a sound switch deviates by at most 0.07");
 }
 
 class HomeSwitchComingTwice : public testing::TestWithParam<int> {};
@@ -77,33 +78,33 @@ INSTANTIATE_TEST_SUITE_P(Types, HomeSwitchComingTwice, testing::Values(2, 4));
 TEST_P(HomeSwitchComingTwice, ThatBreaksAfterTheQuickApproachIsNotHome) {
     expect_refused(homed(axis_from(7), "X", GetParam(),
                          {{"BACK_WAIT", 1, "home.stuck_open"}, {"SLOW_WAIT", 10, "home.stuck_open=0"}}),
-                   "beyond the place where it");
+                   "beyond the position at which it");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatBreaksBeforeTheSlowApproachIsNotHome) {
     expect_refused(homed(axis_from(0), "X", GetParam(),
                          {{"SLOW_WAIT", 1, "home.stuck_open"}, {"SLOW_WAIT", 14, "home.stuck_open=0"}}),
-                   "beyond the place where it was released");
+                   "beyond the position at which it was released");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatSticksOnTheWayOffItIsNotHome) {
     expect_refused(homed(axis_from(0), "X", GetParam(),
                          {{"BACK_WAIT", 4, "home.stuck_closed"}, {"BACK_WAIT", 20, "home.stuck_closed=0"}}),
-                   "beyond the place where it was released");
+                   "beyond the position at which it was released");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatClosesOnTheSlowApproachIsNotHome) {
     expect_refused(homed(axis_from(0) + "backoff_mm = 1\n", "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
-                   "before the place where it was released");
+                   "before the position at which it was released");
     expect_refused(
         homed(axis_from(7, "hysteresis_mm = 1\n"), "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
-        "before the place where it had acted in this search");
+        "before the position at which it had acted in this search");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatClosesFarBeforeItsPlaceForAWhileIsNotHome) {
     expect_refused(homed(axis_from(20), "X", GetParam(),
                          {{"SEARCH_WAIT", 3, "home.stuck_closed"}, {"BACK_WAIT", 1, "home.stuck_closed=0"}}),
-                   "beyond the place where it was released");
+                   "beyond the position at which it was released");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatIsSoundAgainBeforeTheNextApproachIsHome) {
@@ -142,18 +143,18 @@ INSTANTIATE_TEST_SUITE_P(Types, HomeReference, testing::Values(1, 2, 3, 4));
 TEST_P(HomeReference, ThatSticksOnTheWayOffItIsNotHome) {
     expect_refused(
         homed(carriage_from(127), "board", GetParam(), {{"BACK", 1, "ref.broken"}, {"BACK", 8, "ref.broken=0"}}),
-        "beyond the place where it was released");
+        "beyond the position at which it was released");
 }
 
 TEST_P(HomeReference, ThatActsBeforeItsPlaceIsNotHome) {
     expect_refused(
         homed(carriage_from(127), "board", GetParam(), {{GetParam() % 2 == 0 ? "SLOW" : "SEARCH", 2, "ref.broken"}}),
-        "before the place where it was released");
+        "before the position at which it was released");
 }
 
 TEST(HomeReferenceTwice, ThatActedFarBeforeItsPlaceIsNotHome) {
     expect_refused(homed(carriage_from(110), "board", 2, {{"SEARCH", 3, "ref.broken"}, {"BACK", 1, "ref.broken=0"}}),
-                   "beyond the place where it was released");
+                   "beyond the position at which it was released");
 }
 
 }  // namespace

@@ -274,8 +274,8 @@ void PositionAxis::end_with(Error error, bool counted) {
 Result<void> PositionAxis::set_position(double position) {
     const double max_position = static_cast<double>(max_move_counts) / settings_.counts_per_unit;
     if (!(std::fabs(position) <= max_position))
-        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position,
-                                              max_position, settings_.unit));
+        return refuse("Position", fmt::format("it is {0}; it must be -{1:.0f} to {1:.0f} {2}", position, max_position,
+                                              settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     // The card's events show whether its watchdog has reset the card in the meantime.
     if (host_.now() != set_up_at_) MOTIONRACK_CHECK(driver_.enable_events(event::POSITION | event::STOP));

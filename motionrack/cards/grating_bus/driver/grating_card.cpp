@@ -35,9 +35,10 @@ Result<CardInfo> GratingCard::open() {
     info.wrong_direction = DIRECTION.test(port_.read(offset("STATUS")));
     info.scales = port_.read(offset("SCALES"));
     if (info.scales < 1 || info.scales > max_scales)
-        return fail(ErrorKind::refused,
-                    fmt::format("The card says that it reads {} scales, but a frame has 1 to {}. Check its address.",
-                                info.scales, max_scales));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("The card reports {} scales, but a frame has 1 to {}. Nothing was done. Check its address.",
+                        info.scales, max_scales));
     info.first = port_.read(offset("FIRST"));
     info.timing.t1 = Duration{port_.read(offset("T1"))};
     info.timing.t2 = Duration{port_.read(offset("T2"))};

@@ -192,10 +192,9 @@ motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
         if (now() >= until)
             return fail(
                 ErrorKind::machine,
-                fmt::format(
-                    "Axis {} was not calibrated within {:.3f} s: no index pulse came. Move the axis over its zero "
-                    "position, and look at lines Z and Cal.",
-                    axis, to_seconds(timeout)));
+                fmt::format("Axis {} was not calibrated within {:.3f} s: no index pulse. Move the axis over its zero "
+                            "position, and check lines Z and Cal.",
+                            axis, to_seconds(timeout)));
         pass(milliseconds(1));
     }
     return {};

@@ -275,8 +275,8 @@ void SingleAxis::set_position_valid(bool on) {
 Result<void> SingleAxis::set_position(double position) {
     const double max_position = max_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
     if (!(std::fabs(position) <= max_position))
-        return refuse("Position", fmt::format("it is {}; at most {:.0f} {} either way are possible", position,
-                                              max_position, settings_.unit));
+        return refuse("Position", fmt::format("it is {0}; it must be -{1:.0f} to {1:.0f} {2}", position, max_position,
+                                              settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait for standstill");
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)

@@ -94,7 +94,7 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
         return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+",
                                   negative ? "+" : "-"));
     if (settings_.travel && way_left(negative) <= 0)
-        return refuse(fmt::format("it stands at pulse {}, the {} end of its travel; move it in {} direction",
+        return refuse(fmt::format("it is at pulse {}, the {} end of its travel; move it in {} direction",
                                   driver_.ReadLPS(axis_), negative ? "-" : "+", negative ? "+" : "-"));
     return {};
 }

@@ -11,8 +11,8 @@ namespace motionrack::rtc5 {
 Result<void> check(const Settings& s) {
     if (s.list_memory < min_list_memory || s.list_memory > max_list_memory)
         return fail(ErrorKind::refused,
-                    fmt::format("a list memory of {} positions is outside {} to {}; nothing was changed", s.list_memory,
-                                min_list_memory, max_list_memory));
+                    fmt::format("the list memory has {} positions; it must have {} to {}. Nothing was changed",
+                                s.list_memory, min_list_memory, max_list_memory));
     if (s.list1 < 1 || s.list2 < 0 || s.list1 > s.list_memory - s.list2)
         return fail(ErrorKind::refused, fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing "
                                                     "was changed. List 1 needs 1 or more, list 2 may have 0",
@@ -23,7 +23,7 @@ Result<void> check(const Settings& s) {
 Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
     if (state_.lists.running)
         return fail(ErrorKind::refused,
-                    "config_list: a list is running; the memory was left as it is. Stop the list first");
+                    "config_list: a list is running. The memory was not changed. Stop the list first");
     const std::int64_t rest = settings_.list_memory - std::clamp<std::int64_t>(list1, 0, settings_.list_memory);
     Settings changed = settings_;
     changed.list1 = list1, changed.list2 = list2 == -1 ? rest : list2;
@@ -38,7 +38,7 @@ namespace {
 
 Result<void> check_position(std::int64_t position) {
     if (position >= 0 && position < max_list_memory) return {};
-    return fail(ErrorKind::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed",
+    return fail(ErrorKind::refused, fmt::format("the list position is {}; it must be 0 to {}. Nothing was changed",
                                                 position, max_list_memory - 1));
 }
 
@@ -160,11 +160,11 @@ Result<void> Engine::execute_at(std::int64_t position) {
     if (l.running || l.moving_alone)
         return fail(
             ErrorKind::refused,
-            "execute_list: a list is running, or the card moves; nothing was started. Wait until it is not busy");
+            "execute_list: a list is running, or the card moves. Nothing was started. Wait until it is not busy");
     if (position < 0 || position >= l.begin[3])
         return fail(ErrorKind::refused,
-                    fmt::format("execute_at_pointer: position {} is outside 0 to {}; nothing was started", position,
-                                l.begin[3] - 1));
+                    fmt::format("execute_at_pointer: the position is {}; it must be 0 to {}. Nothing was started",
+                                position, l.begin[3] - 1));
     l.running = 1;
     l.depth = 0;
     l.next = l.current = position;
@@ -248,7 +248,7 @@ void Engine::restart_list() {
 Result<void> Engine::goto_xy(double x, double y) {
     if (state_.lists.running || state_.activity.kind != ActivityKind::none)
         return fail(ErrorKind::refused,
-                    "goto_xy: a list is running, or the card moves; nothing was moved. Wait until it is not busy");
+                    "goto_xy: a list is running, or the card moves. Nothing was moved. Wait until it is not busy");
     MOTIONRACK_TRY(const Command jump, list_command(Op::jump_abs, {x, y}));
     jump_to({jump.p[0], jump.p[1]});
     state_.lists.moving_alone = 1;

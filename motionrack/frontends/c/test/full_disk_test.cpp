@@ -25,7 +25,7 @@ std::string recorded(const std::string& path, bool full) {
         const FullDisk disk(20);
         const std::uint64_t hash = world.hash();
         EXPECT_EQ(mr_trace_stop(world), MR_IO);
-        EXPECT_THAT(mr_last_error(), HasSubstr("The recording goes on"));
+        EXPECT_THAT(mr_last_error(), HasSubstr("The recording continues"));
         EXPECT_EQ(world.hash(), hash);
         EXPECT_EQ(mr_trace_stop(world), MR_IO) << "again";
     }

@@ -111,9 +111,9 @@ TEST(Rtc5simHostile, ListsAreOpenedAndStartedOnlyWhereTheyAre) {
     const Session session;
     rtc5sim_question_us(0);
     EXPECT_EQ(load_list(1, 1 << 20), 0u),
-        refused(RTC5_PARAM_ERROR, "load_list: the list position 1048576 is outside 0 to 1048575");
-    set_start_list_pos(2, 0xFFFFFFFF), refused(RTC5_PARAM_ERROR, "set_start_list_pos: the list position 4294967295");
-    execute_list_pos(1, 1 << 20), refused(RTC5_PARAM_ERROR, "execute_list_pos: the list position 1048576");
+        refused(RTC5_PARAM_ERROR, "load_list: the list position is 1048576; it must be 0 to 1048575");
+    set_start_list_pos(2, 0xFFFFFFFF), refused(RTC5_PARAM_ERROR, "set_start_list_pos: the list position is 4294967295");
+    execute_list_pos(1, 1 << 20), refused(RTC5_PARAM_ERROR, "execute_list_pos: the list position is 1048576");
     load_sub(1024), refused(RTC5_PARAM_ERROR, "load_sub: subroutine 1024 must be 0 to 1023");
     config_list(2'000'000, 1), refused(RTC5_PARAM_ERROR, "do not fit a memory of 1048576");
     config_list(0, 10), refused(RTC5_PARAM_ERROR, "config_list: lists of 0 and 10");
