@@ -95,11 +95,11 @@ TEST_F(MarkCommand, PrintsTheSameAsJson) {
     const nlohmann::json all = nlohmann::json::parse(ran.out);
     EXPECT_EQ(all["strokes"], 1);
     EXPECT_EQ(all["drawing_mm"], 40);
-    EXPECT_LT(all["marked"]["worst_mm"].get<double>(), 0.0025);
-    EXPECT_NEAR(all["without_correction"]["worst_mm"].get<double>(), 8, 0.01);
+    EXPECT_LT(all["marked"]["max_deviation_mm"].get<double>(), 0.0025);
+    EXPECT_NEAR(all["without_correction"]["max_deviation_mm"].get<double>(), 8, 0.01);
     EXPECT_NEAR(all["fits_times_the_velocity"].get<double>(), 7.57, 0.01);
-    EXPECT_NEAR(all["room"]["mm"].get<double>(), 46.568, 0.001);
-    EXPECT_EQ(all["room"]["edge"], "right");
+    EXPECT_NEAR(all["field_margin"]["mm"].get<double>(), 46.568, 0.001);
+    EXPECT_EQ(all["field_margin"]["edge"], "right");
     EXPECT_TRUE(all["marked"]["overflows"].empty());
     EXPECT_TRUE(all["warnings"].empty());
 }
@@ -169,7 +169,7 @@ TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
         const Ran ran = motionrack(marking + option);
         EXPECT_EQ(ran.code, 5) << ran.out;
         EXPECT_THAT(ran.out, HasSubstr("cannot be written"));
-        EXPECT_THAT(ran.out, Not(HasSubstr("worst mm")));
+        EXPECT_THAT(ran.out, Not(HasSubstr("max mm")));
         EXPECT_FALSE(there("p.svg") || there("r.html"));
     }
     const Ran kind = motionrack(marking + "--picture p.gif");

@@ -84,7 +84,7 @@ std::string outcome_text(const MarkingJob& job, const MarkingOutcome& out) {
     fmt::format_to(to, "drawing: {}, {}, {:.3f} mm\n", rack::count_noun(out.strokes, "stroke"),
                    rack::count_noun(out.elements, "line or arc", "lines and arcs"), out.drawing_mm);
     for (const std::string& note : out.notes) fmt::format_to(to, "note: {}\n", note);
-    fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "worst mm", "rms mm",
+    fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "max mm", "rms mm",
                    "at x, y mm", "missing mm", "marked mm", "time s", "duty %", "energy J");
     row(to, out.off ? "with correction" : "without correction", out.on);
     if (out.off) row(to, "without correction", *out.off);

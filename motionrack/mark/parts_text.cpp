@@ -36,7 +36,7 @@ std::string parts_text(const MarkingJob& job, const Marked& marked) {
     const auto to = std::back_inserter(text);
     const std::size_t all = marked.parts.size();
     fmt::format_to(to, "parts: {} of {} marked\n{:>6} {:>8} {:>11} {:>11} {:>10} {:>10} {:>10}\n",
-                   all - marked.parts_lost(), all, "part", "number", "from s", "to s", "worst mm", "rms mm",
+                   all - marked.parts_lost(), all, "part", "number", "from s", "to s", "max mm", "rms mm",
                    "missing mm");
     std::size_t rows = 0, hidden = 0;
     for (std::size_t i = 0; i < all; ++i) {

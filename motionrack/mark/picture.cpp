@@ -219,8 +219,8 @@ Parts parts_of(const Prepared& prepared, const MarkingOutcome& out) {
     const Marked& without = out.off ? *out.off : out.on;
     parts.whole.push_back(part_of(scene, &without, "Without correction", "without"));
     parts.details.push_back(field_of(scene));
-    if (out.off) parts.details.push_back(worst_of(scene, out.on, "Worst place with correction", "driven"));
-    parts.details.push_back(worst_of(scene, without, "Worst place without correction", "without"));
+    if (out.off) parts.details.push_back(worst_of(scene, out.on, "Maximum deviation with correction", "driven"));
+    parts.details.push_back(worst_of(scene, without, "Maximum deviation without correction", "without"));
     return parts;
 }
 
@@ -282,7 +282,7 @@ std::string picture_svg(const Prepared& prepared, const MarkingOutcome& out) {
         x += 34 + 7 * static_cast<int>(std::string_view(name).size()) + 18;
     }
     body += fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"7\"/>\n", x + 8, y + 4) +
-            trace::svg_text(x + 24, y + 8, "start", "worst place");
+            trace::svg_text(x + 24, y + 8, "start", "maximum deviation");
     trace::SvgLook look;
     look.width = widest + margin, look.height = y + foot, look.standalone = true;
     return trace::svg_head(look, "The marked part") + sheet_style +

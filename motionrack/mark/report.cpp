@@ -39,7 +39,7 @@ std::vector<std::string> row_of(const char* name, const Marked& m) {
 trace::ReportTable deviations(const MarkingOutcome& out) {
     trace::ReportTable t{"Deviations",
                          "Marks on the part against the drawing",
-                         {"", "Worst", "RMS", "Not marked", "Marked", "Time", "Laser on", "Energy"},
+                         {"", "Max deviation", "RMS", "Not marked", "Marked", "Time", "Laser on", "Energy"},
                          {}};
     t.rows.push_back(row_of(out.off ? "With correction" : "Without correction", out.on));
     if (out.off) t.rows.push_back(row_of("Without correction", *out.off));
@@ -61,7 +61,7 @@ trace::ReportTable overflows(const Marked& m) {
 trace::ReportTable parts_table(const Marked& m) {
     trace::ReportTable t{"Parts",
                          "Result of each part, in their order",
-                         {"Part", "Number", "Fate", "From", "To", "Worst", "RMS", "Not marked"},
+                         {"Part", "Number", "Outcome", "From", "To", "Max deviation", "RMS", "Not marked"},
                          {}};
     for (std::size_t i = 0; i < m.parts.size(); ++i) {
         const PartMarked& p = m.parts[i];
@@ -77,7 +77,7 @@ void add_numbers(const MarkingJob& job, const MarkingOutcome& out, trace::Report
     const auto add = [&](const char* label, std::string value, const char* unit) {
         data.numbers.push_back({label, std::move(value), unit});
     };
-    add("Worst deviation", fmt::format("{:.4f}", out.on.deviation.worst_mm), "mm");
+    add("Max deviation", fmt::format("{:.4f}", out.on.deviation.worst_mm), "mm");
     if (out.off) add("The marks without correction", fmt::format("{:.4f}", out.off->deviation.worst_mm), "mm");
     add("RMS deviation", fmt::format("{:.4f}", out.on.deviation.rms_mm), "mm");
     add("Time", fmt::format("{:.4f}", out.on.seconds), "s");

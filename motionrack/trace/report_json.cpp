@@ -27,6 +27,11 @@ class Fields {
         }
         return *this;
     }
+    /// Reads a field under its name in earlier recordings.
+    template <class T>
+    Fields& former(const char* name, T& value) {
+        return reading_ ? (*this)(name, value) : *this;
+    }
 
   private:
     // Non-finite values become null.
@@ -146,8 +151,8 @@ void fields_of(ReportSource& v, Fields& f) {
 void fields_of(ReportData& v, Fields& f) {
     f("title", v.title)("program_kind", v.program_kind)("program_name", v.program_name)("rack_name", v.rack_name)(
         "verdict", v.verdict);
-    f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned)("worst", v.worst)(
-        "stop", v.stop);
+    f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned);
+    f.former("worst", v.worst)("max_deviation", v.worst)("stop", v.stop);
     f("moves", v.moves)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables",
                                                                                                           v.tables);
     f("series", v.series)("source", v.source)("notes", v.notes);

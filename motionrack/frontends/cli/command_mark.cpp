@@ -26,10 +26,10 @@ struct MarkOptions {
 };
 
 nlohmann::ordered_json mark_json(const mark::Marked& m) {
-    nlohmann::ordered_json out = {{"worst_mm", m.deviation.worst_mm},
+    nlohmann::ordered_json out = {{"max_deviation_mm", m.deviation.worst_mm},
                                   {"rms_mm", m.deviation.rms_mm},
-                                  {"worst_at_mm", {m.deviation.worst_at.x, m.deviation.worst_at.y}},
-                                  {"worst_at_s", m.deviation.worst_s},
+                                  {"max_deviation_at_mm", {m.deviation.worst_at.x, m.deviation.worst_at.y}},
+                                  {"max_deviation_at_s", m.deviation.worst_s},
                                   {"missing_mm", m.deviation.missing_mm},
                                   {"marked_mm", m.marked_mm},
                                   {"duration_s", m.seconds},
@@ -47,11 +47,11 @@ nlohmann::ordered_json mark_json(const mark::Marked& m) {
                                     {"marking", o.marking}});
     out["parts"] = nlohmann::ordered_json::array();
     for (const mark::PartMarked& p : m.parts)
-        out["parts"].push_back({{"fate", mark::name_of(p.fate)},
+        out["parts"].push_back({{"outcome", mark::name_of(p.fate)},
                                 {"number", p.number},
                                 {"from_s", p.begin_s},
                                 {"to_s", p.end_s},
-                                {"worst_mm", p.deviation.worst_mm},
+                                {"max_deviation_mm", p.deviation.worst_mm},
                                 {"rms_mm", p.deviation.rms_mm},
                                 {"missing_mm", p.deviation.missing_mm},
                                 {"marked_mm", p.marked_mm}});
@@ -66,7 +66,7 @@ std::string json_text(const mark::MarkingOutcome& out) {
     if (out.off) all["without_correction"] = mark_json(*out.off);
     if (out.fits_factor) all["fits_times_the_velocity"] = *out.fits_factor;
     const mark::FieldMargin room = mark::room_of(out, out.on);
-    all["room"] = {{"mm", room.mm}, {"edge", room.edge}};
+    all["field_margin"] = {{"mm", room.mm}, {"edge", room.edge}};
     all["warnings"] = mark::warnings_of(out);
     all["notes"] = out.notes;
     return all.dump(2);

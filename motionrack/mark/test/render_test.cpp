@@ -59,7 +59,7 @@ void expect_drawable(const std::string& svg) {
 TEST(MarkPicture, ShowsTheDrawingBothPartsTheFieldAndTheWorstPlace) {
     const Shown s = shown(belt_job + "[fly]\nmode = 'encoder'\n");
     EXPECT_THAT(titles(s), ElementsAre("As drawn", "With correction", "Without correction", "In the field",
-                                       "Worst place with correction"));
+                                       "Maximum deviation with correction"));
     const std::string sheet = picture_svg(s.prepared, s.out);
     expect_drawable(sheet);
     for (const char* seen : {"class=\"planned\"", "class=\"driven\"", "class=\"without\"", "class=\"ring\"",

@@ -114,6 +114,13 @@ RC_GTEST_PROP(ReportJson, KeepsEveryBitOfANumber, (double value, std::int64_t wh
     RC_ASSERT(back->notes[0] == text);
 }
 
+TEST(ReportJson, ReadsTheMaximumDeviationUnderItsFormerName) {
+    const auto data = report_from_json(R"({"worst": {"mm": 0.5, "line": 3}})");
+    ASSERT_TRUE(data && data->worst);
+    EXPECT_EQ(data->worst->mm, 0.5);
+    EXPECT_EQ(data->worst->line, 3);
+}
+
 // ---- truncated
 
 /// Writes until it kills itself, with a flush after every `flush` events and more events after the last flush.
