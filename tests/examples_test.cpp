@@ -153,6 +153,8 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
     EXPECT_NE(former.out.find("'--free' is now '--unthrottled'."), std::string::npos) << former.out;
     EXPECT_NE(former.out.find("'--speed' is now '--time-scale'."), std::string::npos) << former.out;
     EXPECT_EQ(former.out.find("not expected"), std::string::npos) << former.out;
+    EXPECT_NE(run(examples, program + " home X --type 3 2>&1").out.find("'--type' is now '--method'."),
+              std::string::npos);
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " describe mcx314 --json").out));
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
 }

@@ -174,7 +174,7 @@ class AxisCheck {
         above("latch_velocity_{u}_s", h.latch_velocity, axis_.max_velocity_step, "max_velocity_step_{u}_s");
         if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"method", "encoder_counts_per_rev"}))
             warn("method", "homing",
-                 fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.",
+                 fmt::format("Axis {} is to be homed to its encoder's index (method {}), but it has no encoder.",
                              axis_.letter, h.type));
         if (h.type >= 3 && !h.position && !h.index_after && source_.sound({"method"}))
             warn("method", "homing",

@@ -117,9 +117,9 @@ constexpr std::array<Field, 8> homing_table = {
                  "a quarter of the velocity step; of a servo all of it"),
     absent_means(
         formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
-        "position of the switch edge; types 3 and 4: plus index_after, and one of both keys is required"),
+        "position of the switch edge; methods 3 and 4: plus index_after, and one of both keys is required"),
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
-                                                 "distance from the switch to the index (types 3 and 4); one that is "
+                                                 "distance from the switch to the index (methods 3 and 4); one that is "
                                                  "off by more than a quarter of a motor turn is rejected"),
                  "the first index; in a served machine that of its first search"),
     formerly("clearance_{u}", field<&RackHoming::clearance>("backoff_{u}", 0, 1000, "{u}",

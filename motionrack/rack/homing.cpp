@@ -289,7 +289,7 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
         return refuse(
             fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
                         type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
-    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}; it must be 1 to 4", h.type));
+    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing method is {}; it must be 1 to 4", h.type));
     const bool plus = h.direction == HomingDirection::plus;
     if (type.position_loop && plus && !cam)
         return refuse(
@@ -324,8 +324,8 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
     order.index_input = input_of(config, axis, "enc_z", type.index_pins);
     if (order.index_input < 0)
         return refuse(
-            fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its "
-                        "channel ({}); home it with type 1 or 2",
+            fmt::format("method {} needs the encoder's index, which does not exist or is not wired to a stop input of "
+                        "its channel ({}); home it with method 1 or 2",
                         h.type, inputs_text(axis, type.index_pins)));
     return order;
 }

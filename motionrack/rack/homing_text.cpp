@@ -135,7 +135,7 @@ std::string homing_picture(const HomedAxis& axis) {
         spans.push_back({fmt::format("{} {:.3f} s", name, stay.took_s), stay.from_s, stay.from_s + stay.took_s});
     }
     return trace::svg_timeline(
-        fmt::format("Axis {} {}, type {}", axis.letter, axis.outcome.homed ? "is homed" : "fails to home",
+        fmt::format("Axis {} {}, method {}", axis.letter, axis.outcome.homed ? "is homed" : "fails to home",
                     static_cast<int>(axis.order.type)),
         charts, spans, {720, 560, true});
 }

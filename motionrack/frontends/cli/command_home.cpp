@@ -20,7 +20,7 @@ namespace {
 struct HomeOptions {
     std::string axes, rack, picture;
     std::vector<std::string> faults;
-    int type = 0;
+    int method = 0;
     bool json = false, quiet = false;
 };
 
@@ -71,7 +71,7 @@ int home(const HomeOptions& options) {
     rack::HomingSettings settings;
     for (const char c : options.axes)
         if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (options.type != 0) settings.type = options.type;
+    if (options.method != 0) settings.type = options.method;
     settings.stop = &stop_asked;
     ProgressLine progress(options.quiet || options.json);
     settings.progress = [&progress](const rack::HomingProgress& p) {
@@ -98,7 +98,7 @@ void add_home(CLI::App& app, Action& chosen) {
     command->add_option("AXES", options->axes, "letters, as XY or X,Y (default: every axis that has a home switch)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command
-        ->add_option("--type", options->type,
+        ->add_option("--method", options->method,
                      "1 stop at the switch, 2 then again slowly, 3 as 1, then to the encoder's index, 4 as 2, then to "
                      "the index (default: the rack file's)")
         ->check(CLI::Range(1, 4));

@@ -71,14 +71,15 @@ const std::terminate_handler terminate_before = std::get_terminate();
 
 /// Names the present options for former ones, on a command line that was refused. Returns false if it has none.
 bool name_renamed_options(int argc, char** argv) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> renamed = {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> renamed = {
         {{"--speed", "--time-scale"},
          {"--speeds", "--velocities"},
          {"--free", "--unthrottled"},
          {"--no-pairing", "--no-auth"},
          {"--for", "--duration"},
          {"--every", "--interval"},
-         {"--fresh", "--restart"}}};
+         {"--fresh", "--restart"},
+         {"--type", "--method"}}};
     bool any = false;
     for (int i = 1; i < argc; ++i) {
         const std::string_view given = argv[i], name = given.substr(0, given.find('='));

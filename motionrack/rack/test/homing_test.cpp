@@ -116,7 +116,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin0\" = \"open\"\n"),
                 HasSubstr("not wired to a stop input of its channel (xin0, xin1, xin2, xin3 of card motion)"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"),
-                HasSubstr("type 4 needs the encoder's index"));
+                HasSubstr("method 4 needs the encoder's index"));
     EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nsearch_velocity_mm_s = 101\n"),
                 HasSubstr("the velocity is 101 mm/s; it must be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
@@ -248,7 +248,7 @@ TEST(RackHomes, TextJsonAndPictureTellTheSame) {
     EXPECT_NEAR(json["axes"][0]["switch_to_index"].get<double>(), 2, 1e-9);
     const std::string picture = homing_picture(out.axes[0]);
     EXPECT_THAT(picture, HasSubstr("SEARCH "));
-    EXPECT_THAT(picture, HasSubstr("Axis X is homed, type 4"));
+    EXPECT_THAT(picture, HasSubstr("Axis X is homed, method 4"));
     EXPECT_THAT(picture, testing::Not(HasSubstr("nan")));
 }
 
