@@ -33,6 +33,8 @@ ELSEWHERE = {
     "klipper": "Klipper",
     "siemens": "Siemens",
     "heidenhain": "Heidenhain",
+    "plcopen": "PLCopen",
+    "cia402": "CiA 402",
 }
 PRINTED = {"de": "German", "cs": "Czech", "sv": "Swedish", "zh": "Chinese"}
 KEYS = {"word", "text", "types", "file", *ELSEWHERE, *PRINTED}
