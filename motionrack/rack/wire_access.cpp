@@ -67,9 +67,7 @@ void WireAccess::add_axes() {
                 wire.kind = WireKind::track;
                 wire.which = end.name == "enc_b";
                 wire.refused = fmt::format(
-                    "{} cannot be forced: it is the output of the encoder. Force the input of the card that it leads "
-                    "to",
-                    name);
+                    "{} cannot be forced: it is the output of the encoder. Force the connected input of a card", name);
             } else if (end.volts > 0) {
                 wire.unit = end.volts;
             } else if (end.direction == PinDirection::input) {

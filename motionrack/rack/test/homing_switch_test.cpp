@@ -52,7 +52,7 @@ std::string axis_from(double start_mm, const std::string& more = {}) {
 void expect_refused(const HomingOutcome& out, const char* why) {
     ASSERT_FALSE(out.ended) << homing_text(out);
     EXPECT_EQ(out.ended.error().kind, ErrorKind::machine);
-    EXPECT_THAT(out.ended.error().message, HasSubstr("is not sound: it acted"));
+    EXPECT_THAT(out.ended.error().message, HasSubstr("is not sound: it became active"));
     EXPECT_THAT(out.ended.error().message, HasSubstr(why)) << homing_text(out);
     EXPECT_THAT(out.ended.error().message, HasSubstr("not valid"));
     EXPECT_FALSE(out.all_homed());
@@ -98,7 +98,7 @@ TEST_P(HomeSwitchComingTwice, ThatClosesOnTheSlowApproachIsNotHome) {
                    "before the position at which it was released");
     expect_refused(
         homed(axis_from(7, "hysteresis_mm = 1\n"), "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
-        "before the position at which it had acted in this search");
+        "before the position at which it became active in this search");
 }
 
 TEST_P(HomeSwitchComingTwice, ThatClosesFarBeforeItsPlaceForAWhileIsNotHome) {

@@ -139,8 +139,9 @@ TEST(StageWires, EachWireOfTheRackCanBeReadInItsUnit) {
     }
     EXPECT_DOUBLE_EQ(*wires.get("mask.drive"), *wires.get("second.vout0"));
     EXPECT_NE(*wires.get("mask.drive"), 0);
-    EXPECT_EQ(wires.force("mask.scale.a", 1).error().message,
-              "mask.scale.a is the scale's own output; drive the decoder's input. Nothing was done.");
+    EXPECT_EQ(
+        wires.force("mask.scale.a", 1).error().message,
+        "mask.scale.a cannot be forced: it is the output of the scale. Force the decoder's input. Nothing was done.");
     EXPECT_TRUE(wires.force("mask.drive", 0));
     EXPECT_EQ(*wires.get("mask.drive"), 0);
 }
