@@ -17,8 +17,7 @@ export function Picker(props: {
   const filter = useSignal('');
   const fits = matching(channelList.value, props.chosen, filter.value);
   const add = (name: string): void => {
-    if (props.chosen.length >= props.max)
-      notice('refused', `At most ${props.max} channels. Remove one first.`);
+    if (props.chosen.length >= props.max) notice('refused', `At most ${props.max} channels. Remove one first.`);
     else props.onChange([...props.chosen, name]);
   };
   return (
