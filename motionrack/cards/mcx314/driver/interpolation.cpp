@@ -26,6 +26,13 @@ bool is_zero(const FourAxes& values, unsigned axes) {
     return true;
 }
 
+Result<void> check_arc_tolerance(double part) {
+    if (part >= 0 && part <= 1) return {};
+    return fail(
+        ErrorKind::refused,
+        fmt::format("set_arc_tolerance: {} is out of range; it must be 0 to 1. The tolerance was not changed.", part));
+}
+
 }  // namespace
 
 // ---- direct register access
@@ -97,11 +104,7 @@ Result<void> Driver::SetCP(unsigned axes, std::int64_t centre) {
 }
 
 Result<void> Driver::set_arc_tolerance(double part) {
-    if (!(part >= 0 && part <= 1))
-        return fail(
-            ErrorKind::refused,
-            fmt::format("set_arc_tolerance: {} is out of range; it must be 0 to 1. The tolerance was not changed.",
-                        part));
+    MOTIONRACK_CHECK(check_arc_tolerance(part));
     arc_tolerance_ = part;
     return {};
 }
