@@ -52,7 +52,7 @@ class FileLock {
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
         if (file < 0)
             return fail(ErrorKind::io,
-                        fmt::format("The journal '{}' cannot be made: {}.", journal, std::strerror(errno)));
+                        fmt::format("The journal '{}' cannot be created: {}.", journal, std::strerror(errno)));
         std::unique_ptr<FileLock> lock(new FileLock(file));
         if (::flock(file, LOCK_EX | LOCK_NB) != 0)
             return fail(

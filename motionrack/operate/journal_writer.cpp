@@ -250,7 +250,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
         say(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
                         fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
     for (const std::string& doubt : doubts) say(fmt::format("The journal is invalid: {}.", doubt));
-    if (!intact && !config.axes.empty()) say("No position is valid: home the machine, or declare its position.");
+    if (!intact && !config.axes.empty()) say("No position is valid: home the machine, or set its position.");
     if (!last.damage.empty()) say(last.damage);
     return out;
 }

@@ -111,7 +111,7 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
 /// Requires enabled axes that stay so, without a pending set position, which applies to the position at its command.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
-        return not_now(fmt::format("{}: positions of axes are being declared; try again. Nothing was moved.", what));
+        return not_now(fmt::format("{}: positions of axes are being set; try again. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes) {
         const auto i = static_cast<std::size_t>(axis.index());
         if (axes.find(axis.letter) != std::string_view::npos && (!enabled_[i] || disable_wanted_[i]))
@@ -130,7 +130,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!position_valid(axis))
             return not_now(fmt::format(
-                "{}: the position of axis {} is not valid. Home it, or declare its position. Nothing was moved.", what,
+                "{}: the position of axis {} is not valid. Home it, or set its position. Nothing was moved.", what,
                 axis.letter));
     return {};
 }
@@ -336,10 +336,10 @@ Result<void> Machine::home(std::string axes) {
 }
 
 Result<void> Machine::set_position(char axis, double position) {
-    MOTIONRACK_CHECK(ready("The position was not declared"));
-    MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not declared", axis));
+    MOTIONRACK_CHECK(ready("The position was not set"));
+    MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not set", axis));
     if (!std::isfinite(position))
-        return fail(ErrorKind::invalid_input, "The position was not declared: it is not a number.");
+        return fail(ErrorKind::invalid_input, "The position was not set: it is not a number.");
     positions_wanted_.push_back(validity_.declared(axis, position));
     return {};
 }

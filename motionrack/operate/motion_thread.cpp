@@ -253,7 +253,7 @@ void Machine::change_positions() {
         if (!validity_.of(declared.letter)) continue;
         validity_.invalidate(declared.letter);
         raise("position",
-              fmt::format("The position of axis {} was not declared, and is not valid any more: {}", declared.letter,
+              fmt::format("The position of axis {} was not set, and is not valid any more: {}", declared.letter,
                           done.error().message),
               declared.letter);
     }

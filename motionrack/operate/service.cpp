@@ -125,8 +125,7 @@ void Service::take() {
         lost += fmt::format("{}{}", lost.empty() ? "" : ", ", axis.config.letter);
     }
     note_ = fmt::format(" The service of card {} has ended", card_);
-    note_ +=
-        lost.empty() ? "." : fmt::format("; the position of {} is not valid: home it, or declare its position.", lost);
+    note_ += lost.empty() ? "." : fmt::format("; the position of {} is not valid: home it, or set its position.", lost);
     machine_.rack_.set_stop_flag(&stop_);
     machine_.group_holds_ = machine_.group_holds_ && lost.empty();
     machine_.hands_over_ = true;

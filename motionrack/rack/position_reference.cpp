@@ -76,7 +76,7 @@ Result<void> PositionReference::check() const {
             return fail(
                 ErrorKind::refused,
                 fmt::format("Axis {} moves at {:.3f} {}/s, and a program begins at standstill. Nothing more was "
-                            "moved; stop the axis, or let time pass until standstill.",
+                            "moved; stop the axis, or advance time until standstill.",
                             axis.config.letter, hz / axis.config.pulses_per_unit(), axis.config.unit()));
     }
     return {};

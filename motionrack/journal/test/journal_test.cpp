@@ -87,7 +87,7 @@ TEST_F(JournalFile, LeavesFilesThatAreNoJournalAsTheyAre) {
     sqlite3_exec(other, "CREATE TABLE customer (name TEXT)", nullptr, nullptr, nullptr);
     sqlite3_close(other);
     EXPECT_NE(Journal::open(path_).error().message.find("not a journal"), std::string::npos);
-    EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be made"), std::string::npos);
+    EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be created"), std::string::npos);
 }
 
 TEST_F(JournalFile, IsForItsOwnerOnly) {

@@ -133,7 +133,7 @@ TEST(Machine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
 TEST(Machine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     Operated o(two_axes());
     const auto refused = [](const Result<void>& order) {
-        EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being declared"));
+        EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being set"));
     };
     o.at(0.1, [&](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 5));

@@ -67,13 +67,13 @@ TEST(Service, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y3\nM2\n", "p")); });
     o.run(2);
-    EXPECT_EQ(o.said,
-              (std::vector<std::string>{
-                  "Card m is in service: it was reset, and only its functions drive it. The position of X, Y is not "
-                  "valid any more.",
-                  "Written.", "Y drives.", "640 pulses",
-                  "The service of card m has ended; the position of X, Y is not valid: home it, or declare its "
-                  "position."}));
+    EXPECT_EQ(
+        o.said,
+        (std::vector<std::string>{
+            "Card m is in service: it was reset, and only its functions drive it. The position of X, Y is not "
+            "valid any more.",
+            "Written.", "Y drives.", "640 pulses",
+            "The service of card m has ended; the position of X, Y is not valid: home it, or set its position."}));
     EXPECT_NEAR(o.x(), 12, 1e-9);
     EXPECT_NEAR(o.y(), 3, 1e-9);
 }

@@ -87,7 +87,7 @@ TEST(LibraryOnThePage, IsCalledAndWrittenDown) {
         EXPECT_EQ(answer.body["status"]["state"], "service");
     });
     a.at(0.9, anna, "service", {{"card", "m"}, {"on", false}}, [](const Answer& answer) {
-        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("home it, or declare its position"));
+        EXPECT_THAT(answer.body["text"].get<std::string>(), HasSubstr("home it, or set its position"));
     });
     a.at(1.1, eve, "events", {{"limit", 100}}, [](const Answer& answer) {
         std::string all;
