@@ -59,7 +59,7 @@ TEST(Determinism, RacksHaveTheHistoryOfEveryOtherBuild) {
            "tests/golden/trace/racks.txt.";
 }
 
-TEST(Determinism, RacksInOneProcessDoNotKnowEachOther) {
+TEST(Determinism, RunsRacksOfOneProcessIndependently) {
     const std::array<std::string, 3> programs = {"G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG0 X0 Y0\nM2\n",
                                                  "G21 G90 F600\nG1 X4 Y3 Z75\nG1 X0 A20\nG0 Y0 A0\nM2\n",
                                                  "G21 G90\nG0 X200\nG4 P0.1\nG0 X1\nM2\n"};

@@ -105,7 +105,7 @@ TEST(HomingPage, ItsPictureIsThatOfTheExample) {
     EXPECT_NE(page().find("../pictures/homing.svg"), std::string::npos);
 }
 
-TEST(HomingPage, WhatItSaysTheCommandPrintsIsPrinted) {
+TEST(HomingPage, ShowsTheOutputOfTheCommand) {
     const std::string printed = text_of(source_root / "examples/08_homing/expected.txt"), text = page();
     const std::size_t at = text.find("    axis X  method 4");
     ASSERT_NE(at, std::string::npos);

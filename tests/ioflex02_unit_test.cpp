@@ -120,7 +120,7 @@ TEST_F(ImageCommand, SaysWhatInitWouldComeTo) {
     EXPECT_EQ(image("check no_such.bin").code, 5);
 }
 
-TEST_F(ImageCommand, RefusesWhatMakesNoImage) {
+TEST_F(ImageCommand, RejectsInvalidArgumentsAndCreatesNoImage) {
     for (const char* axis : {"4=x2", "0", "1=", "1=x3", "1=filter=16", "1=filter=", "1=reversed,,x2", "x=x2"}) {
         const Ran ran = image("make -o irc.bin --axis " + std::string(axis));
         EXPECT_EQ(ran.code, 2) << axis << ran.out;

@@ -217,7 +217,7 @@ TEST_F(MarkCommand, RefusesADrawingThatDoesNotReachTheField) {
     EXPECT_THAT(far.out, HasSubstr("more than 100000 mm from the field's middle"));
 }
 
-TEST_F(MarkCommand, SearchesTheVelocityThatFitsNoFartherThanAPartCanGo) {
+TEST_F(MarkCommand, SuggestsNoVelocityThatAPartCannotReach) {
     write("job.toml",
           "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nvelocity_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = "
           "'encoder'\n");

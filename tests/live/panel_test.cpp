@@ -63,7 +63,7 @@ TEST_F(PanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
-TEST_F(PanelOnARealCard, StopsInTheMidstOfADriveWhileAFunctionWaits) {
+TEST_F(PanelOnARealCard, StopsADriveWhileAFunctionWaits) {
     drive_x();
     ASSERT_TRUE(served->send(
         "POST", "call",

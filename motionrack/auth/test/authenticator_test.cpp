@@ -199,7 +199,7 @@ TEST_F(AuthenticatorTest, HasKeysCheckedThatOthersMayRead) {
     EXPECT_FALSE(check_readers(file().string(), "The key"));
 }
 
-TEST_F(AuthenticatorTest, RefusesAPlaceAtWhichItCannotLook) {
+TEST_F(AuthenticatorTest, RejectsAUsersFileBelowARegularFile) {
     write("{}");
     AuthSettings settings;
     settings.users_file = file() / "users.json";  // inside a file, as if it were a folder

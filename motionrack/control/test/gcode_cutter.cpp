@@ -136,7 +136,7 @@ RC_GTEST_PROP(GcodeCutter, LeftOfAContourIsRightOfItsMirrorImage, ()) {
     }
 }
 
-TEST(GcodeCutter, AWholeTurnInsideAndOutsideKeepsItsCentre) {
+TEST(GcodeCutter, KeepsTheCentreOfAFullCircleInsideAndOutside) {
     const auto program =
         read(std::string(cutter_preamble) +
              "G0 X50 Y-40\nG41.1 D10\nG1 X50 Y-20\nG1 X50 Y0\nG3 I-30 Z4 P3\nG1 X50 Y20\nG40 G1 X0 Y0\n"
@@ -192,7 +192,7 @@ TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
     }
 }
 
-TEST(GcodeCutter, NearlyTangentCornersGetNoTinyArcs) {
+TEST(GcodeCutter, InsertsNoArcsAtNearlyTangentCorners) {
     std::string text = std::string(cutter_preamble) + "G42.1 D6\nG1 X0 Y-100\n";
     constexpr int chords = 720;
     for (int i = 1; i <= chords; ++i)
@@ -271,7 +271,7 @@ const testing::Refused cutter_refused[] = {
 
 }  // namespace
 
-TEST(GcodeCutter, RefusesWithPlaceAndSentence) {
+TEST(GcodeCutter, RejectsImpossibleContoursWithPositionAndReason) {
     testing::expect_refused(cutter_preamble, cutter_refused);
 }
 

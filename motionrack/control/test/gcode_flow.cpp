@@ -82,7 +82,7 @@ TEST(GcodeFlow, CallsHaveArgumentsAndReturnValues) {
     EXPECT_THAT(xs("o0100 sub\nX1\no100 endsub\no100 call"), ElementsAre(1));
 }
 
-TEST(GcodeFlow, NamesOfACallAreItsOwn) {
+TEST(GcodeFlow, KeepsNamedParametersLocalToACall) {
     EXPECT_THAT(xs("o1 sub\nX[EXISTS[#<a>]]\n#<a>=5 #<_g>=6\nX#<a>\no1 endsub\n#<a>=1\no1 call\nX#<a>\nX#<_g>"),
                 ElementsAre(0, 5, 1, 6));
     EXPECT_THAT(xs("o1 sub\nX#<_call_level>\no2 if [#1 GT 1]\no1 call [#1 - 1]\no2 endif\no1 endsub\no1 call "
@@ -100,7 +100,7 @@ TEST(GcodeFlow, RecursionHasItsOwnLoops) {
         ElementsAre(1, 2, 3));
 }
 
-TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
+TEST(GcodeFlow, LoadsSubprogramsFromFilesBesideTheProgram) {
     Settings settings = testing::machine("XYZABC", 1e6);
     std::vector<std::string> asked;
     settings.subprogram = [&asked](const std::string& name) -> Result<std::string> {

@@ -43,7 +43,7 @@ TEST(GcodeReader, FillsArcsOfAllPlanesWithTheSignOfTheThirdAxis) {
     EXPECT_EQ(moves[2].centre_second, 1);
 }
 
-TEST(GcodeReader, FeedOfRotaryMovesIsInDegreesWhateverTheUnit) {
+TEST(GcodeReader, ReadsTheFeedOfRotaryMovesInDegreesInEveryUnit) {
     const auto moves = read("G20 F60\nG1 A10\nX1 A20\nG21 B5").moves();
     ASSERT_EQ(moves.size(), 3u);
     EXPECT_EQ(moves[0].feed, 1);

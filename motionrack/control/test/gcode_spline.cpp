@@ -208,7 +208,7 @@ const testing::Refused spline_refused[] = {
 
 }  // namespace
 
-TEST(GcodeSpline, RefusesWithPlaceAndSentence) {
+TEST(GcodeSpline, RejectsImpossibleContoursWithPositionAndReason) {
     testing::expect_refused(spline_preamble, spline_refused);
 }
 

@@ -34,7 +34,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     EXPECT_THAT(insert_fillets(straight), ::testing::HasSubstr("no corner for A or C at the end of line 1"));
 }
 
-TEST(GcodeTurning, TheMachineStandsAtTheEndAndModesAreThoseOfTheProgram) {
+TEST(GcodeTurning, EndsACycleAtTheContourEndWithTheModesOfTheProgram) {
     const std::string sub = "o1 sub\nG0 X10 Z2\nG1 Z-30 F7 S5 M3\n#9=3\nX20\no1 endsub\n";
     const auto read = testing::read("G21 G18 G90 F600\n" + sub + "#9=1\nG0 X25 Z5\nG71 Q1 I6 (turn) M8\nG91\nG1 X#9\n");
     EXPECT_EQ(read.problems.size(), 0u);

@@ -79,7 +79,7 @@ TEST(Geometry, ALineHasTheLengthOfItsXyzPartAndCarriesTheRotaryAxes) {
     EXPECT_TRUE(std::isinf(curvature_radius(path)));
 }
 
-TEST(Geometry, RotaryMovesAreAsLongAsTheAxisThatTurnsMost) {
+TEST(Geometry, TakesTheLargestRotationAsTheLengthOfARotaryMove) {
     const Geometry path = geometry_of(line({1, 2, 3, 10, -40, 0}), {1, 2, 3, 0, 0, 0});
     EXPECT_EQ(path.shape, PathShape::rotary);
     EXPECT_DOUBLE_EQ(path.length, 40);

@@ -111,7 +111,7 @@ TEST_F(FrameValidatorTest, FollowsACardThatWasReset) {
     EXPECT_EQ(hear(after_reset(2)), Validation::used);
 }
 
-TEST_F(FrameValidatorTest, IsStaleAfterTwoPeriodsAndSaysSoOnce) {
+TEST_F(FrameValidatorTest, ReportsStaleFramesOnceAfterTwoPeriods) {
     hear(10);
     judge.look(now + 2 * period);
     EXPECT_FALSE(judge.stale());

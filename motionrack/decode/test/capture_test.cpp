@@ -78,7 +78,7 @@ TEST(VcdCapture, TakesBitsOfVectors) {
     EXPECT_EQ(analysis->channels[1].notes[0].unknown, 1u);
 }
 
-TEST(VcdCapture, HoldsALineThatIsXOrZAndCountsThat) {
+TEST(VcdCapture, KeepsTheLevelOfALineAtXOrZAndCountsTheseSamples) {
     const auto analysis = analysed(vcd_head + "#0 0! 0\" 0#\n#1 1!\n#2 x!\n#3 X!\n#4 1!\n#5 z!\n#6 1\" 0!\n", "a.vcd");
     ASSERT_TRUE(analysis);
     const ChannelResult& x = analysis->channels[0];

@@ -166,7 +166,7 @@ TEST(ChannelDecoder, TakesFallingEdgesOfAnIndexThatIsActiveLow) {
     EXPECT_EQ(decoder.count(), 4);
 }
 
-TEST(ChannelDecoder, NumbersSamplesBehindSkippedOnes) {
+TEST(ChannelDecoder, NumbersSamplesAfterSkippedOnes) {
     const std::vector<std::uint8_t> stream = {3, 0};
     ChannelDecoder decoder;
     decoder.skip(1000);

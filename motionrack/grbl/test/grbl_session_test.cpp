@@ -49,7 +49,7 @@ TEST(GrblPort, ReportsAChangedWorkOffsetAtOnce) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|WPos:-5.000,2.500,1.000|"));
 }
 
-TEST(GrblPort, DrivesALineAndAnswersOnce) {
+TEST(GrblPort, ExecutesALineAndAnswersOnce) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("N12 G1 X10 F1200\n"), "ok\r\n");
     EXPECT_THAT(b.ask("?", 0.2), AllOf(StartsWith("<Run|MPos:"), HasSubstr("|FS:")));

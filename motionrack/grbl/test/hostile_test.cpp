@@ -63,7 +63,7 @@ TEST(GrblPort, AnswersEveryLineOnce) {
     }
 }
 
-TEST(GrblPort, TakesALineOfAMegabyteWithoutHarm) {
+TEST(GrblPort, RejectsALineOfAMegabyteAndContinuesTheMotion) {
     Bench b(three_axes());
     b.ask("G1 X100 F6000\n");
     const std::string digits(1 << 20, '1');

@@ -38,7 +38,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
     EXPECT_NEAR(out.on.energy_j, 20 * 0.08, 0.01);
 }
 
-TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
+TEST(MarkJob, RecordsTheUsedFieldAndTheCourseOfTheSpot) {
     const MarkingOutcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
     // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.

@@ -100,7 +100,7 @@ TEST(ClockPacer, NeverWaitsWhenItIsFree) {
     EXPECT_EQ(pacer.lateness().count(), 0);
 }
 
-TEST(ClockPacer, RefusesFactorsAndStepsWithASentence) {
+TEST(ClockPacer, RejectsInvalidFactorsAndSteps) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::real, 1);
     for (const double factor : {0.0, -1.0, 1001.0, 0.0 / 0.0 * 1.0}) {

@@ -42,7 +42,7 @@ TEST(Machine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
     EXPECT_THAT(lines, testing::AnyOf(ElementsAre(0, 2), ElementsAre(2)));
 }
 
-TEST(Machine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
+TEST(Machine, BeginsAProgramAtAPercentSignAfterBlankLines) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("\n\n%\nG21 G90 F1200\nG1 X30\n%\nG1 X5\n", "p.ngc")); });
     o.run(5);

@@ -68,7 +68,7 @@ TEST(GratingBusInARack, ACardAloneHasADecoderOfItsOwn) {
     EXPECT_EQ(*session->peek("c1", "ROLE"), 15) << "host, both shifters outwards, checks";
 }
 
-TEST(GratingBusInARack, LinesOfTheBusCanBeHeldAndCardsBroken) {
+TEST(GratingBusInARack, AcceptsForcedBusLinesAndFaultsOfCards) {
     auto session = open(three_cards);
     ASSERT_TRUE(session->advance(1'000'000));
     ASSERT_TRUE(session->set_wire("bus.read_n", 1));

@@ -107,7 +107,7 @@ TEST_P(Lossless, ASpiralOnASlowBusGoesThrough) {
     expect_undisturbed(config, spiral(0.2, 200), 5.2);
 }
 
-TEST_P(Lossless, ChordsOfMicrometresGoAsFastAsTheirCurve) {
+TEST_P(Lossless, DrivesChordsOfMicrometresAsFastAsTheirCurve) {
     const double seconds = to_seconds(drive_with(router(GetParam()), spiral(0.2, 30).text, {}).outcome.time);
     for (const double chord : {0.002, 0.01, 0.05}) {
         SCOPED_TRACE(chord);

@@ -264,7 +264,7 @@ TEST(LineEncoder, FaultsThatItHasNotAndValuesOutOfRangeAreRefused) {
 
 // ---- determinism
 
-RC_GTEST_PROP(LineEncoder, AnyFaultsGiveEqualHistoriesForEqualSeedsAndARestoredSnapshotTheSameRest, ()) {
+RC_GTEST_PROP(LineEncoder, GivesTheSameEventTraceForEqualSeedsAndAfterARestoreWithAnyFaults, ()) {
     constexpr const char* names[] = {"broken_a",   "broken_b", "broken_z",  "inverted_a",    "inverted_b",
                                      "inverted_z", "swapped",  "noise",     "missing_index", "double_index",
                                      "jitter",     "dirt",     "overspeed", "eccentricity"};

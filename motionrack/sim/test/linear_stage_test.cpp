@@ -287,7 +287,7 @@ TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
     EXPECT_EQ(rig.kernel.conditions().size(), 2u);
 }
 
-TEST(LinearStage, FaultsHoldPushBrakeAndLoadIt) {
+TEST(LinearStage, AcceptsFaultsThatStallPushBrakeAndLoadIt) {
     Rig rig;
     rig.kernel.start();
     const auto fault = [&](std::string_view name, double value) {

@@ -108,7 +108,7 @@ TEST(Report, SaysWhichLimitsAreOffTheChart) {
               std::string::npos);
 }
 
-TEST(Report, HoldsTheCardsCounterAgainstTheNetPulses) {
+TEST(Report, ComparesTheCounterOfTheCardWithTheNetPulses) {
     ReportData data = circle(100);
     data.axes[0].pulses_sent = 900;
     data.axes[0].pulses_net = data.axes[0].pulse_counter = 100;

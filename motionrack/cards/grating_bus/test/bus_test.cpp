@@ -121,7 +121,7 @@ TEST(GratingBus, HostsWithChecksPublishNothingThatTheyCannotTrust) {
     EXPECT_TRUE(crate.status(0) & stale_bit);
 }
 
-TEST(GratingBus, ASlaveThatIsALittleLateReadsTheSameAndAVeryLateOneNothing) {
+TEST(GratingBus, ReadsTheSameFrameOnASlightlyLateSlaveAndNoneOnAVeryLateOne) {
     Crate crate(crew(2));
     crate.run(period);
     ASSERT_TRUE(crate.cards[1]->fault("late", 25, crate.kernel.now()));

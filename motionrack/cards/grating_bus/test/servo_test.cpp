@@ -180,7 +180,7 @@ TEST(ServoLoop, SettlesAfterAStepAndHoldsAgainstFriction) {
     }
 }
 
-TEST(ServoLoop, LateFramesGrowTheErrorUntilTheLoopIsLost) {
+TEST(ServoLoop, LosesStabilityWithLateFrames) {
     const StepProfile steps(0, 1e5, 1, 1, limits);
     double worst[4] = {};
     for (std::size_t late = 0; late < 4; ++late) {

@@ -162,7 +162,7 @@ TEST(GratingTwin, AClaimedFrameIsNotWrittenOver) {
     EXPECT_EQ(twin.claimed_frame(0).sequence, 4u);
 }
 
-TEST(GratingTwin, NothingHappensAtTheInstantsThatAreLeftOut) {
+TEST(GratingTwin, GivesTheSameResultsIfIdleInstantsAreSkipped) {
     constexpr std::uint64_t seed = 20'261'121;
     std::cout << "seed " << seed << std::endl;
     std::size_t published = 0, conflicts = 0, changes = 0, programs = 0;

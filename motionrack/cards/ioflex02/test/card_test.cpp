@@ -96,7 +96,7 @@ TEST(Ioflex02Card, ThePositionWrapsAt24Bits) {
 
 // ---- modes
 
-TEST(Ioflex02Card, CountsReversedAndFewerEdgesAsTheModeSays) {
+TEST(Ioflex02Card, CountsInTheDirectionAndAtTheEdgesOfItsMode) {
     for (const int edges : {0, 1, 2, 3})
         for (const int reversed : {0, 1}) {
             Rig rig;

@@ -212,7 +212,7 @@ TEST(Ioflex02Image, IsCompressedAndUnpackedAgain) {
     EXPECT_EQ(*unpacked(position_image()), good());
 }
 
-TEST(Ioflex02Image, FilesThatAreCutDamagedForeignOrTooLargeAreRefusedWithASentence) {
+TEST(Ioflex02Image, RejectsTruncatedDamagedForeignAndOversizedFiles) {
     const auto file = position_image();
     for (std::size_t size = 0; size < file.size(); ++size) EXPECT_FALSE(unpacked(std::span(file).first(size))) << size;
     auto longer = file;

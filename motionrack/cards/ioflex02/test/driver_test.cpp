@@ -204,7 +204,7 @@ TEST(Flex2PosInit, AnotherProjectOrVersionIsErrProject) {
     }
 }
 
-TEST(Flex2PosInit, AnArrayThatDoesNotStartAndAUserWhoStopsAreErrCfg) {
+TEST(Flex2PosInit, ReturnsErrCfgIfTheArrayDoesNotStartOrTheUserStops) {
     Settings slow;
     slow.configuration_time = whole_seconds(11);
     Bench b(slow);
@@ -305,7 +305,7 @@ TEST(Flex2Pos, TheTimeIsCarriedOnOverWrapsOfAnyNumberAndOverClearings) {
     }
 }
 
-TEST(Flex2Pos, PositionsAreCarriedOnOver24BitsAndCalibration) {
+TEST(Flex2Pos, ExtendsPositionsBeyond24BitsAndAcrossACalibration) {
     OnScript on;
     std::int64_t position = 0, raw = 0;
     const auto reading = [&] {

@@ -256,7 +256,7 @@ TEST(EncoderCheck, TellsIllegalTransitionsAndTheirPlace) {
     EXPECT_EQ(m.found.size(), 1u);
 }
 
-TEST(EncoderCheck, EveryFindingHasASentenceOfItsOwn) {
+TEST(EncoderCheck, DescribesEachFindingByADifferentSentence) {
     std::vector<std::string> seen;
     for (int fault = 0; fault <= static_cast<int>(EncoderFault::too_many_edges); ++fault) {
         const std::string sentence = describe({static_cast<EncoderFault>(fault), 3, 10, 20}, AxisDetail{}, "spindle");

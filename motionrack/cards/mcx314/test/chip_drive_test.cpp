@@ -233,7 +233,7 @@ TEST(ChipDrive, EveryInterruptComesAtItsOwnTickAndReadingClearsIt) {
     EXPECT_EQ(log.list[4].tick, at);
 }
 
-TEST(ChipDrive, APulseInterruptComesWithEveryPulse) {
+TEST(ChipDrive, RequestsAPulseInterruptAtEveryPulse) {
     Bench b;
     b.start();
     b.speeds(X, 80'000, 1000, 1000);

@@ -71,7 +71,7 @@ TEST(ChipPath, TheQueueIsOneDeepAndCnextTellsOfIt) {
     EXPECT_EQ(b.lp(Y), 60);
 }
 
-TEST(ChipPath, AHeldLineStartsWhenAx1IsFreed) {
+TEST(ChipPath, StartsAHeldLineWhenAx1IsReleased) {
     Bench b;
     b.start();
     b.speeds(X | Y, 800'000, 100, 100);

@@ -108,7 +108,7 @@ TEST(ChipSteps, AQueuedSegmentHasTheStepsOfItsOwnCommand) {
     EXPECT_EQ(b.count(0), 7) << "the second segment runs by itself";
 }
 
-TEST(ChipSteps, ABitPatternCanBeStepped) {
+TEST(ChipSteps, ExecutesABitPatternInSingleSteps) {
     Steps b(request_by_command);
     b.command(X, cmd::QUICK_STOP);
     b.advance(tick);

@@ -168,7 +168,7 @@ TEST_F(Traffic, DrivesOfTwoDirectionsAreHeldAndFreedTogether) {
                                              w0(7, cmd::START)}));
 }
 
-TEST_F(Traffic, ConstantVectorSpeedLeavesNoTraceInTheNextOwnDrive) {
+TEST_F(Traffic, ConstantVectorSpeedDoesNotChangeTheRangeOfALaterSingleAxisDrive) {
     EXPECT_TRUE(driver_.SetRange(4'000'000));
     EXPECT_TRUE(driver_.SetVectorSpeed(2));
     port_.take();

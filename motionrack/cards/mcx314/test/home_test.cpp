@@ -176,7 +176,7 @@ TEST_P(EachType, ReportsASwitchThatIsMissing) {
     EXPECT_FALSE(rig.driver.moving(1));
 }
 
-TEST_P(EachType, ReportsASwitchThatIsMissingAfterLookingBothWays) {
+TEST_P(EachType, ReportsAMissingSwitchAfterSearchingInBothDirections) {
     RigAxis axis;
     axis.wired_home = false;
     axis.limit_plus_mm = 30;

@@ -31,7 +31,7 @@ TEST(Mcx314Map, HasEveryDocumentedCode) {
     EXPECT_EQ(codes, documented);
 }
 
-TEST(Mcx314Map, TheStatesOfTheHomeSearchAreThoseThatHmstShows) {
+TEST(Mcx314Map, DeclaresTheHomingStatesThatHmstShows) {
     for (const MachineInfo& machine : card_map().machines) {
         if (machine.name != "home search") continue;
         ASSERT_EQ(machine.states.size(), std::size(map::home_drives) + 1);

@@ -11,7 +11,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-TEST(Rtc5Fuzz, AnyNumbersLeaveTheCardAlive) {
+TEST(Rtc5Fuzz, SurvivesCommandsWithArbitraryArguments) {
     const std::uint64_t seed = seed_from_environment(), jobs = cases("MOTIONRACK_JOBS", 60);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
     fuzz::Verdict verdict;

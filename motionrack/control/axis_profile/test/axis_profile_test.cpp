@@ -75,7 +75,7 @@ TEST(AxisProfile, IsNeverSlowerThanAMotionThatHappensToEndThere) {
     }
 }
 
-TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
+TEST(AxisProfile, ReplannedOnTheWayTakesTheRemainingTime) {
     Tasks tasks(5);
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
@@ -91,7 +91,7 @@ TEST(AxisProfile, FoundAgainOnTheWayTakesWhatIsLeft) {
 
 /// A moving target may be impossible to reach in a time shorter by a rounding, except by a detour; hence only nearly
 /// always.
-TEST(AxisProfile, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) {
+TEST(AxisProfile, ReplannedTowardsAMovingTargetTakesTheRemainingTimeInNearlyAllCases) {
     Tasks tasks(14);
     int longer = 0;
     for (int i = 0; i < 20'000; ++i) {
@@ -105,7 +105,7 @@ TEST(AxisProfile, FoundAgainOnTheWayToAMovingTargetTakesNearlyAlwaysWhatIsLeft) 
     EXPECT_LE(longer, 20);
 }
 
-TEST(AxisProfile, UpsideDownTakesAsLong) {
+TEST(AxisProfile, MirroredTakesTheSameTime) {
     Tasks tasks(6);
     for (int i = 0; i < 5000; ++i) {
         const Task t = i % 2 ? tasks.usual() : tasks.any();

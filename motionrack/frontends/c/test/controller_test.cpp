@@ -58,7 +58,7 @@ TEST(CProgram, IsDrivenToItsEndAndReportsWhatCameOfIt) {
     EXPECT_EQ(progress.lines.back(), 5);
 }
 
-TEST(CProgram, IsTheSameWithAndWithoutProgressConditionsAndAFile) {
+TEST(CProgram, GivesTheSameEventTraceWithAndWithoutCallBacksAndFromAFile) {
     const std::string file = temporary("square.ngc");
     std::ofstream(file) << square;
     World plain(homing_rack), watched(homing_rack), from_file(homing_rack);

@@ -134,7 +134,7 @@ TEST(Mcx314libChips, ChipsOfTwoRacksHaveTimesOfTheirOwn) {
     EXPECT_THAT(mcx314_last_error(), HasSubstr("left, right"));
 }
 
-TEST(Mcx314libChips, WhenTheSelectedOneIsClosedNoOtherIsTouched) {
+TEST(Mcx314libChips, SelectsNoOtherChipWhenTheSelectedOneIsClosed) {
     const Open one;
     EXPECT_EQ(mcx314_close(mcx314_open(two_cards, nullptr)), 0);
     mcx314_clear_error();

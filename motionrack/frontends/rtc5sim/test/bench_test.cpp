@@ -74,7 +74,7 @@ TEST(Rtc5simCards, AWrongNumberOfCardsIsRefused) {
 
 // ---- time
 
-TEST(Rtc5simTime, ALoopThatAsksForTheStatusComesToAnEnd) {
+TEST(Rtc5simTime, AdvancesInALoopThatPollsTheStatusUntilTheListEnds) {
     const Session session;
     load_line(10'000);  // 10 bits per tick
     execute_list(1);

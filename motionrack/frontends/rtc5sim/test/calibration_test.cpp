@@ -176,7 +176,7 @@ TEST(Rtc5simCalibration, AsPrintedForBothAxesOfOneWord) {
     EXPECT_EQ(get_error(), 0u) << rtc5sim_last_error();
 }
 
-TEST(Rtc5simCalibration, SetMcbspInAndItsListFormHaveTheWordAtLocation0AndTheAxesApart) {
+TEST(Rtc5simCalibration, SetMcbspInStoresTheWordAtLocation0AndEachAxisSeparatelyAlsoInAList) {
     const double direction_deg = 30;
     for (const bool in_list : {false, true}) {
         SCOPED_TRACE(in_list);

@@ -66,7 +66,7 @@ TEST(HostileRequest, ThatDoesNotEndIsEndedByTheServer) {
     EXPECT_TRUE(idle.ended());
 }
 
-TEST(HostileRequest, OfWhichThereAreTooManyIsRefusedButStopIsNot) {
+TEST(HostileRequest, IsRejectedAboveTheRateLimitExceptStop) {
     Running running([](ServerSettings& settings) {
         settings.limits.requests_at_once = 5;
         settings.limits.requests_per_second = 1e-6;

@@ -37,7 +37,7 @@ TEST_F(PageServer, GivesAPageThatRunsNothingFromElsewhere) {
     EXPECT_EQ(head.status, 404);
 }
 
-TEST_F(PageServer, AnswersEachRequestBehindAHeadRequestInItsTurn) {
+TEST_F(PageServer, AnswersRequestsAfterAHeadRequestInOrder) {
     EXPECT_EQ(client.ask("HEAD", "/").status, 200);
     EXPECT_THAT(client.ask("GET", "/").body, HasSubstr("its page has not been built"));
     client.send("HEAD / HTTP/1.1\r\nHost: localhost\r\n\r\nGET /api/status HTTP/1.1\r\nHost: localhost\r\n\r\n");

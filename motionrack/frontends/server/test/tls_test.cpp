@@ -60,7 +60,7 @@ class TlsServer : public testing::Test {
     fs::path folder;
 };
 
-TEST_F(TlsServer, ServesOtherAddressesToWhoIsPaired) {
+TEST_F(TlsServer, ServesPairedClientsOnOtherAddresses) {
     Running running(tls());
     EXPECT_EQ(running.served->server().url().substr(0, 8), "https://");
     WebClient client(running.port(), true);
