@@ -113,7 +113,7 @@ TEST_F(Decode, EndsWithACodeAndASentence) {
     EXPECT_NE(cut.out.find("encoder"), std::string::npos) << "what is before that is told";
 }
 
-TEST_F(Decode, PageShowsWhatItsCommandsPrint) {
+TEST_F(Decode, PageShowsTheOutputOfItsCommands) {
     const std::string page = text_of(source_root / "docs/howto/decode.md");
     ASSERT_EQ(code_in_page(page, "gcode").size(), 1u);
     ASSERT_EQ(code_in_page(page, "csv").size(), 1u);

@@ -27,7 +27,7 @@ const std::filesystem::path examples = motionrack::source_root / "examples";
 
 class Example : public testing::TestWithParam<std::string> {};
 
-TEST_P(Example, PrintsWhatItsFolderSays) {
+TEST_P(Example, PrintsTheExpectedOutput) {
     const std::filesystem::path folder = examples / GetParam();
     std::istringstream commands(text_of(folder / "command")), codes(text_of(folder / "exit_code"));
     std::string printed, command;
@@ -85,7 +85,7 @@ TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
     EXPECT_EQ(ran.out, text_of(examples / "10_databoard_c" / "expected.txt"));
 }
 
-TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
+TEST(Examples, TheCarriageInCppGivesTheOutputAndPicturesOfItsPage) {
     const auto picture = std::filesystem::temp_directory_path() / "motionrack_carriage_test.svg";
     const Ran ran =
         run(examples / "11_carriage", MOTIONRACK_CARRIAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
@@ -96,7 +96,7 @@ TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
     std::filesystem::remove(picture);
 }
 
-TEST(Examples, TheStagePrintsAndDrawsWhatItsPageShows) {
+TEST(Examples, TheStageGivesTheOutputAndPicturesOfItsPage) {
     const auto picture = std::filesystem::temp_directory_path() / "motionrack_stage_test.svg";
     const Ran ran = run(examples / "13_stage", MOTIONRACK_STAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
     EXPECT_EQ(ran.code, 0);
@@ -142,7 +142,7 @@ TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
     }
 }
 
-TEST(CommandLine, ExitCodesTellWhatWentWrong) {
+TEST(CommandLine, ExitCodesNameTheKindOfError) {
     const std::string program = MOTIONRACK_PROGRAM;
     EXPECT_EQ(run(examples, program + " dance").code, 1);
     EXPECT_EQ(run(examples, "printf 'G1 X5\\n' | " + program + " run - --no-report").code, 2);

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 
 class FramesPage : public InFolder {};
 
-TEST_F(FramesPage, ShowsWhatItsCommandsPrint) {
+TEST_F(FramesPage, ShowsTheOutputOfItsCommands) {
     std::map<std::string, int> codes = run_page("docs/howto/grating_bus/frames.md");
     ASSERT_GE(codes.size(), 4u);
     EXPECT_EQ(codes["frames examples/grating_bus/crate.toml --duration 0.05 --picture frame.svg"], 0);

@@ -99,7 +99,7 @@ TEST_F(ImageCommand, MakesShowsAndChecksAnImage) {
     EXPECT_EQ(image("make -o - | cmp - irc.bin").code, 1) << "other modes, other bytes";
 }
 
-TEST_F(ImageCommand, ThePageAboutImagesPrintsWhatItSays) {
+TEST_F(ImageCommand, ThePageAboutImagesShowsTheOutputOfItsCommands) {
     const auto codes = run_page("docs/howto/ioflex02/image.md");
     EXPECT_EQ(codes.size(), 5u);
     EXPECT_EQ(codes.at("image check irc.bin"), 0);

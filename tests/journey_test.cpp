@@ -96,7 +96,7 @@ TEST(Journey, AStopComesToRestOnThePath) {
     EXPECT_TRUE(done.outcome.position_valid);
 }
 
-TEST(Journey, WhatCameFromOutsideReplaysToTheSameHistory) {
+TEST(Journey, AReplayOfTheInputsGivesTheSameEventTrace) {
     const std::string program = "G21 G90 F2400\nG1 X5 Y3\nG2 X9 Y7 I4 J0\nM2\n";
     Rack recorded(router());
     JobSettings settings;

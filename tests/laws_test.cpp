@@ -192,7 +192,7 @@ TEST(Laws, NothingIsLeftForLater) {
             EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
 }
 
-TEST(Laws, JourneysNameWhatExists) {
+TEST(Laws, JourneysNameExistingFunctions) {
     std::string all;
     for (const fs::path& path : sources("motionrack"))
         for (const std::string& line : lines_of(path)) all += line + "\n";

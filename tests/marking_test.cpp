@@ -35,7 +35,7 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
     return out;
 }
 
-TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
+TEST_F(MarkCommand, ItsPageShowsTheOutputOfItsCommands) {
     std::map<std::string, int> codes = run_page("docs/howto/marking.md");
     ASSERT_GE(codes.size(), 4u);
     for (const auto& [arguments, code] : codes) EXPECT_EQ(code, 0) << arguments;
@@ -43,7 +43,7 @@ TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
         << "make it anew: motionrack mark examples/marking/square.toml --picture docs/pictures/marking_square.svg";
 }
 
-TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
+TEST_F(MarkCommand, TheExamplesGiveTheOutputAndPicturesOfTheirPage) {
     const std::map<std::string, int> codes = run_page("examples/marking/README.md");
     ASSERT_EQ(codes.size(), 8u);
     for (const auto& [arguments, code] : codes)
@@ -81,7 +81,7 @@ TEST_F(MarkCommand, WritesPicturesOfBothKindsAndAPage) {
     EXPECT_FALSE(there("mark.svg"));
 }
 
-TEST_F(MarkCommand, WritesMarkSvgUnlessToldOtherwise) {
+TEST_F(MarkCommand, WritesMarkSvgByDefault) {
     EXPECT_THAT(motionrack("mark examples/marking/square.toml").out, HasSubstr("written: mark.svg"));
     EXPECT_TRUE(there("mark.svg"));
     std::filesystem::remove(folder / "mark.svg");

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 class PlanCommand : public InFolder {};
 
-TEST_F(PlanCommand, PageShowsWhatItPrints) {
+TEST_F(PlanCommand, PageShowsTheOutputOfTheCommand) {
     EXPECT_EQ(run_page("docs/howto/plan.md").size(), 1u);
 }
 

@@ -321,7 +321,7 @@ TEST_F(Recordings, AreMadeOfProgramsWithLoopsToolsAndOrders) {
     EXPECT_EQ(motionrack("replay a.h5").code, 0) << "it has all with it";
 }
 
-TEST_F(Recordings, DoWhatTheirPageSays) {
+TEST_F(Recordings, GiveTheOutputOfTheirPage) {
     write("part.ngc", text_of(source_root / "examples/01_first_move/first_move.ngc"));
     motionrack("run part.ngc -q --no-report --record before.h5 --at feed=1@0.2s");
     motionrack("run part.ngc -q --no-report --record after.h5 --at feed=0.9@0.2s");

@@ -81,7 +81,7 @@ class StartPage : public testing::TestWithParam<const char*> {
     const fs::path clone = fs::temp_directory_path() / ("motionrack_start_" + std::to_string(::getpid()));
 };
 
-TEST_P(StartPage, PrintsWhatItShows) {
+TEST_P(StartPage, PrintsTheOutputThatItShows) {
     const std::string page = text_of(source_root / "docs/start" / (std::string(GetParam()) + ".md"));
     ASSERT_FALSE(page.empty());
     EXPECT_LE(std::count(page.begin(), page.end(), '\n'), max_lines);

@@ -172,7 +172,7 @@ TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) {
     disturb_many(GetParam(), test::ProgramSize::tiny);
 }
 
-TEST_P(StreamExecutorTest, HeldStandsStillOnItsPathAndGoesOnFromThere) {
+TEST_P(StreamExecutorTest, HeldStandsStillOnItsPathAndContinuesFromThere) {
     Watched w(router(GetParam()));
     bool asked = false;
     double held_at = -1;
@@ -273,7 +273,7 @@ TEST_P(StreamExecutorTest, GoesAsWrittenWhileM49TakesTheOverridesAway) {
     EXPECT_NEAR(seconds("M49\n" + cut + "M2\nG1 X0\n", 0.25, 0.1), alone, 0.05);
 }
 
-TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
+TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndContinuesThroughThoseOfAMove) {
     const auto run = [](const std::string& between) {
         Watched w(router(GetParam()));
         std::vector<double> at;
@@ -302,7 +302,7 @@ TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMo
         EXPECT_NEAR(with_move_place, 10, 0.8);
 }
 
-TEST_P(StreamExecutorTest, PausesAtM0UntilItIsToldToGoOn) {
+TEST_P(StreamExecutorTest, PausesAtM0UntilAResume) {
     Watched w(router(GetParam()));
     std::vector<control::gcode::CanonCallKind> seen;
     w.stream->on_event([&](const control::gcode::CanonCall& step) { seen.push_back(step.kind); });

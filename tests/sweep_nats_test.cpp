@@ -181,7 +181,7 @@ TEST_F(NatsSweep, RowsThatCameWhileNobodyGatheredAreTaken) {
     EXPECT_EQ(text_of(folder / "out.csv"), local_table());
 }
 
-TEST_F(NatsSweep, RunsAnewWithFresh) {
+TEST_F(NatsSweep, RunsAllPointsAgainWithFresh) {
     auto one = worker("one");
     EXPECT_EQ(motionrack("sweep sweep.toml -o out.csv --nats " + url_).code, 0);
     const std::string whole = text_of(folder / "out.csv");
@@ -192,7 +192,7 @@ TEST_F(NatsSweep, RunsAnewWithFresh) {
     EXPECT_THAT(said("one"), HasSubstr("192 points done"));
 }
 
-TEST_F(NatsSweep, TellsWhenThereIsNoServer) {
+TEST_F(NatsSweep, ReportsAMissingServer) {
     const Ran ran = motionrack("sweep sweep.toml -o out.csv --nats nats://user:secret@127.0.0.1:1");
     EXPECT_EQ(ran.code, 5);
     EXPECT_THAT(ran.out, HasSubstr("nats://127.0.0.1:1"));

@@ -69,7 +69,7 @@ class SweepCommand : public InFolder {
     }
 };
 
-TEST_F(SweepCommand, PageShowsWhatItPrintsAndDraws) {
+TEST_F(SweepCommand, PageShowsTheOutputAndPicturesOfTheCommand) {
     const auto codes = run_page("docs/howto/sweep.md");
     EXPECT_EQ(codes.size(), 3u);
     const std::string page = text_of(source_root / "docs/howto/sweep.md");
@@ -81,7 +81,7 @@ TEST_F(SweepCommand, PageShowsWhatItPrintsAndDraws) {
     }
 }
 
-TEST_F(SweepCommand, GivesTheSameTableWhateverTheThreadsAndTheKills) {
+TEST_F(SweepCommand, GivesTheSameTableWithAnyNumberOfThreadsAndAfterKills) {
     const std::string whole = table("sweep.toml -o out.csv --jobs 1");
     ASSERT_EQ(lines_of(whole).size(), 65u);
     EXPECT_EQ(table("sweep.toml -o out.csv --jobs 2 --restart"), whole);
@@ -154,7 +154,7 @@ TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv --restart").out, Not(HasSubstr("before")));
 }
 
-TEST_F(SweepCommand, EndsOnRequestAndSaysHowToGoOn) {
+TEST_F(SweepCommand, EndsOnRequestAndSaysHowToContinue) {
     EXPECT_EQ(signal_after(SIGINT, "examples/sweep/chance.toml -o out.csv --jobs 1", 5), 130);
     EXPECT_THAT(
         text_of(folder / "said.txt"),

@@ -258,7 +258,7 @@ TEST(Waves, TheUnitShowsEachEdgeThatAScaleOfItsCountRateHas) {
     EXPECT_EQ(unit_at("1000"), "1 ns");
 }
 
-TEST(Waves, AnUnknownSignalIsRefusedWithASentence) {
+TEST(Waves, RejectsAnUnknownSignalWithAMessage) {
     Rack rack(*read_rack_text(*rack_template("single")).config);
     WaveSettings waves;
     waves.path = (std::filesystem::temp_directory_path() / "motionrack_no_signal.vcd").string();

@@ -141,7 +141,7 @@ TEST_P(NetworkAt, CountsWhatALossyLinkLosesAndUsesTheRest) {
         std::int64_t{got.back().sequence} - std::int64_t{got.front().sequence} + 1);
 }
 
-TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
+TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndContinuesAfterIt) {
     Child publisher = publish(0), subscriber = subscribe(1, "cut");
     ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
     network_->set_link(1, false);
@@ -163,7 +163,7 @@ TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
     EXPECT_TRUE(subscriber.told("fresh"));
 }
 
-TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndStartedAnew) {
+TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndRestarted) {
     Child subscriber = subscribe(1, "restart");
     {
         Child publisher = publish(0);
@@ -233,7 +233,7 @@ TEST_P(NetworkAt, CountsForeignSamplesAndUsesNone) {
     for (const char* kind : {"wrong_crc", "foreign", "malformed"}) EXPECT_TRUE(subscriber.told(kind)) << kind;
 }
 
-TEST_P(NetworkAt, AFrozenSubscriberHoldsNobodyUp) {
+TEST_P(NetworkAt, AFrozenSubscriberDelaysNoOther) {
     Child publisher = publish(0), frozen = subscribe(1, "frozen"), other = subscribe(2, "other");
     ASSERT_TRUE(frozen.wait_for(used_at_least(50))) << frozen.said();
     ASSERT_TRUE(other.wait_for(used_at_least(50))) << other.said();

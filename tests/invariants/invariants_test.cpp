@@ -388,7 +388,7 @@ TEST(GoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {
     }
 }
 
-TEST(Finding, IsToldOnceARuleAndWithItsName) {
+TEST(Finding, IsReportedOnceARuleAndWithItsName) {
     History h;
     for (int i = 0; i < 3; ++i) h.ask_for(Rule::usable_again);
     EXPECT_EQ(h.findings().size(), 1u);

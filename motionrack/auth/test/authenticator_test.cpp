@@ -210,7 +210,7 @@ TEST_F(AuthenticatorTest, RejectsAUsersFileBelowARegularFile) {
     EXPECT_EQ(opened.error().file, settings.users_file.string());
 }
 
-TEST_F(AuthenticatorTest, PairsNobodyWhenTheFileCannotBeWritten) {
+TEST_F(AuthenticatorTest, PairsNoUserIfTheFileCannotBeWritten) {
     fs::remove_all(folder);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_FALSE(anna);
@@ -220,7 +220,7 @@ TEST_F(AuthenticatorTest, PairsNobodyWhenTheFileCannotBeWritten) {
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
 }
 
-TEST_F(AuthenticatorTest, UnpairsNobodyWhenTheFileCannotBeWritten) {
+TEST_F(AuthenticatorTest, RevokesNoUserIfTheFileCannotBeWritten) {
     const auto anna = *pair(start_codes[0], "anna");
     fs::remove_all(folder);
     EXPECT_EQ(door->revoke("anna").error().kind, ErrorKind::io);

@@ -19,7 +19,7 @@ class LeaseOfControl : public testing::Test {
     }
 };
 
-TEST_F(LeaseOfControl, IsNobodysAtFirstAndGoesToWhoeverAsks) {
+TEST_F(LeaseOfControl, IsFreeAtFirstAndGoesToTheFirstClientThatTakesIt) {
     EXPECT_FALSE(lease.holder());
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("No user has control"));
     now += 3s;

@@ -35,7 +35,7 @@ TEST(GcodeFlow, BranchesGoWhereTheFirstConditionHolds) {
     EXPECT_THAT(xs("o1 if [0]\no2 if [1]\nX1\no2 endif\no1 else\nX3\no1 endif\nX2"), ElementsAre(3, 2));
 }
 
-TEST(GcodeFlow, LoopsGoOnAsLongAsTheyShould) {
+TEST(GcodeFlow, LoopsRepeatAsProgrammed) {
     EXPECT_THAT(xs("#1=0\no1 while [#1 LT 3]\nX#1\n#1=[#1+1]\no1 endwhile\nX9"), ElementsAre(0, 1, 2, 9));
     EXPECT_THAT(xs("o1 while [0]\nX1\no1 endwhile\nX9"), ElementsAre(9));
     EXPECT_THAT(xs("#1=5\no1 do\nX#1\n#1=[#1+1]\no1 while [#1 LT 5]\nX9"), ElementsAre(5, 9));
@@ -129,7 +129,7 @@ TEST(GcodeFlow, LoadsSubprogramsFromFilesBesideTheProgram) {
     EXPECT_THAT(read.problems[4].message, HasSubstr("cannot be a file in its folder"));
 }
 
-TEST(GcodeFlow, ThatDoesNotFitTogetherIsToldWithItsPlace) {
+TEST(GcodeFlow, ThatDoesNotFitTogetherIsReportedWithItsPlace) {
     const RefusedAt rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
                               {"o1 endif", 1, "no o1 if is open here"},
                               {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},

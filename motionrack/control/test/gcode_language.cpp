@@ -134,7 +134,7 @@ TEST(GcodeParameters, TellTheModesByName) {
     EXPECT_EQ(x_after("X#<_line>"), 2);
 }
 
-TEST(GcodeParameters, ThatAreFaultyAreToldWithTheirPlace) {
+TEST(GcodeParameters, ThatAreFaultyAreReportedWithTheirPlace) {
     struct Row {
         const char* program;
         int column;

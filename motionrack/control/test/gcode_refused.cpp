@@ -207,7 +207,7 @@ TEST(GcodeReader, RefusesAxesThatTheMachineDoesNotHave) {
     EXPECT_EQ(program.problems[1].word, "B0");
 }
 
-TEST(GcodeReader, RefusesALineOfMoreThan1024CharactersAndGoesOnAfterIt) {
+TEST(GcodeReader, RefusesALineOfMoreThan1024CharactersAndContinuesAfterIt) {
     const std::string long_comment = "(" + std::string(1022, 'x') + ")";
     ASSERT_EQ(long_comment.size(), max_line_length);
     const auto program = testing::read(long_comment + "\nG0 X1 " + std::string(100'000, ' ') + "\r\nG0 X2\n");

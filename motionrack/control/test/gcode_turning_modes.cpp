@@ -108,7 +108,7 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
     EXPECT_FALSE(Interpreter(testing::machine()).line("G18 G71 Q1 F5", 1, Language::expressions));
 }
 
-TEST(GcodeTurning, ARefusedCycleMovesNothingAndTheProgramGoesOn) {
+TEST(GcodeTurning, ARefusedCycleMovesNothingAndTheProgramContinues) {
     const auto read =
         testing::read("G18 F600\no1 sub\nG0 X10 Z2\nG1 Z-700\nX20\no1 endsub\nG0 X25 Z5\nG71 Q1\nG0 X1\n");
     ASSERT_EQ(read.problems.size(), 1u);

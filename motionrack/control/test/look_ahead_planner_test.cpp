@@ -252,7 +252,7 @@ TEST(LookAheadPlanner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
     EXPECT_EQ(plan_path(limits, {path_line_to(30, 40)})[0].jerk, 0);
 }
 
-TEST(LookAheadPlanner, RefusesWhatTheMachineCannotDoAndGoesOn) {
+TEST(LookAheadPlanner, RefusesWhatTheMachineCannotDoAndContinues) {
     MachineLimits limits = path_machine();
     limits[4].present = false;
     LookAheadPlanner planner(limits, Point{});

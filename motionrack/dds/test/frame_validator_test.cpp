@@ -68,7 +68,7 @@ TEST_F(FrameValidatorTest, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
     EXPECT_EQ(judge.counts().lost, 0u);
 }
 
-TEST_F(FrameValidatorTest, GoesOnWhereTheSequenceWraps) {
+TEST_F(FrameValidatorTest, ContinuesWhereTheSequenceWraps) {
     const auto wrapped = [&](std::uint32_t number, std::int64_t periods) {
         Sample out = sample_of(first, number);
         out.frame.time = periods * period.count();

@@ -177,7 +177,7 @@ TEST(GrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
 }
 
 class JogThatIsCancelled : public testing::TestWithParam<const char*> {};
-TEST_P(JogThatIsCancelled, StopsAndGoesOnFromThere) {
+TEST_P(JogThatIsCancelled, StopsAndContinuesFromThere) {
     Bench b(three_axes());
     b.ask("$J=X300 F3000\n$J=X0 F3000\n", 0.5);
     EXPECT_THAT(b.ask(std::string(GetParam()) + "?", 0.02), StartsWith("<Jog|"));

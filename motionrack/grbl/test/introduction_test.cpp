@@ -19,7 +19,7 @@ void PrintTo(const Greeting& row, std::ostream* out) {
 }
 
 class GrblSender : public testing::TestWithParam<Greeting> {};
-TEST_P(GrblSender, IsKnownByWhatItSaysFirst) {
+TEST_P(GrblSender, IsIdentifiedByItsFirstBytes) {
     Introduction once;
     EXPECT_EQ(once.hear(GetParam().bytes), Verdict::sender);
     EXPECT_EQ(once.take_bytes(), GetParam().bytes);
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Greeting{"only holds", "!"}, Greeting{"jogs", "$J=G91 X1 F100\n"}));
 
 class UnknownClient : public testing::TestWithParam<Greeting> {};
-TEST_P(UnknownClient, IsKnownByWhatItSaysFirst) {
+TEST_P(UnknownClient, IsIdentifiedByItsFirstBytes) {
     Introduction once;
     EXPECT_EQ(once.hear(GetParam().bytes), Verdict::stranger);
 }

@@ -137,7 +137,7 @@ TEST(LivePort, APortOfAVanishedFileReadsAsAnEmptySlot) {
     EXPECT_EQ(bytes_of(path), "\x12") << "no access is made after it";
 }
 
-TEST(LivePort, SaysThatThereIsNoSuchFile) {
+TEST(LivePort, ReportsAMissingFile) {
     for (const char* kind : {"uio:", "memory:", "port:"})
         EXPECT_THAT(refusal(std::string(kind) + "/dev/uio-that-is-not"),
                     HasSubstr("/dev/uio-that-is-not does not exist"));
@@ -214,7 +214,7 @@ TEST(LivePort, KeepsItsCardFromOtherPrograms) {
     EXPECT_EQ(status, 0);
 }
 
-TEST(LivePort, AnAccessThatTheComputerRefusesIsToldAndIsTheLast) {
+TEST(LivePort, AnAccessThatTheComputerRefusesIsReportedAndIsTheLast) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(8, '\x11'));
     const auto port = open("port:" + path);

@@ -37,7 +37,7 @@ TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
     EXPECT_EQ(port->gap, nanoseconds(250));
 }
 
-TEST(LivePortSpec, AUioNodeMayBeToldToGiveNoInterrupts) {
+TEST(LivePortSpec, InterruptsOfAUioNodeCanBeSwitchedOff) {
     const auto spec = read_port_spec("uio:/dev/uio0,interrupt=none");
     ASSERT_TRUE(spec);
     EXPECT_EQ(spec->interrupt, "");

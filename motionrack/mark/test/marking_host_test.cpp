@@ -130,7 +130,7 @@ TEST(MarkLine, EachPartGetsItsNumber) {
     EXPECT_LE(parts::compare(points, prepared.of(2).segments).worst_mm, 0.004);
 }
 
-TEST(MarkLine, NumbersGoOnWithTheNextPartThatIsMarked) {
+TEST(MarkLine, NumbersContinueWithTheNextPartThatIsMarked) {
     const MarkingOutcome out =
         run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_speed_mm_s = 200\n[belt]\nvelocity_mm_s = "
                    "200\n[fly]\nmode = 'encoder'\n"
@@ -174,7 +174,7 @@ TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
         HasSubstr("Part 4 does not reach the sensor within 1000 s: the belt moves 50 until then, the part is 60 away"));
 }
 
-TEST(MarkLine, WrongPartsAreToldAllAtOnceWithTheirPlaces) {
+TEST(MarkLine, WrongPartsAreReportedAllAtOnceWithTheirPlaces) {
     const std::string all = errors_of(
         "[drawing]\ntext = 'N{m}'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
         "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");

@@ -75,7 +75,7 @@ TEST(ClockPacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
     EXPECT_EQ(clock.slept, milliseconds(2));
 }
 
-TEST(ClockPacer, PausesAndStepsAndGoesOnWithoutAJump) {
+TEST(ClockPacer, PausesAndStepsAndContinuesWithoutAJump) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::paused, 1);
     EXPECT_FALSE(pacer.pace(Instant{0}));

@@ -140,7 +140,7 @@ TEST_F(JournalWriterTest, IsNotFilledByStopsOfAMachineThatIsIdle) {
     EXPECT_EQ(stops.back(), "100000") << "one that stops something is always written";
 }
 
-TEST_F(JournalWriterTest, TheNextRunGoesOnWhereTheMachineStood) {
+TEST_F(JournalWriterTest, TheNextRunContinuesWhereTheMachineStood) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; },

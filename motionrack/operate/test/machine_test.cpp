@@ -254,7 +254,7 @@ TEST(Machine, EndsWithThePositionThatWasDeclaredLast) {
     EXPECT_NEAR(o.y(), 33, 1e-9);
 }
 
-TEST(Machine, HearsManyThreadsAtOnce) {
+TEST(Machine, AcceptsCommandsOfManyThreads) {
     MachineSettings settings;
     auto machine = *Machine::make(two_axes(), settings);
     std::atomic<int> heard{0};
@@ -296,7 +296,7 @@ TEST(Machine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
     EXPECT_EQ(o.machine->stream().moves(), 0u);
 }
 
-TEST(Machine, CancelsAJogAlongALineAndGoesOnFromThere) {
+TEST(Machine, CancelsAJogAlongALineAndContinuesFromThere) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({200, 100, 0, 0, 0, 0}, 20)); });
     o.at(1, [](Machine& m) { m.cancel(); });

@@ -291,7 +291,7 @@ TEST(Service, EndsWithTheProgram) {
     EXPECT_EQ(o.machine->status().axes[0].velocity, 0);
 }
 
-TEST(Service, OfAnotherSessionGoesOn) {
+TEST(Service, OfAnotherSessionContinues) {
     Served o;
     o.begin(0.05);
     o.at(0.1, [](Machine& m) { m.service().end_of("w2"); });

@@ -31,7 +31,7 @@ TEST(OperatedServoAxis, DrivesALongLineInOneGo) {
     EXPECT_GT(o.peak_velocity, 480) << "of 500";
 }
 
-TEST(OperatedServoAxis, GoesOnAfterAHoldToWhereItWasSent) {
+TEST(OperatedServoAxis, ContinuesAfterAHoldToWhereItWasSent) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });

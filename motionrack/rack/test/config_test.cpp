@@ -185,7 +185,7 @@ void expect_refused(const std::vector<BadFile>& files) {
     }
 }
 
-TEST(RackFile, TellsWhatIsWrongAndWhere) {
+TEST(RackFile, ReportsMistakesWithTheirPosition) {
     expect_refused(bad_files());
     expect_refused(bad_wiring());
 }

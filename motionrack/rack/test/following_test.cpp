@@ -33,7 +33,7 @@ std::string warnings_of(const JobOutcome& outcome) {
     return out;
 }
 
-TEST(FollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
+TEST(FollowingError, AboveItsWarningLimitIsReportedAndChangesNothing) {
     const JobOutcome outcome = run_with("", {"X.encoder.broken_a@0.5s", "X.encoder.broken_a=0@0.57s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_TRUE(outcome.position_valid) << "the pulses are right";
@@ -42,7 +42,7 @@ TEST(FollowingError, AboveItsWarningLimitIsToldAndChangesNothing) {
     EXPECT_THAT(warnings_of(outcome), HasSubstr("above the warning limit of 0.5 mm"));
 }
 
-TEST(FollowingError, BelowItsWarningLimitIsNotTold) {
+TEST(FollowingError, BelowItsWarningLimitIsNotReported) {
     const JobOutcome outcome =
         run_with("following_error_warning_mm = 0.9\n", {"X.encoder.broken_a@0.5s", "X.encoder.broken_a=0@0.57s"});
     EXPECT_TRUE(outcome.ended);

@@ -49,7 +49,7 @@ TEST(FrameStepper, GivesTheFramesOfACardThatListens) {
     }
 }
 
-TEST(FrameStepper, GoesOnWhileTheHostIsOff) {
+TEST(FrameStepper, ContinuesWhileTheHostIsOff) {
     Rack rack(*read_rack_text(two_cards).config);
     const auto tap = FrameStepper::create(rack, "");
     ASSERT_TRUE(tap);

@@ -85,7 +85,7 @@ TEST(GratingBusInARack, AcceptsForcedBusLinesAndFaultsOfCards) {
     EXPECT_TRUE(session->fault("no_latch", "decoder"));
 }
 
-TEST(GratingBusInARack, WhatDoesNotFitIsRefusedWithItsPlace) {
+TEST(GratingBusInARack, RejectsContradictingSettingsWithTheirPosition) {
     const auto errors = [](const std::string& text) {
         const RackReading reading = read_rack_text(text, "r.toml");
         return reading.errors.empty() ? std::string() : reading.errors[0].text();

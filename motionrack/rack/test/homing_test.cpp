@@ -205,7 +205,7 @@ TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
     EXPECT_THAT(warnings, HasSubstr("index_after_mm of axis X is ignored"));
 }
 
-TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
+TEST(RackHomes, TheGroupContinuesWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
     Rack rack(config_of(two_axes));
     rack.start();
     ASSERT_TRUE(home_axes(rack, {}).all_homed());

@@ -211,7 +211,7 @@ TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
     }
 }
 
-TEST(Ioflex02InARack, ACopyOfTheWorldGoesOnAlike) {
+TEST(Ioflex02InARack, ACopyOfTheRackContinuesIdentically) {
     Ioflex02Bench bench(measured);
     bench.turn(3, "flex", 0);
     const auto copy = *bench.session->copy();

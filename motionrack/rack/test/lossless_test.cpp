@@ -254,7 +254,7 @@ TEST(Host, ThatComesTooLateIsToldWhereAndHowLate) {
 
 /// In the second program X begins the chain and does not move in the lines before which the host is late: Y has to
 /// drive what follows.
-TEST_P(Lossless, ALateHostGoesOnAtTheProgrammedFeed) {
+TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
     RackConfig config = router(GetParam());
     for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
     for (const char along : {'X', 'Y'}) {

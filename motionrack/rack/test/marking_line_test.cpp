@@ -120,7 +120,7 @@ TEST(MarkingLine, WhatIsMarkedCanBeSeenWhileItRunsAndLooksChangeNothing) {
     EXPECT_EQ(looked.session->rack().kernel().trace_hash(), other.session->rack().kernel().trace_hash());
 }
 
-TEST(MarkingLine, ACopyInTheMiddleOfAMarkGoesOnAlike) {
+TEST(MarkingLine, ACopyInTheMiddleOfAMarkContinuesAlike) {
     Line bench(std::string(marking_line) +
                "[scanner.head.galvo]\nideal_mirrors = false\ndead_time_us = 100\n[scanner.head.laser]\non_delay_us = "
                "35\noff_delay_us = 12\n");
@@ -274,7 +274,7 @@ TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
     EXPECT_NEAR(static_cast<double>(ramp.peek("ENCODER0")), -1500, 1);
 }
 
-TEST(MarkingLine, WhatDoesNotFitIsToldWithItsPlace) {
+TEST(MarkingLine, WhatDoesNotFitIsReportedWithItsPlace) {
     const auto refused = [](const std::string& text) {
         const RackReading reading =
             read_rack_text("[card.scan]\ntype = \"rtc5\"\n[card.m]\ntype = \"mcx314\"\n" + text);

@@ -105,7 +105,7 @@ TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
     EXPECT_THAT(bench.session->part("c1.height").error().message, HasSubstr("mark_speed_bits_ms"));
 }
 
-TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
+TEST(Rtc5InARack, ACopyContinuesAlikeWithItsTablesAndWhatWasRecorded) {
     Rtc5Bench bench;
     bench.begin();
     bench.put(Op::set_trigger, {1, 7, 8});
@@ -150,7 +150,7 @@ TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {
     std::filesystem::remove(path);
 }
 
-TEST(Rtc5InARack, BadSettingsAreToldWithTheirPlace) {
+TEST(Rtc5InARack, ReportsInvalidSettingsWithTheirPosition) {
     const auto refused = [](const std::string& line) {
         const RackReading reading = read_rack_text("[card.c1]\ntype = \"rtc5\"\n" + line);
         EXPECT_FALSE(reading.config) << line;

@@ -86,7 +86,7 @@ TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
     EXPECT_NEAR(m.mm(), 200, 0.3);
 }
 
-TEST(ServoAxis, JogsForAsLongAsItIsToldTo) {
+TEST(ServoAxis, JogsForTheCommandedTime) {
     Machine m;
     m.here_is(100);
     const auto jog = [&](double velocity, int ms) {

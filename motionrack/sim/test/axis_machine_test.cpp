@@ -367,7 +367,7 @@ TEST(AxisMechanics, APushThatPassesASwitchIsSeenAtOnce) {
 
 // ---- Snapshots
 
-TEST(AxisMechanics, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
+TEST(AxisMechanics, ASnapshotTakenInAMoveContinuesAsTheRunThatWasNotInterrupted) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 15'000;
     s.limit_plus.position = 0.5;

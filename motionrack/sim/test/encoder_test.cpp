@@ -113,7 +113,7 @@ RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
     }
 }
 
-RC_GTEST_PROP(Encoder, AWatchIsToldAtTheVeryPulse, ()) {
+RC_GTEST_PROP(Encoder, AWatchIsReportedAtTheVeryPulse, ()) {
     const std::int64_t direction = *rc::gen::element<std::int64_t>(-1, 1);
     EncoderWorld w(with_counts(*some_counts()), {{Instant{0}, microseconds(10), direction}});
     CrossingEar ear(w.machine.encoder());
@@ -133,7 +133,7 @@ RC_GTEST_PROP(Encoder, AWatchIsToldAtTheVeryPulse, ()) {
     RC_ASSERT(floor_div((pulse - direction) * counts, 3200) * direction < bound * direction);
 }
 
-TEST(Encoder, AWatchThatIsLeftAlreadyIsToldAtTheNextInstantEvenAtStandstill) {
+TEST(Encoder, AWatchThatIsLeftAlreadyIsReportedAtTheNextInstantEvenAtStandstill) {
     EncoderWorld w(with_counts(4000), {});
     CrossingEar ear(w.machine.encoder());
     w.kernel.start();

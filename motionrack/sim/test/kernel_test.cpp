@@ -84,7 +84,7 @@ TEST(Kernel, ALaterRequestReplacesTheEarlierOneAndThePastBecomesNow) {
     EXPECT_EQ(acts.size(), 2u);
 }
 
-TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndGoesOnAfterwards) {
+TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndContinuesAfterwards) {
     Kernel kernel;
     Puppet p;
     const DeviceId id = kernel.add(p, Phase::cards, "p");

@@ -245,7 +245,7 @@ TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
     EXPECT_NEAR(rig.nm(), 0.72e9, 3e3);
 }
 
-TEST(LinearStage, MarkedRatesAreToldAtTheirTick) {
+TEST(LinearStage, MarkedRatesAreReportedAtTheirTick) {
     Rig rig;
     Ear ear;
     rig.stage.add_listener(ear);

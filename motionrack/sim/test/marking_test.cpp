@@ -18,7 +18,7 @@ std::vector<double> driven(GalvoPair& galvo, const std::vector<std::int32_t>& x)
     return to_x;
 }
 
-TEST(GalvoPair, IdealMirrorsAreWhereTheyAreTold) {
+TEST(GalvoPair, IdealMirrorsAreAtTheCommandedPosition) {
     GalvoPair galvo;
     EXPECT_EQ(driven(galvo, {1, -5, 100}), (std::vector<double>{1, -5, 100}));
     EXPECT_EQ(galvo.lag_us(), 0);

@@ -77,7 +77,7 @@ struct World {
     parts::AxisMechanics machine{kernel, "X", settings()};
 };
 
-TEST(InputLog, ReplayingWhatWasRecordedGivesTheSameHistory) {
+TEST(InputLog, AReplayGivesTheSameEventTrace) {
     World live;
     InputLog log;
     VirtualPort port(live.kernel, live.card, live.card.id, live.card.interrupt, nanoseconds(250), &log);
@@ -139,7 +139,7 @@ TEST(VirtualPort, WaitsForAnInterruptForEverIfItMay) {
     EXPECT_LT(port.now(), milliseconds(50));
 }
 
-TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunGoesOn) {
+TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunContinues) {
     class Filler final : public Device {
       public:
         explicit Filler(Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, Phase::observers, "filler")) {

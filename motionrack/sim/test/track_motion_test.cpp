@@ -32,7 +32,7 @@ TEST(Conveyor, TellsWhenItLeavesARange) {
     EXPECT_EQ(stands.leaves(0, -1e-9, 1e-9), never_s);
 }
 
-TEST(Conveyor, GoesOnFromWhereItIsWhenItsVelocityIsChanged) {
+TEST(Conveyor, ContinuesFromWhereItIsWhenItsVelocityIsChanged) {
     Conveyor track = track_of({{0, 100}});
     track.drive(1, -20);
     EXPECT_DOUBLE_EQ(track.travel(1), 100);

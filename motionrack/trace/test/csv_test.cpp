@@ -10,7 +10,7 @@
 namespace motionrack::trace {
 namespace {
 
-TEST(CsvWriter, QuotesWhatRfc4180AsksFor) {
+TEST(CsvWriter, QuotesFieldsAsInRfc4180) {
     const Scratch scratch;
     auto csv = CsvWriter::create(scratch.path("a.csv"), {"time_s", "a,b", "say \"hi\"", "line\nbreak"});
     ASSERT_TRUE(csv);

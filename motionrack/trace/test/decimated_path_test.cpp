@@ -36,7 +36,7 @@ RC_GTEST_PROP(ThinSeries, KeepsFirstLastLeastAndGreatest, (const std::vector<flo
     RC_ASSERT(*std::min_element(chosen.begin(), chosen.end()) == *std::min_element(good.begin(), good.end()));
 }
 
-TEST(ThinSeries, LeavesOutWhatIsNotFinite) {
+TEST(ThinSeries, OmitsNonFiniteValues) {
     const std::vector<double> seconds = {0, 1, std::numeric_limits<double>::quiet_NaN(), 3};
     const std::vector<float> values = {1, std::numeric_limits<float>::infinity(), 2, 3};
     EXPECT_EQ(thin_series(seconds, values, 10), (std::vector<std::size_t>{0, 3}));

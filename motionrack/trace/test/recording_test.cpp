@@ -191,7 +191,7 @@ void put_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-TEST(Recording, ThatWasDamagedIsToldAndNeverTakenForGood) {
+TEST(Recording, ThatWasDamagedIsReportedAndNeverTakenForGood) {
     const Scratch scratch;
     const PlainRecording plain = busy(3000);
     ASSERT_TRUE(plain.write(scratch.path("good.h5")));
@@ -211,7 +211,7 @@ TEST(Recording, ThatWasDamagedIsToldAndNeverTakenForGood) {
     EXPECT_LT(unharmed, 200);
 }
 
-TEST(Recording, ThatWasCutAnywhereIsTold) {
+TEST(Recording, ThatWasCutAnywhereIsReported) {
     const Scratch scratch;
     ASSERT_TRUE(busy(3000).write(scratch.path("good.h5")));
     const std::string good = file_text(scratch.path("good.h5"));

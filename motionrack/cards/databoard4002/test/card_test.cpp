@@ -80,7 +80,7 @@ TEST(Databoard4002, NothingMovesBeforeG) {
     EXPECT_EQ(host.level("vout"), 0);
 }
 
-TEST(Databoard4002, ARateOfZeroReleasesTheRelayAndTheNextOneGoesOn) {
+TEST(Databoard4002, ARateOfZeroReleasesTheRelayAndTheNextOneContinues) {
     Host host;
     host.start();
     EXPECT_EQ(host.level("relay"), 0);
@@ -275,7 +275,7 @@ TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndSaysSo) {
     EXPECT_THAT(host.conditions(), ElementsAre(CardCondition::line_too_quick));
 }
 
-TEST(Databoard4002, AnEncoderThatIsCutOffLeavesItsCountAndTheWiresGoOn) {
+TEST(Databoard4002, AnEncoderThatIsCutOffLeavesItsCountAndTheWiresContinue) {
     Host host;
     host.start();
     host.command('R', 16'344, 2);

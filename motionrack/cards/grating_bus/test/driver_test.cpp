@@ -125,7 +125,7 @@ TEST(GratingCardLibrary, SaysThatThereIsNoFrameYetAndThatTheHostIsGone) {
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("stale"));
 }
 
-TEST(GratingCardLibrary, AUserWhoStopsTheWaitingIsNotToldOfATimeOut) {
+TEST(GratingCardLibrary, AStoppedWaitIsNotReportedAsATimeOut) {
     Bench bench(crew(1));
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
     const std::atomic<bool> stop{true};

@@ -132,7 +132,7 @@ TEST(GratingTwin, HostsBesideEachOtherConflictAndTheLowLevelWins) {
     EXPECT_EQ(twin.counters(0).broken, 1u);
 }
 
-TEST(GratingTwin, AMissedEdgeCountsAndTheSequenceGoesOn) {
+TEST(GratingTwin, AMissedEdgeCountsAndTheSequenceContinues) {
     Twin twin({host(1), slave(1)}, {decoder(1)});
     twin.run_to(100'000 * ns);
     twin.set_miss_edges(1, 3);

@@ -67,7 +67,7 @@ TEST(Ioflex02Card, BothLinesInOneSampleAreIllegalAndNeverCount) {
     EXPECT_EQ(rig.read(offset("STATUS")) >> 4, 0);
 }
 
-TEST(Ioflex02Card, AnIllegalTransitionIsToldWithAxisAndInstant) {
+TEST(Ioflex02Card, AnIllegalTransitionIsReportedWithAxisAndInstant) {
     Rig rig;
     rig.start();
     rig.run(microseconds(10));
@@ -242,7 +242,7 @@ TEST(Ioflex02Card, InputsAreReadAsTheyAreAndOutputsHoldTheirBytes) {
     for (int i = 0; i < 32; ++i) EXPECT_EQ(rig.level("out" + std::to_string(i)), 0x3CA5 >> i & 1) << i;
 }
 
-TEST(Ioflex02Card, AResetBeginsAnew) {
+TEST(Ioflex02Card, AResetClearsCountsOutputsAndModes) {
     Rig rig;
     rig.start();
     rig.turn(0, 100);

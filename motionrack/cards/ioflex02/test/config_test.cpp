@@ -80,7 +80,7 @@ RC_GTEST_PROP(Ioflex02Image, AnyByteThatIsWrongIsNoticed, ()) {
     RC_ASSERT(error_after(raw) > 0);
 }
 
-TEST(Ioflex02Image, TheRefusalIsToldInASentence) {
+TEST(Ioflex02Image, TheRefusalIsReportedInASentence) {
     Rig rig{Settings{}};
     rig.start();
     std::vector<std::uint8_t> raw = good();
@@ -111,7 +111,7 @@ TEST(Ioflex02Image, AnUnknownProjectIsTakenButOnlyItsIdentCanBeRead) {
     EXPECT_EQ(rig.level("out0"), 0);
 }
 
-TEST(Ioflex02Image, WithoutAProjectItsRegistersReadFFFFAndTakeNothingAndThatIsToldOnce) {
+TEST(Ioflex02Image, WithoutAProjectItsRegistersReadFFFFAndTakeNothingAndThatIsReportedOnce) {
     Rig rig{Settings{}};
     rig.start();
     rig.write(offset("OUTL"), 0xFF);
@@ -193,7 +193,7 @@ RC_GTEST_PROP(Ioflex02Image, BytesAreTheSameAfterTheirDigits, (std::vector<std::
     RC_ASSERT(*bytes_of_hex(hex_text(bytes)) == bytes);
 }
 
-TEST(Ioflex02Image, DigitsThatAreNoneAreToldWithTheirPlace) {
+TEST(Ioflex02Image, DigitsThatAreNoneAreReportedWithTheirPlace) {
     for (const char* wrong : {"7", "78d", "78 d", "-1", "0x", "78zz"}) EXPECT_FALSE(bytes_of_hex(wrong)) << wrong;
     EXPECT_NE(bytes_of_hex("78zz").error().message.find("Digits 3 and 4"), std::string::npos);
     EXPECT_EQ(*bytes_of_hex("78dA"), (std::vector<std::uint8_t>{0x78, 0xDA}));
@@ -247,7 +247,7 @@ RC_GTEST_PROP(Ioflex02Image, AnyBytesAreUnpackedOrRefused, (std::vector<std::uin
 
 // ---- the bus
 
-TEST(Ioflex02Bus, NobodyAnswersAtAnotherAddress) {
+TEST(Ioflex02Bus, NoCardAnswersAtAnotherAddress) {
     Rig rig;
     rig.start();
     EXPECT_EQ(rig.port.read(0x2300), signature);
@@ -259,7 +259,7 @@ TEST(Ioflex02Bus, NobodyAnswersAtAnotherAddress) {
     EXPECT_TRUE(rig.conditions().empty());
 }
 
-TEST(Ioflex02Bus, TwoCardsAtOneAddressBothTakeWhatIsWrittenAndReadAndedAndThatIsTold) {
+TEST(Ioflex02Bus, TwoCardsAtOneAddressBothTakeWhatIsWrittenAndReadAndedAndThatIsReported) {
     Settings other = loaded_settings();
     other.serial = 2;
     Rig rig;

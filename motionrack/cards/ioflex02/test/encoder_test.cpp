@@ -287,7 +287,7 @@ TEST(Ioflex02Machine, AResolverIsCalibratedAtItsMarkerAndItsSpeedMeasured) {
     EXPECT_LT(speed.best().error, 10);
 }
 
-TEST(Ioflex02Machine, TheErrorOfAnEccentricDiscIsWithinTheStatedOneWhenItIsTold) {
+TEST(Ioflex02Machine, TheErrorOfAnEccentricDiscIsWithinTheStatedOneWhenItIsReported) {
     Disc m;
     m.fault("eccentricity", 4);
     m.place.drive(microseconds(10), 1);  // 10,000 counts/s, mean

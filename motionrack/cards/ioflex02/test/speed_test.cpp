@@ -84,7 +84,7 @@ TEST(SpeedMeter, MeasuresAHundredThousandCountsASecond) {
     }
 }
 
-TEST(SpeedMeter, GoesOnOverTheWrapOfTheTime) {
+TEST(SpeedMeter, ContinuesOverTheWrapOfTheTime) {
     Turning t(3.7);
     t.measure();
     for (int i = 0; i < 60; ++i) {

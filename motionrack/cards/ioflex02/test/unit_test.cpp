@@ -36,7 +36,7 @@ TEST(Flex2Pos, TheAncestorSetsTheBaseAddressAndConfigureLoadsTheArray) {
     EXPECT_EQ(card.GetIdent(), position_ident);
 }
 
-TEST(Flex2Pos, ConfiguringAnewCountsFromZeroAgain) {
+TEST(Flex2Pos, ConfiguringAgainCountsFromZero) {
     Configured r;
     r.rig.turn(1, 50);
     EXPECT_EQ(r.card.read().axes[1].raw, 50);

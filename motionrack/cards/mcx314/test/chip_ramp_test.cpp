@@ -64,13 +64,13 @@ void expect_equal_looks(std::uint64_t seed, int drive) {
     }
 }
 
-TEST(ChipRamps, WhoOnlyLooksSeesWhatAListenerSees) {
+TEST(ChipRamps, AQueryAndAListenerGetTheSameValues) {
     const std::uint64_t seed = 7;
     std::cout << "seed " << seed << std::endl;
     for (int drive = 0; drive < 400 && !testing::Test::HasFatalFailure(); ++drive) expect_equal_looks(seed, drive);
 }
 
-TEST(ChipRamps, ARampThatNobodyHearsIsAFewEvents) {
+TEST(ChipRamps, ARampWithoutAListenerTakesFewEvents) {
     for (const unsigned mode : {0u, 4u}) {
         Bench b;
         b.start();

@@ -79,7 +79,7 @@ TEST(ChipWires, AWireThatIsOnlyLookedAtShowsTheSameLevelsAtNoCost) {
     EXPECT_EQ(pulses, 211);
 }
 
-TEST(ChipWires, NobodyFollowingCostsNoEvents) {
+TEST(ChipWires, CostsNoEventsWithoutAListener) {
     Bench b;
     b.start();
     b.speeds(X, 16'000, 8000, 8000);
@@ -246,7 +246,7 @@ TEST(ChipMotion, AStartIntoALimitIsSeenWhateverIsWatchedInItsFirstTicks) {
     }
 }
 
-TEST(ChipMotion, AWatchedCountIsToldAtItsVeryTickAndOnce) {
+TEST(ChipMotion, AWatchedCountIsReportedAtItsVeryTickAndOnce) {
     Bench b;
     EdgeLog log;
     Watcher one(b.chip.pulses(0)), two(b.chip.pulses(0));
@@ -268,7 +268,7 @@ TEST(ChipMotion, AWatchedCountIsToldAtItsVeryTickAndOnce) {
     EXPECT_EQ(two.crossings[0], (std::pair<std::int64_t, std::int64_t>{log.list[206].tick, -7}));
 }
 
-TEST(ChipMotion, AWatchThatIsLeftAlreadyIsToldAtTheNextInstant) {
+TEST(ChipMotion, AWatchThatIsLeftAlreadyIsReportedAtTheNextInstant) {
     Bench b;
     Watcher watcher(b.chip.pulses(2));
     b.start();
@@ -281,7 +281,7 @@ TEST(ChipMotion, AWatchThatIsLeftAlreadyIsToldAtTheNextInstant) {
     EXPECT_EQ(watcher.crossings.size(), 1u);
 }
 
-TEST(ChipMotion, RatesAreToldAtEveryStepOfTheSpeedAndOfEveryAxis) {
+TEST(ChipMotion, RatesAreReportedAtEveryStepOfTheSpeedAndOfEveryAxis) {
     Bench b;
     Watcher x(b.chip.pulses(0)), y(b.chip.pulses(1));
     b.start();

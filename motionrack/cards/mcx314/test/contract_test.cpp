@@ -111,7 +111,7 @@ TEST_F(Contract, PulseAndDriveFixedTakeEachAxisItsOwnWay) {
     EXPECT_EQ(card().ReadLPS(1), -300);
 }
 
-TEST_F(Contract, AContinuousDriveGoesOnUntilItIsStopped) {
+TEST_F(Contract, AContinuousDriveRunsUntilItIsStopped) {
     for (const bool negative : {false, true}) {
         done(card().LPS(axis_y, 0));
         done(card().TCurve_C(axis_y, 10, 500, 400, negative));
@@ -304,7 +304,7 @@ TEST_F(Contract, ADrivingAxisRefusesAnotherDrive) {
     EXPECT_EQ(card().ReadLPS(1), 0);
 }
 
-TEST_F(Contract, SoftwareLimitsStopAndSayHowToGoOn) {
+TEST_F(Contract, SoftwareLimitsStopAndSayHowToContinue) {
     done(card().SetCompP(axis_x, 1'000));
     done(card().SetCompM(axis_x, -1'000));
     done(card().SLMTP(1, axis_x));

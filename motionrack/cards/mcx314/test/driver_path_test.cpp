@@ -128,7 +128,7 @@ TEST(DriverPaths, ALineEndsAnOpenChainOrPattern) {
     done(d.stop(axis_y, StopKind::quick));
 }
 
-TEST(DriverPaths, SpeedsThatAreNotKnownAreNotTold) {
+TEST(DriverPaths, SpeedsThatAreNotKnownAreNotReported) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));

@@ -51,7 +51,7 @@ TEST(DriverMessages, EveryStatusBitHasANameAndAMeaning) {
     EXPECT_THAT(explain("RR2", 0x0004), HasSubstr("Drive in - direction, away from the switch"));
 }
 
-TEST(DriverMessages, LimitsAndMotionAreToldApart) {
+TEST(DriverMessages, ReportsLimitsAndMotionSeparately) {
     DriverRig rig;
     done(rig.driver.SetMultiple(axis_y, 10));
     rig.wire("ylmtm", 0);
@@ -107,7 +107,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     EXPECT_EQ(d.ReadLPS(1), 4'000);
 }
 
-TEST(DriverFlight, TheLeastPossibleTargetIsToldAndTaken) {
+TEST(DriverFlight, TheLeastPossibleTargetIsReportedAndTaken) {
     for (const bool manual : {false, true}) {
         DriverRig rig(true);
         Driver& d = rig.driver;

@@ -73,7 +73,7 @@ TEST(HomingStops, ANewStartInvalidatesThePositionAndARefusedOneDoesNot) {
     EXPECT_FALSE(one.homed());
 }
 
-TEST(HomingStops, EmergencyStopAndAlarmAreTold) {
+TEST(HomingStops, EmergencyStopAndAlarmAreReported) {
     for (const bool emergency : {true, false}) {
         HomeRig rig;
         rig.start();

@@ -26,7 +26,7 @@ struct ManualRig : HomeRig {
     Result<void> last;
 };
 
-TEST(Jog, GoesOnWhileItIsRenewedAndDeceleratesWhenItIsNot) {
+TEST(Jog, ContinuesWhileItIsRenewedAndDeceleratesWhenItIsNot) {
     ManualRig rig;
     rig.run(milliseconds(600), 500);
     EXPECT_EQ(rig.manual.state(), ManualState::jogging);
@@ -82,7 +82,7 @@ TEST(Jog, RestsBeforeItGoesTheOtherWay) {
     EXPECT_LT(rig.rate(), 0);
 }
 
-TEST(Jog, PressedAgainWhileItDeceleratesItGoesOnFromRest) {
+TEST(Jog, PressedAgainWhileItDeceleratesItContinuesFromRest) {
     ManualRig rig;
     rig.run(milliseconds(300), 900);
     EXPECT_TRUE(rig.manual.jog(0, rig.now()));

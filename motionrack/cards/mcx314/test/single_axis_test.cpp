@@ -196,7 +196,7 @@ TEST(SingleAxis, JogsInMillimetresAndOnlyWhileItIsRenewed) {
     EXPECT_NEAR(rig.position(), before - 1.5, 1e-9);
 }
 
-TEST(SingleAxis, AMoveIntoALimitIsTold) {
+TEST(SingleAxis, AMoveIntoALimitIsReported) {
     AxisRig rig({.limit_plus_mm = 40});
     rig.home();
     ASSERT_TRUE(rig.x.move_to(80, 20));

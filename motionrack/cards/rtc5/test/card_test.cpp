@@ -112,7 +112,7 @@ TEST(Rtc5Card, AWordOnTheMcbspIsTakenInTheNextTick) {
     EXPECT_EQ(card.engine().read_mcbsp(1), -70);
 }
 
-TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsTold) {
+TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsReported) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     kernel.start();

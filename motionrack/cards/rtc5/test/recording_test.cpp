@@ -30,7 +30,7 @@ TEST(Rtc5Recording, SetTrigger4TakesASampleAtOnceAndThenOneAPeriod) {
     EXPECT_EQ(recorded(rig.card, 3), (std::vector<std::int32_t>{0, -3, -6, -9}));
 }
 
-TEST(Rtc5Recording, SetTriggerStartsInItsTickAndAPolylineGoesOnThroughIt) {
+TEST(Rtc5Recording, SetTriggerStartsInItsTickAndAPolylineContinuesThroughIt) {
     Rig rig;
     rig.put(Op::set_mark_speed, {1000});
     rig.put(Op::set_scanner_delays, {0, 7, 2});
@@ -67,7 +67,7 @@ TEST(Rtc5Recording, StagesOfTheHeadAreTakenApart) {
     EXPECT_EQ(rig.card.get_value(16).value(), -524288) << "the laser is off";
 }
 
-TEST(Rtc5Recording, GoesOnInTheNextListAndKeepsItsSamplesWhenItEnds) {
+TEST(Rtc5Recording, ContinuesInTheNextListAndKeepsItsSamplesWhenItEnds) {
     Rig rig;
     rig.put(Op::set_trigger, {1, 7, 8});
     micro_vectors(rig, 3);

@@ -28,7 +28,7 @@ TEST(Rtc5Wobbel, GoesRoundAnEllipseAboutTheMarkAndNotAboutTheJump) {
     EXPECT_EQ(rig.card.state().p.x, 1000);
 }
 
-TEST(Rtc5Wobbel, TurnsWithThePathAndGoesOnInCorners) {
+TEST(Rtc5Wobbel, TurnsWithThePathAndContinuesInCorners) {
     Rig rig;
     rig.put(Op::set_mark_speed, {1000});
     rig.put(Op::set_scanner_delays, {0, 0, 20});

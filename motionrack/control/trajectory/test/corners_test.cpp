@@ -93,7 +93,7 @@ double gain_of(const Row& row, double tolerance, double jerk) {
                    ride_test::seconds_stopping(moves_of(row, 0), machine(jerk));
 }
 
-TEST(Corner, GainsMuchWhereAxesTakeTurnsAndAlsoWhereOneGoesOn) {
+TEST(Corner, GainsMuchWhereAxesTakeTurnsAndAlsoWhereOneKeepsMoving) {
     EXPECT_GT(gain_of(rows[0], 0.05, 1.6e5), 0.12);
     EXPECT_GT(gain_of(rows[2], 0.2, 4e4), 0.15);
     EXPECT_GT(gain_of(rows[3], 0.02, 4e4), 0.10);

@@ -86,7 +86,7 @@ TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesCome) {
 }
 
 /// The section behind a corner grows when its start is planned already.
-TEST(TrajectoryGenerator, GoesOnPastACornerToWhatCameBeforeIt) {
+TEST(TrajectoryGenerator, ContinuesPastACornerToWhatCameBeforeIt) {
     std::vector<Move> moves = {line_to({20}, 0.05)};
     for (int i = 1; i <= 80; ++i) moves.push_back(line_to({20 - 0.002 * i * i, 0.4 * i}, 0.01));
     int late = 0;

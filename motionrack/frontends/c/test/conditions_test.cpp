@@ -77,7 +77,7 @@ void drive_and_stop(World& world, std::uint64_t step) {
     }
 }
 
-TEST(CConditions, EachIsToldOnceInOrderAtItsInstantHoweverTimeIsCut) {
+TEST(CConditions, EachIsReportedOnceInOrderAtItsInstantHoweverTimeIsCut) {
     World quiet(weak_axis);
     drive_and_stop(quiet, 600'000);
     const std::vector<Heard> all = told(quiet);
@@ -94,7 +94,7 @@ TEST(CConditions, EachIsToldOnceInOrderAtItsInstantHoweverTimeIsCut) {
     }
 }
 
-TEST(CConditions, ThoseBeforeItAreNotToldAndThoseAfterItsRemovalNeither) {
+TEST(CConditions, ThoseBeforeItAreNotReportedAndThoseAfterItsRemovalNeither) {
     World world(weak_axis);
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
     const std::size_t before = told(world).size();

@@ -75,7 +75,7 @@ TEST(CProgram, GivesTheSameEventTraceWithAndWithoutCallBacksAndFromAFile) {
     std::filesystem::remove(file);
 }
 
-TEST(CProgram, EveryMistakeIsToldWithLineAndColumnBeforeAnythingMoves) {
+TEST(CProgram, EveryMistakeIsReportedWithLineAndColumnBeforeAnythingMoves) {
     World world(homing_rack);
     const std::uint64_t before = world.hash();
     const mr_run_result result = run(world, "G21 G90\nG1 X7 F600\nG1 Xq\nG1 X3000\n", MR_BAD_INPUT);
@@ -222,7 +222,7 @@ TEST(CHome, AxesThatCannotBeHomedAreRefusedBeforeAnythingMoves) {
     EXPECT_EQ(mr_home(board, nullptr), MR_REFUSED);
 }
 
-TEST(CHome, ASwitchThatIsNotFoundIsTold) {
+TEST(CHome, ASwitchThatIsNotFoundIsReported) {
     World world(homing_rack);
     EXPECT_EQ(mr_fault(world, "home.stuck_open", "X"), MR_OK);
     EXPECT_EQ(mr_home(world, "X"), MR_MACHINE);

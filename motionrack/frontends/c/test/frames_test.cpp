@@ -81,7 +81,7 @@ TEST(CFrames, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(frame.sequence, 77u);
 }
 
-TEST(CFrames, ARecordingGoesOnWhileAFrameIsWaitedFor) {
+TEST(CFrames, ARecordingContinuesWhileAFrameIsWaitedFor) {
     const std::string csv = temporary("frames.csv");
     World world(two_cards);
     ASSERT_EQ(mr_trace_start(world, csv.c_str(), "bus.read_n"), MR_OK) << mr_last_error();

@@ -56,7 +56,7 @@ std::string without_empty_times(const std::string& vcd) {
     return out;
 }
 
-TEST(CWorld, ARecordingThatCannotBeEndedGoesOnAndIsWholeOnceThereIsRoom) {
+TEST(CWorld, ARecordingThatCannotBeEndedContinuesAndIsWholeOnceThereIsRoom) {
     const std::string csv = temporary("f.csv"), vcd = temporary("f.vcd");
     const std::string whole = recorded(csv, false);
     EXPECT_EQ(count_of(whole, ",X.step,1\r\n"), 500);

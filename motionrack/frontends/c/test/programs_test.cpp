@@ -227,7 +227,7 @@ cam_from_mm = 126
 cam_to_mm = 132
 )";
 
-TEST(CPrograms, AServoGoesOnFromWhereItStands) {
+TEST(CPrograms, AServoContinuesFromWhereItStands) {
     World world(carriage);
     world.pass(10'000'000);
     EXPECT_EQ(run(world, "G21 G90\nG1 X150 F6000\nM2\n").ok, 1);

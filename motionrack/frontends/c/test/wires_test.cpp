@@ -122,7 +122,7 @@ TEST(CWires, EncoderInputsByHandAreComparedToo) {
 }
 
 /// Manually, at a connected encoder and at open inputs.
-TEST(CWires, UpAndDownPulsesAreCountedWhereTheCardIsToldSo) {
+TEST(CWires, CountsUpAndDownPulsesInTheModeForThem) {
     const std::string open = std::string(with_switches) + "[wires]\nc1.xeca = \"open\"\nc1.xecb = \"open\"\n";
     for (const char* text : {one_card, open.c_str()}) {
         World world(text);

@@ -237,7 +237,7 @@ TEST(Mcx314libTime, AWaitThatIsTooShortSaysSo) {
     EXPECT_EQ(mcx314_wait(x, 1000), 0) << mcx314_last_error();
 }
 
-TEST(Mcx314libStatus, ALimitSwitchStopsAndIsTold) {
+TEST(Mcx314libStatus, ALimitSwitchStopsAndIsReported) {
     const Open chip;
     set_up();
     TCurve_C(x, 100, 4000, 400);
@@ -307,7 +307,7 @@ TEST(Mcx314libManual, AJogEndsWhenItIsNotRenewed) {
     EXPECT_EQ(mcx314_wait(x, 0), 0) << mcx314_last_error();
 }
 
-TEST(Mcx314libManual, AHomingGoesOnWhileItIsRenewed) {
+TEST(Mcx314libManual, AHomingContinuesWhileItIsRenewed) {
     const Open chip(with_home);
     SetRange(800'000);
     for (int i = 0; i < 200; ++i) {

@@ -221,7 +221,7 @@ TEST_F(Rtc5simFiles, ACorrectionFileIsUsedAndADamagedOneLeavesTheOldTable) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_table_para: ParaNo is 16; it must be 0 to 15"));
 }
 
-TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsTold) {
+TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsReported) {
     const Session session;
     rtc5::CorrectionFile table = rtc5::one_to_one();
     table.header[1] = 5184;

@@ -182,7 +182,7 @@ TEST_F(PageServer, IsAskedByItsOwnPagesOnly) {
     EXPECT_EQ(stranger.upgrade("Origin: http://rack.example\r\n").status, 403);
 }
 
-TEST(ServersGuard, TakesNamesAndOriginsThatItIsTold) {
+TEST(ServersGuard, AcceptsConfiguredNamesAndOrigins) {
     Running running([](ServerSettings& settings) {
         settings.hosts = {"Rack.Example"};
         settings.origins = {"http://localhost:5173"};
@@ -279,7 +279,7 @@ TEST(ServersAddress, IsLoopbackUnlessThereIsTls) {
     }
 }
 
-TEST(ServersPort, ThatIsTakenIsToldWithWhatToDo) {
+TEST(ServersPort, ThatIsTakenIsReportedWithWhatToDo) {
     Running running;
     try {
         Running second([&](ServerSettings& settings) { settings.port = running.port(); });

@@ -60,7 +60,7 @@ TEST(StreamConnection, SendsEventsToAllClients) {
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
-TEST(StreamConnection, RefusesWithASentenceAndGoesOn) {
+TEST(StreamConnection, RefusesWithASentenceAndContinues) {
     Running running;
     WebClient client = running.stream(running.token("anna"));
     const auto refused = [&](const std::string& text) {
