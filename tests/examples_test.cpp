@@ -55,31 +55,31 @@ TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
     EXPECT_NE(ran.out.find("Y 15.0000 mm"), std::string::npos) << ran.out;
 }
 
-TEST(Examples, TheCExamplePrintsWhatItsFolderSays) {
+TEST(Examples, TheCExamplePrintsTheExpectedOutput) {
     const Ran ran = run(examples, MOTIONRACK_C_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "07_c" / "expected.txt"));
 }
 
-TEST(Examples, TheFunctionLibraryInCPrintsWhatItsFolderSays) {
+TEST(Examples, TheFunctionLibraryInCPrintsTheExpectedOutput) {
     const Ran ran = run(examples, std::string("MOTIONRACK_RACK=racks/single.toml ") + MOTIONRACK_MCX314LIB_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "09_mcx314lib" / "expected.txt"));
 }
 
-TEST(Examples, TheMarkingJobInCPrintsWhatItsFolderSays) {
+TEST(Examples, TheMarkingJobInCPrintsTheExpectedOutput) {
     const Ran ran = run(examples, MOTIONRACK_RTC5SIM_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "rtc5sim" / "expected.txt"));
 }
 
-TEST(Examples, TheMarkingLineInCPrintsWhatItsFolderSays) {
+TEST(Examples, TheMarkingLineInCPrintsTheExpectedOutput) {
     const Ran ran = run(examples / "14_line", MOTIONRACK_LINE_EXAMPLE " line.toml");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "14_line" / "expected.txt"));
 }
 
-TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
+TEST(Examples, TheOldHostProgramPrintsTheExpectedOutput) {
     const Ran ran = run(examples, MOTIONRACK_DATABOARD_C_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "10_databoard_c" / "expected.txt"));

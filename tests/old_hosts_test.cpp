@@ -29,7 +29,7 @@ class OldHosts : public InFolder {
 
 // ---- BASIC
 
-TEST_F(OldHosts, ThePrintedBasicProgramPrintsWhatItsFolderSays) {
+TEST_F(OldHosts, ThePrintedBasicProgramPrintsTheExpectedOutput) {
     const Ran ran = run_in(host_examples / "basic_host", MOTIONRACK_BASIC_EXAMPLE " demo4002.bas 2 c1.esr 260 265");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(host_examples / "basic_host" / "expected.txt")) << run_again("basic_host", ran.out);
@@ -91,7 +91,7 @@ TEST_F(OldHosts, TheBasicInterpreterCalculatesAndJumps) {
 
 #ifdef MOTIONRACK_Z80_EXAMPLE
 
-TEST_F(OldHosts, ThePrintedZ80ProgramPrintsWhatItsFolderSays) {
+TEST_F(OldHosts, ThePrintedZ80ProgramPrintsTheExpectedOutput) {
     const Ran ran = run_in(host_examples / "z80_host", MOTIONRACK_Z80_EXAMPLE " run demo4002.asm 1 c1.esr 20 25");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(host_examples / "z80_host" / "expected.txt")) << run_again("z80_host", ran.out);
@@ -131,7 +131,7 @@ TEST_F(OldHosts, TheAssemblerNamesTheLineOfAMistake) {
 
 #else
 
-TEST_F(OldHosts, ThePrintedZ80ProgramPrintsWhatItsFolderSays) {
+TEST_F(OldHosts, ThePrintedZ80ProgramPrintsTheExpectedOutput) {
     GTEST_SKIP() << "libz80ex is missing, so examples/z80_host was not built: apt-get install libz80ex-dev";
 }
 
