@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/base/trig.hpp>
 #include <motionrack/control/path_velocity/profile_segment.hpp>
 
 namespace motionrack::control {
@@ -53,6 +54,15 @@ double moved(const ProfileSegment& cell, double velocity, double time) {
     return velocity * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
 }
 
+/// Returns true if the motion of a cell has reversed before `time`, at most half of a period. With negative curvature
+/// it is an oscillation, whose position would be reached again later.
+bool is_reversed(const ProfileSegment& cell, double velocity, double time) {
+    if (cell.velocity2_curvature >= 0) return false;
+    const double square = 0.5 * cell.velocity2_curvature * time * time;
+    const Series series = series_of(square);
+    return velocity * (1 + 0.5 * square * series.cosine) + 0.5 * cell.velocity2_slope * time * series.sine <= 0;
+}
+
 double square_at(const ProfileSegment& cell, double x) {
     return std::max(0.0, cell.velocity2 + x * (cell.velocity2_slope + 0.5 * cell.velocity2_curvature * x));
 }
@@ -78,11 +88,12 @@ void settle(ProfileSegment& cell) {
     // It is slower than at both ends only if it decelerates first and accelerates again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double min_velocity = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(velocity, end);
-    double min_time = 0, max_time = length / std::max(min_velocity, as_good_as_rest * std::max(velocity, end)),
-           time = std::min(max_time, cell.seconds);
+    double min_time = 0, max_time = length / std::max(min_velocity, as_good_as_rest * std::max(velocity, end));
+    if (bend < 0) max_time = std::min(max_time, pi / std::sqrt(-0.5 * bend));  // half of a period
+    double time = std::min(max_time, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, velocity, time);
-        (there < length ? min_time : max_time) = time;
+        (there < length && !is_reversed(cell, velocity, time) ? min_time : max_time) = time;
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
         const bool inside = next > min_time && next < max_time;
         if (!inside) next = 0.5 * (min_time + max_time);

@@ -56,8 +56,9 @@ class RideChecks {
     static constexpr double time_rounding = 1e-13;
     /// Where a feed rate ends on a curve, the cells of the bound are too slow by this share.
     static constexpr double bound_rounding = 3e-3;
-    /// At the ends of curve and profile segments, rounding decides which of them are sampled together.
-    static constexpr double beside = 1e-7;
+    /// At the ends of curve and profile segments, rounding of the position on the path decides which of them are
+    /// sampled together. Samples keep this share of a segment away from them, and this share of the position.
+    static constexpr double beside = 1e-7, beside_place = 4e-15;
 
     void fail(const char* name, double by, const std::string& text) {
         if (fault_.name.empty()) fault_ = {name, fmt::format("{} ({:.9g} of what is allowed): {}", name, by, text)};
@@ -85,10 +86,11 @@ class RideChecks {
             std::size_t pieces = 0;
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
+            const double away = std::clamp(beside_place * (feed.begin + feed.length) / feed.length, beside, 0.5);
             for (std::size_t i = 0; i <= looks; ++i) {
                 const double time =
                     begin +
-                    feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
+                    feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), away, 1 - away);
                 if (time > until) break;
                 look(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
                 if (!fault_.name.empty()) return;

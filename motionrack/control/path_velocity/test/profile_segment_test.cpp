@@ -1,0 +1,58 @@
+// Duration of a cell and the motion on it, for cells of every curvature, also with standstill at an end.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/path_velocity/profile_segment.hpp>
+#include <random>
+
+namespace motionrack::control {
+namespace {
+
+/// The motion advances from the beginning to the end in the duration of the cell, and never back.
+void expect_motion_forward(const ProfileSegment& cell) {
+    constexpr int samples = 50;
+    double last = 0;
+    for (int i = 1; i < samples; ++i) {
+        const PathMotion at = cell.at(cell.seconds * i / samples);
+        ASSERT_GT(at.u, last) << "velocity2 " << cell.velocity2 << " slope " << cell.velocity2_slope << " curvature "
+                              << cell.velocity2_curvature << " length " << cell.length << " at " << i;
+        last = at.u;
+    }
+    // The duration is found to 1e-10 of itself, at up to the peak velocity of the cell.
+    const double x = std::clamp(-cell.velocity2_slope / cell.velocity2_curvature, 0.0, cell.length);
+    const double peak = std::sqrt(
+        std::max(cell.velocity2 + x * (cell.velocity2_slope + 0.5 * cell.velocity2_curvature * x), cell.velocity2));
+    ASSERT_NEAR(cell.at(cell.seconds).u, cell.length, 1e-9 * std::max(cell.length, peak * cell.seconds));
+}
+
+/// velocity2 falls to a fiftieth within 1.42 of the phase of an oscillation, whose position comes back after more than
+/// a whole period.
+TEST(ProfileSegment, EndsInTheFirstQuarterOfAnOscillationThatStartsAtItsPeakVelocity) {
+    const ProfileSegment cell = feed_cell(0, 4.69668748e-12, 3.99782223e-16, 0, -35469344.8);
+    EXPECT_LT(cell.seconds, 0.5 * pi / std::sqrt(0.5 * 35469344.8));
+    expect_motion_forward(cell);
+}
+
+/// velocity2 is a parabola that is above 0 between two points: the cell is any part of what is between them.
+TEST(ProfileSegment, AdvancesFromBeginToEndWhereTheVelocityRisesAndFalls) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> part(0, 1);
+    for (int i = 0; i < 2'000; ++i) {
+        const double half = std::pow(10.0, -9 + 10 * part(random)), bend = std::pow(10.0, -2 + 10 * part(random));
+        double from = -1 + 2 * part(random), to = -1 + 2 * part(random);
+        if (i % 4 == 0) from = -1 + 1e-9 * part(random);
+        if (i % 4 == 1) to = 1 - 1e-9 * part(random);
+        if (from > to) std::swap(from, to);
+        if (to - from < 1e-3) continue;
+        const double square = 0.5 * bend * half * half * (1 - from * from);
+        const ProfileSegment cell = feed_cell(0, half * (to - from), square, -bend * half * from, -bend);
+        ASSERT_NEAR(cell.seconds, (std::asin(to) - std::asin(from)) / std::sqrt(0.5 * bend), 1e-6 * cell.seconds)
+            << from << " to " << to << " of " << half << " bend " << bend;
+        expect_motion_forward(cell);
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::control
