@@ -45,9 +45,7 @@ class Homing {
         StopLatch& latch = rack_.stop_latch();
         const bool armed = latch.armed();
         if (!armed) latch.arm();
-        latch.heed_limits(false);
         home_all();
-        latch.heed_limits(true);
         tell_stop();
         if (!armed) latch.disarm();
         gather();
@@ -78,7 +76,22 @@ class Homing {
         if (!latch.latched() || latch.is_ordered()) return;
         if (out_.ended || out_.ended.error().kind != ErrorKind::stopped) return;
         out_.ended = fail(ErrorKind::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
-                                                          latch.position_sentence(), latch.advice()));
+                                                          positions_text(), latch.advice()));
+    }
+
+    /// Names the axes that were not homed, then those that lost their position by the stop.
+    std::string positions_text() const {
+        const StopLatch& latch = rack_.stop_latch();
+        std::string unhomed;
+        for (const Work& work : works_)
+            if (work.begun && !work.axis->home_outcome().homed)
+                unhomed += fmt::format("{}{}", unhomed.empty() ? "" : ", ", work.running->config.letter);
+        if (unhomed.empty()) return latch.position_sentence();
+        const bool kept = std::all_of(rack_.axes().begin(), rack_.axes().end(), [&](const RunningAxis& axis) {
+            return latch.keeps_position(axis.config.index());
+        });
+        return fmt::format("The position of {} is not valid; home again.{}", unhomed,
+                           kept ? "" : " " + latch.position_sentence());
     }
 
     struct Work {
@@ -153,7 +166,9 @@ class Homing {
         }
         const Instant now = rack_.kernel().now();
         for (Work* work : group) {
+            set_searching(*work, true);
             if (Result<void> begun = work->axis->home(work->order, now); !begun) {
+                set_searching(*work, false);
                 out_.ended = std::move(begun);
                 break;
             }
@@ -162,6 +177,10 @@ class Homing {
         }
         if (!out_.ended) stop(group);
         follow(group);
+    }
+
+    void set_searching(const Work& work, bool on) {
+        rack_.stop_latch().search(static_cast<std::size_t>(work.running - rack_.axes().data()), on);
     }
 
     static void stop(const std::vector<Work*>& group) {
@@ -204,6 +223,7 @@ class Homing {
     }
 
     void note_end(Work& work) {
+        set_searching(work, false);
         const control::HomingResult found = work.axis->home_outcome();
         if (found.homed && settings_.on_homed)
             settings_.on_homed(

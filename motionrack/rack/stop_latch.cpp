@@ -128,7 +128,11 @@ Instant& StopLatch::left_at(const Input& input) {
 bool StopLatch::trips(const Input& input, Instant now) {
     if (input.source != StopSource::limit_switch) return true;
     if (const Instant left = left_at(input); left != Instant{} && now - left < bounces_for) return false;
-    return state_.heeds_limits != 0 || is_behind(input, now);
+    return (state_.searching & 1u << input.axis) == 0 || is_behind(input, now);
+}
+
+void StopLatch::search(std::size_t axis, bool on) {
+    state_.searching = on ? state_.searching | 1u << axis : state_.searching & ~(1u << axis);
 }
 
 /// Returns true for a limit switch that becomes active while its axis moves away from it. The switch is wired wrongly

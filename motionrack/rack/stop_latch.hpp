@@ -42,8 +42,9 @@ class StopLatch final : public sim::Device {
     /// Disarms the latch: ignores edges and releases it. Call when the machine has no driver.
     void disarm();
     bool armed() const { return state_.armed != 0; }
-    /// Sets whether limit switches are heeded; homing moves to limit switches on purpose.
-    void heed_limits(bool on) { state_.heeds_limits = on; }
+    /// Sets whether an axis (index in Rack::axes()) searches for home, and so may run into its own limit switches.
+    /// Those of all other axes still set the latch.
+    void search(std::size_t axis, bool on);
 
     /// Sets the latch for a STOP command. Call between runs.
     void stop();
@@ -113,9 +114,10 @@ class StopLatch final : public sim::Device {
         std::uint64_t heard = 0;  ///< kernel conditions already evaluated
         std::uint64_t trips = 0;
         std::array<Instant, 2 * control::axis_count> left{};  ///< when each - and + limit switch was last left
-        std::int32_t armed = 0, heeds_limits = 1, latched = 0, cause = 0;
-        std::int32_t input = -1;  ///< input that set the latch; -1: a command
-        std::int32_t behind = 0;  ///< direction of a limit switch opposite to the motion of its axis
+        std::int32_t armed = 0, latched = 0, cause = 0;
+        std::uint32_t searching = 0;  ///< bits: axes in a search for home
+        std::int32_t input = -1;      ///< input that set the latch; -1: a command
+        std::int32_t behind = 0;      ///< direction of a limit switch opposite to the motion of its axis
         std::int32_t heeds_door = 1, by_door = 0;
         std::uint32_t tripped = 0, pending = 0;  ///< bits: sources
         std::uint32_t lost = 0, unfollowed = 0;  ///< bits: axes; `unfollowed`: those with a following error

@@ -24,8 +24,8 @@ constexpr std::array<SourceText, stop_sources.size()> source_texts = {{
     {StopSource::drive_alarm, "the alarm input of an axis of an MCX314", "once the drive no longer reports it"},
     {StopSource::limit_switch,
      "a limit switch becomes active ahead of a moving axis, or at standstill; also behind a moving axis, even during "
-     "homing: this means wrong wiring or a broken switch; bounce within 20 ms after leaving the switch is "
-     "ignored",
+     "homing: this means wrong wiring or a broken switch; ahead of an axis that homes it only reverses that axis; "
+     "bounce within 20 ms after leaving the switch is ignored",
      "at any time: the axis must be moved off it"},
     {StopSource::watchdog,
      "a DataBoard 4002 that was reset because its program hung; detected at the next slice (2 ms, of a run 50 ms)",
@@ -166,11 +166,8 @@ std::string safety_reference() {
         "emergency_stop", "stop_command", "drive_alarm", "limit_switch", "watchdog", "following_error"};
     for (const StopState& state : stop_states()) {
         out += fmt::format("| {} |", state.text);
-        for (const StopSource source : stop_sources) {
-            const bool own = state.name == "homing" && source == StopSource::limit_switch;
-            out += own ? " no stop: homing searches the switches |"
-                       : fmt::format(" `{}_by_{}` |", state.name, test_names[static_cast<std::size_t>(source)]);
-        }
+        for (const StopSource source : stop_sources)
+            out += fmt::format(" `{}_by_{}` |", state.name, test_names[static_cast<std::size_t>(source)]);
         out += '\n';
     }
     out +=

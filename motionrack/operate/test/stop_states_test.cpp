@@ -175,9 +175,6 @@ class StopInAState : public testing::TestWithParam<Case> {
     const State& state() const { return std::get<0>(GetParam()); }
     const Source& source() const { return std::get<1>(GetParam()); }
     double stop_s() const { return 0.45 + 0.6 * source().ahead_s; }
-    bool is_own_affair_of_homing() const {
-        return state().state == MachineState::homing && source().source == StopSource::limit_switch;
-    }
 
     rack::Rack& rack() { return o_.machine->rack(); }
     double level(const char* wire) { return *o_.machine->wires().get(wire); }
@@ -213,7 +210,6 @@ class StopInAState : public testing::TestWithParam<Case> {
 };
 
 TEST_P(StopInAState, HoldsUntilAReset) {
-    if (is_own_affair_of_homing()) GTEST_SKIP() << "a search for home goes to limit switches on purpose";
     double x = 0, y = 0, laser = 0, belt = 0;
     o_.at(0.02, [&](Machine& m) {
         begin_all();
