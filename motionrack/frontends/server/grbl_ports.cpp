@@ -15,6 +15,7 @@
 #include <motionrack/frontends/server/sender_port.hpp>
 #include <motionrack/grbl/introduction.hpp>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -35,7 +36,28 @@ struct Visitor {
     std::string address;
     std::chrono::steady_clock::time_point since;
     grbl::Introduction introduction;
-    bool is_sender = false;  ///< identified as a sender
+    bool is_sender = false;    ///< identified as a sender
+    bool within_line = false;  ///< of the last line a part was ignored: it must not be executed by halves
+
+    /// Notes whether ignored bytes end within a line.
+    void ignore(const std::string& bytes) {
+        constexpr std::string_view real_time = "?!~\x18";
+        for (const char c : bytes)
+            if (c == '\n' || c == '\r')
+                within_line = false;
+            else if (static_cast<unsigned char>(c) < 0x80 && real_time.find(c) == std::string_view::npos)
+                within_line = true;
+    }
+    /// Takes the rest of a line, of which a part was ignored, off the bytes.
+    std::string take_rest_of_line(std::string& bytes) {
+        if (!within_line) return {};
+        std::size_t end = bytes.find_first_of("\r\n");
+        within_line = end == std::string::npos;
+        if (!within_line && bytes.compare(end, 2, "\r\n") == 0) ++end;
+        std::string rest = bytes.substr(0, within_line ? end : end + 1);
+        bytes.erase(0, rest.size());
+        return rest;
+    }
 };
 
 }  // namespace
@@ -153,10 +175,15 @@ class GrblPorts::Inside {
             if (verdict == Verdict::open) return visitor.line->read_on();
             visitor.is_sender = true;
             bytes = visitor.introduction.take_bytes();
-            if (writer_ != &visitor && is_slot_free()) let_write(visitor);
         }
+        if (writer_ != &visitor && is_slot_free()) let_write(visitor);
+        if (writer_ != &visitor)
+            visitor.ignore(bytes);
+        else if (std::string rest = visitor.take_rest_of_line(bytes); !rest.empty())
+            tcp_port_->hear(std::move(rest), false, visitor.address, [] {});
         tcp_port_->hear(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
     }
+    /// True without a writer, and while the writer is a connection that has not said anything for too long.
     bool is_slot_free() const {
         return writer_ == nullptr ||
                (!writer_->is_sender && std::chrono::steady_clock::now() - writer_->since >= settings_.silence);
@@ -181,13 +208,18 @@ class GrblPorts::Inside {
                 ? "[MSG:Another sender has control. This one is an observer: only ? ! and resets are accepted]\r\n"
                 : "[MSG:Another sender has control. This one is an observer: only ? and ! are accepted]\r\n")});
     }
+    /// The sender that has waited longest writes next.
     void gone(Visitor* visitor) {
-        if (visitor == writer_) {
+        const bool wrote = visitor == writer_;
+        if (wrote) {
             writer_ = nullptr;
             name_tcp_sender("");
             tcp_port_->left();
         }
         std::erase_if(visitors_, [&](const auto& one) { return one.get() == visitor; });
+        const auto next =
+            std::find_if(visitors_.begin(), visitors_.end(), [](const auto& one) { return one->is_sender; });
+        if (wrote && next != visitors_.end()) let_write(**next);
     }
     void broadcast(const PortMessage& said) {
         for (const auto& visitor : std::vector<std::shared_ptr<Visitor>>(visitors_))

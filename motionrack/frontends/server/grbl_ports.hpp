@@ -4,7 +4,8 @@
 //   sender ──TCP──► 127.0.0.1:PORT ──grbl::Introduction─┐
 //   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::Session ─► operate::Machine
 //
-// One sender writes to the TCP port; the others observe, but their ? and ! are executed. Each port is a separate Grbl
+// One sender writes to the TCP port; the others observe, but their ? and ! are executed. When it goes, the one that has
+// waited longest writes, and is greeted as after a reset. Each port is a separate Grbl
 // on the same machine; the control lease decides which may move it. The port has neither pairing nor encryption and
 // therefore serves programs on this computer only. A connection whose first bytes are not those of a sender is ignored.
 // The pseudo-terminal is accessible to its owner only.
@@ -30,7 +31,7 @@ struct GrblPortSettings {
     std::size_t waiting =
         std::size_t{1} << 20;  ///< maximum number of buffered bytes for a slow client; beyond it the client is closed
     bool resets_stop_all = false;  ///< resets also stop motion of other clients; resets of observers are executed
-    /// A writer that is silent for this time loses the port to the next client that sends.
+    /// A writer that has said nothing for this time loses the port to the next sender that does.
     std::chrono::milliseconds silence{10'000};
     /// Called when a sender changes a setting, with a sentence. On the motion thread; must not block.
     std::function<void(const std::string& sender, const std::string& text)> on_setting = {};

@@ -1,141 +1,25 @@
 // Senders at the TCP port and at the pseudo-terminal of an unthrottled machine.
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/socket.h>
 #include <termios.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <future>
-#include <motionrack/frontends/server/grbl_ports.hpp>
-#include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/rack/config.hpp>
-#include <mutex>
 #include <thread>
+
+#include "sender_ports.hpp"
 
 namespace motionrack::server {
 namespace {
 
+using test::banner;
+using test::Client;
+using test::SenderPorts;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
-
-/// Client end: sends text and reads until an expected text arrives (10 s at most).
-class Client {
-  public:
-    static Client tcp(std::uint16_t port) {
-        Client out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-        sockaddr_in place{};
-        place.sin_family = AF_INET;
-        place.sin_port = htons(port);
-        place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        EXPECT_EQ(::connect(out.file_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
-        return out;
-    }
-    static Client terminal(const std::string& path) {
-        return Client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
-    }
-
-    void say(const std::string& text) {
-        ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
-    }
-    /// Reads up to and including `end`; keeps the rest.
-    std::string hear(const std::string& end) {
-        const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-        while (heard_.find(end) == std::string::npos) {
-            pollfd ready{file_.number(), POLLIN, 0};
-            std::array<char, 4096> in{};
-            if (std::chrono::steady_clock::now() > until) return std::exchange(heard_, {}) + "(nothing more)";
-            if (::poll(&ready, 1, 1000) <= 0) continue;
-            const ssize_t got = ::read(file_.number(), in.data(), in.size());
-            if (got <= 0) return std::exchange(heard_, {}) + "(closed)";
-            heard_.append(in.data(), static_cast<std::size_t>(got));
-        }
-        const std::size_t at = heard_.find(end) + end.size();
-        std::string out = heard_.substr(0, at);
-        heard_.erase(0, at);
-        return out;
-    }
-    std::string ask(const std::string& text, const std::string& end = "ok\r\n") {
-        say(text);
-        return hear(end);
-    }
-    /// Queries the status until it contains `state`.
-    std::string until(const std::string& state) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-        std::string report;
-        while (report.find("<" + state) == std::string::npos && std::chrono::steady_clock::now() < end)
-            report = ask("?", ">\r\n");
-        return report;
-    }
-    int file() const { return file_.number(); }
-
-  private:
-    explicit Client(int file) : file_(file) { EXPECT_GE(file, 0); }
-    OpenFile file_;
-    std::string heard_;
-};
-
-class SenderPorts : public testing::Test {
-  protected:
-    void SetUp() override {
-        if (OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)).number() < 0)
-            GTEST_SKIP() << "There are no pseudo-terminals here: /dev/pts is not mounted.";
-        const std::string axes =
-            "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
-            "\"y\"\n";
-        machine_ = *operate::Machine::make(*rack::read_rack_text(axes).config, {});
-        settings_.port = 0;
-        settings_.link = (folder_ / "grbl").string();
-        settings_.on_setting = [this](const std::string& sender, const std::string& text) {
-            const std::lock_guard lock(told_mutex_);
-            told_ = sender + ": " + text;
-        };
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override {
-        if (machine_ == nullptr) return;
-        machine_->quit();
-        if (thread_.joinable()) thread_.join();
-        ports_.reset();
-        std::filesystem::remove_all(folder_);
-    }
-    void start() {
-        auto opened = GrblPorts::open(settings_, *machine_, lease_);
-        ASSERT_TRUE(opened) << opened.error().message;
-        ports_ = std::move(*opened);
-        thread_ = std::thread([this] { machine_->run(); });
-    }
-    /// Last setting changed by a sender; the ports report it on their own thread.
-    std::string told() {
-        const std::lock_guard lock(told_mutex_);
-        return told_;
-    }
-    operate::MachineState state() {
-        std::promise<operate::MachineState> out;
-        machine_->post([&] { out.set_value(machine_->state()); });
-        return out.get_future().get();
-    }
-    Client tcp() { return Client::tcp(ports_->port()); }
-    Client terminal() { return Client::terminal(settings_.link); }
-
-    const std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
-    GrblPortSettings settings_;
-    auth::ControlLease lease_;
-    std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<GrblPorts> ports_;
-    std::thread thread_;
-    std::mutex told_mutex_;
-    std::string told_;
-};
 
 TEST_F(SenderPorts, GreetAndDriveOverTcp) {
     start();
@@ -243,18 +127,6 @@ TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
         EXPECT_EQ(stranger.hear("ok"), "(closed)");
         EXPECT_THAT(writer.ask("?", ">\r\n"), StartsWith("<Run|"));
     }
-}
-
-TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
-    settings_.silence = std::chrono::milliseconds(0);
-    start();
-    Client silent = tcp();
-    silent.hear(banner);
-    Client sender = tcp();
-    sender.hear("]\r\n");
-    EXPECT_EQ(sender.ask("$I\n", "\r\nok\r\n").substr(0, banner.size()), banner);
-    EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
-    EXPECT_THAT(silent.hear("accepted]\r\n"), StartsWith("[MSG:Another sender has control."));
 }
 
 TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {

@@ -1,0 +1,79 @@
+// The one client of the TCP port that may write: who gets its slot when the writer goes or says nothing.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "sender_ports.hpp"
+
+namespace motionrack::server {
+namespace {
+
+using test::banner;
+using test::Client;
+using test::SenderPorts;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
+    settings_.silence = std::chrono::milliseconds(0);
+    start();
+    Client silent = tcp();
+    silent.hear(banner);
+    Client sender = tcp();
+    sender.hear("]\r\n");
+    EXPECT_EQ(sender.ask("$I\n", "\r\nok\r\n").substr(0, banner.size()), banner);
+    EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_THAT(silent.hear("accepted]\r\n"), StartsWith("[MSG:Another sender has control."));
+}
+
+TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenASilentConnectionGoes) {
+    start();
+    auto silent = std::make_unique<Client>(tcp());
+    silent->hear(banner);
+    Client sender = tcp();
+    sender.hear("]\r\n");
+    EXPECT_THAT(sender.ask("?", ">\r\n"), StartsWith("<Idle|"));
+    sender.say("G1 X1 F600\n");
+    EXPECT_THAT(sender.ask("?", ">\r\n"), HasSubstr("MPos:0.000")) << "it only observes, though it is known";
+    silent.reset();
+    EXPECT_EQ(sender.hear(banner), banner);
+    EXPECT_EQ(sender.ask("G1 X2 F600\n"), "ok\r\n");
+    EXPECT_THAT(sender.until("Idle|MPos:2.000"), HasSubstr("MPos:2.000"));
+}
+
+TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenItsHolderIsSilentForTooLong) {
+    settings_.silence = std::chrono::seconds(1);
+    start();
+    Client silent = tcp();
+    silent.hear(banner);
+    Client sender = tcp();
+    sender.hear("]\r\n");
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    std::string heard;
+    while (heard.find(banner) == std::string::npos && std::chrono::steady_clock::now() < until)
+        heard += sender.ask("?", ">\r\n");
+    EXPECT_THAT(heard, HasSubstr(banner));
+    EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_THAT(silent.hear("accepted]\r\n"), HasSubstr("[MSG:Another sender has control."));
+}
+
+TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
+    start();
+    auto silent = std::make_unique<Client>(tcp());
+    silent->hear(banner);
+    Client sender = tcp();
+    sender.hear("]\r\n");
+    EXPECT_THAT(sender.ask("?", ">\r\n"), StartsWith("<Idle|"));
+    EXPECT_THAT(sender.ask("G1 F600 X5?", ">\r\n"), StartsWith("<Idle|"));
+    silent.reset();
+    EXPECT_EQ(sender.hear(banner), banner);
+    sender.say("0 Y30\n");
+    EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_THAT(sender.until("Idle|MPos:1.000"), HasSubstr("MPos:1.000,0.000"));
+}
+
+}  // namespace
+}  // namespace motionrack::server
