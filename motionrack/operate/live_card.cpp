@@ -37,9 +37,13 @@ Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::R
 }
 
 Result<void> LiveCard::open_port() {
+    last_stop_.reset();
+    last_library_.reset();
     card_ = {};  // with its lock
     MOTIONRACK_TRY(card_, live::open_card(place_.spec, kind_.map()));
     lost_.reset();
+    last_library_ = kind_.library({card_.registers, card_.bytes, card_.port.get(), select_});
+    last_stop_.emplace(*last_library_);
     return {};
 }
 

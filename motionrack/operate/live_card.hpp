@@ -5,8 +5,9 @@
 //                              │ status continue
 //                              └ after each call and twice a second: all registers, for the card's page
 //
-// A stop is written at the next look. An access that the computer refuses ends the service. Reads return 0 then, so
-// that functions waiting for an axis end; their result is replaced by the reason.
+// A stop is written at the next look; where a failure of any thread ends the program, at once: see LastStop. An access
+// that the computer refuses ends the service. Reads return 0 then, so that functions waiting for an axis end; their
+// result is replaced by the reason.
 #pragma once
 
 #include <memory>
@@ -14,6 +15,7 @@
 #include <motionrack/base/port.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/live/clock.hpp>
+#include <motionrack/live/last_stop.hpp>
 #include <motionrack/live/open_card.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
@@ -98,6 +100,8 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     Interrupt& host_;  ///< virtual time
     live::MonotonicClock clock_;
     live::OpenCard card_;  ///< without a port: it could not be reopened
+    std::unique_ptr<FunctionLibrary> last_library_;  ///< on the port itself: without virtual time
+    std::optional<live::LastStop> last_stop_;
     std::optional<Error> lost_;
     LiveRegisters registers_;
     Instant looked_{};                ///< last look, on this clock

@@ -11,6 +11,7 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/live/last_stop.hpp>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -57,7 +58,8 @@ int say_out_of_memory() {
 
 const std::terminate_handler terminate_before = std::get_terminate();
 
-/// On failed allocation in a thread or a noexcept function, ends the program with the same sentence.
+/// On failed allocation in a thread or a noexcept function, ends the program with the same sentence. Real cards were
+/// stopped before.
 [[noreturn]] void end_now() {
     try {
         if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
@@ -139,7 +141,7 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace motionrack::cli;
-    std::set_terminate(end_now);
+    motionrack::live::stop_live_cards_at_terminate(end_now);
     try {
         return run_command(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -37,7 +37,7 @@ struct Visitor {
     std::chrono::steady_clock::time_point since;
     grbl::Introduction introduction;
     bool is_sender = false;    ///< identified as a sender
-    bool within_line = false;  ///< of the last line a part was ignored: it must not be executed by halves
+    bool within_line = false;  ///< part of the last line was ignored: its rest must not be executed
 
     /// Notes whether ignored bytes end within a line.
     void ignore(const std::string& bytes) {

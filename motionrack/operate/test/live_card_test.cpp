@@ -3,11 +3,16 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <motionrack/live/last_stop.hpp>
 #include <motionrack/live/test/zero_card.hpp>
 #include <motionrack/operate/live_card.hpp>
 #include <motionrack/operate/service.hpp>
+#include <new>
+#include <tests/text_of.hpp>
+#include <thread>
 
 #include "operated.hpp"
 
@@ -155,6 +160,35 @@ TEST(RealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
     o.end(1.2);
     o.at(1.4, [&](Machine&) { EXPECT_FALSE(o.alarms()[0].active) << "its axes were seen standing"; });
     o.run(1.5);
+}
+
+TEST(RealCard, IsStoppedByAThreadThatEndsTheProgramForWantOfMemory) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    const auto end = [&] {
+        rack::Rack rack(two_axes(beside));
+        rack.start();
+        const auto card = LiveCard::open(*read_live_place("bench=" + file.place()), rack);
+        if (!card) std::_Exit(1);
+        (*card)->write(0, 0x0120);
+        live::stop_live_cards_at_terminate([] { std::_Exit(5); });
+        std::thread([] { throw std::bad_alloc(); }).join();
+    };
+    EXPECT_EXIT(end(), testing::ExitedWithCode(5), "");
+    EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
+}
+
+TEST(RealCard, ThatWasGivenBackIsNotStoppedAtTheEndOfTheProgram) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    rack::Rack rack(two_axes(beside));
+    rack.start();
+    { ASSERT_TRUE(LiveCard::open(*read_live_place("bench=" + file.place()), rack)); }
+    const std::string before = text_of(memory);
+    live::stop_live_cards();
+    EXPECT_EQ(text_of(memory), before);
 }
 
 TEST(RealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
