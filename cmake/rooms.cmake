@@ -154,22 +154,25 @@ endif()
 set(read_by_tests docs examples hdl motionrack tests)
 list(TRANSFORM read_by_tests PREPEND ${PROJECT_SOURCE_DIR}/)
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [ALONE] [ALWAYS]
-# [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts at once as NAME.1 ..
-# NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them. FAULTS and DEEP are
-# filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the label fault, those
-# that take long as NAME.deep with the label deep. ALONE: each test is a process of its own, where a library has one
-# state for the whole process. ALWAYS: its result depends on other programs or libraries of the build, or on sources.
-# Without it only its program and the tree's other files decide, so that tests/unchanged knows whether it has to run
-# again. tests/programs runs single tests by their names. COMPUTES: its own code takes long, so that it pays to optimise
-# it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build with fuzz targets counts no branches of tests for
-# them. Programs whose sources draw random numbers have the label random: a new seed shows more. Programs with the label
-# deep are not in `all` but in deep_tests: ./test without more runs none of them.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [SHARDS N] [FAULTS FILTER] [DEEP FILTER] [EVERY PART FILTER
+# ...] [ALONE] [ALWAYS] [COMPUTES | COMPUTES_MUCH]): the test program test_NAME, which ctest runs as NAME, or in N parts
+# at once as NAME.1 .. NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them.
+# FAULTS and DEEP are filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the
+# label fault, those that take long as NAME.deep with the label deep. EVERY: tests that try some of many calls or
+# allocations that fail also run as NAME.PART.N with the labels deep and PART, where they try each of them. ALONE: each
+# test is a process of its own, where a library has one state for the whole process. ALWAYS: its result depends on other
+# programs or libraries of the build, or on sources. Without it only its program and the tree's other files decide, so
+# that tests/unchanged knows whether it has to run again. tests/programs runs single tests by their names. COMPUTES: its
+# own code takes long, so that it pays to optimise it; COMPUTES_MUCH: so long that it pays with sanitizers too. A build
+# with fuzz targets counts no branches of tests for them. Programs whose sources draw random numbers have the label
+# random: a new seed shows more. Programs with the label deep are not in `all` but in deep_tests: ./test without more
+# runs none of them.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "ALONE;ALWAYS;COMPUTES;COMPUTES_MUCH" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "ALONE;ALWAYS;COMPUTES;COMPUTES_MUCH" "FAULTS;DEEP;SHARDS" "SOURCES;DEPS;LABELS;EVERY"
+                        ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
@@ -225,6 +228,18 @@ function(motionrack_test name)
     of_program(${name}.deep "deep;${T_LABELS}")
     list(APPEND elsewhere ${T_DEEP})
   endif()
+  while(T_EVERY)
+    list(POP_FRONT T_EVERY part filter)
+    foreach(shard RANGE 1 8)
+      math(EXPR index "${shard} - 1")
+      set(test ${name}.${part}.${shard})
+      add_test(NAME ${test} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${filter}")
+      of_program(${test} "deep;${part};${T_LABELS}")
+      set(environment "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${index};MOTIONRACK_CALLS=1000000000")
+      set_tests_properties(${test} PROPERTIES TIMEOUT 3600
+                           ENVIRONMENT "${environment};MOTIONRACK_ALLOCATIONS=1000000000")
+    endforeach()
+  endwhile()
   if(elsewhere)
     list(JOIN elsewhere ":" elsewhere)
     list(APPEND others "--gtest_filter=-${elsewhere}")

@@ -43,6 +43,10 @@ const Scenario scenarios[] = {
     {"mark", "mark job.toml -q --picture a.svg --report a.html", {"a.svg", "a.html"}},
     {"mark_as_png", "mark job.toml -q --picture a.png", {"a.png"}},
     {"rack_file", "new router a.toml --force", {"a.toml"}},
+    {"image", "image make part.ngc -o a.bin --axis 0=reversed", {"a.bin"}},
+    {"image_as_c", "image make part.ngc -o a.h", {"a.h"}},
+    {"image_as_pascal", "image make part.ngc -o a.pas", {"a.pas"}},
+    {"check", "check part.ngc", {}},
     {"frames", "frames stage.toml -q --duration 0.002 --vcd a.vcd --picture a.svg", {"a.vcd", "a.svg"}},
 };
 
@@ -82,7 +86,7 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
     static std::string old_text(const std::string& result) {
         return std::string(GetParam().command).find("sweep") == 0 && result != "a.svg" ? "" : "old " + result;
     }
-    /// Some of the calls, the same in every run; MOTIONRACK_CALLS=1000000: all.
+    /// Some of the calls, the same in every run; with a large MOTIONRACK_CALLS all.
     static std::vector<std::int64_t> chosen(std::int64_t calls) {
         const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12));
         std::vector<std::int64_t> out;
