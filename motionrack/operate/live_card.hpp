@@ -99,7 +99,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     std::uint8_t select_;
     Interrupt& host_;  ///< virtual time
     live::MonotonicClock clock_;
-    live::OpenCard card_;  ///< without a port: it could not be reopened
+    live::OpenCard card_;                            ///< without a port: it could not be reopened
     std::unique_ptr<FunctionLibrary> last_library_;  ///< on the port itself: without virtual time
     std::optional<live::LastStop> last_stop_;
     std::optional<Error> lost_;

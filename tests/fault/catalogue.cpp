@@ -49,6 +49,8 @@ bool take(Setup& setup, const TomlNode& entry) {
         setup.rack = entry.text;
     else if (entry.key == "program")
         setup.program = entry.text;
+    else if (entry.key == "served")
+        setup.served = entry.flag;
     else if (entry.key == "points") {
         setup.points.clear();
         for (const TomlNode& point : entry.children) setup.points.push_back(point_of(point));

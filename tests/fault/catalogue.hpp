@@ -24,10 +24,11 @@ struct Point {
 
 /// How a fault is run; shared by the faults of a group.
 struct Setup {
-    std::string by;       ///< run, home, frames, session (a rack without a program), shell, test
+    std::string by;       ///< run, home, frames, session (a rack without a program), program (its text), shell, test
     std::string is;       ///< description of the machine, for the page
     std::string rack;     ///< path relative to the project folder, or the text itself
-    std::string program;  ///< for run
+    std::string program;  ///< for run and program
+    bool served = false;  ///< what runs it, a command or the tests of another module, is a served machine
     std::vector<Point> points;
 };
 
@@ -50,6 +51,9 @@ struct Fault {
     /// Returns true if the fault is also tested in a served machine. These are faults of parts, cards and wires in a
     /// program or a homing, and stage faults.
     bool is_served() const;
+    /// Return true if its points are tried by a run, or another command; and in a served machine.
+    bool is_tried_alone() const { return !setup.served; }
+    bool is_tried_served() const { return setup.served || setup.by == "program" || is_served(); }
     /// Returns "error stop" if motion must stop, "standstill" if the program runs to its end.
     std::string state_when_served() const;
     /// Words of the alarms, in order.

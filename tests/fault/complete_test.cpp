@@ -103,8 +103,10 @@ TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
         EXPECT_TRUE(names.insert(one.name()).second) << one.name() << " is there twice";
         const bool elsewhere = one.fault.setup.by == "test";
         EXPECT_EQ(elsewhere, !one.point.test.empty()) << one.name() << " names a test, or is run here";
-        const std::string test =
-            elsewhere ? one.point.test : "Catalogue/InjectedFault.DoesWhatTheCatalogueSays/" + one.name();
+        const bool given = one.fault.setup.by == "program";
+        const std::string own = given ? "Catalogue/GivenProgram.IsRefusedOrExecutedByARun/"
+                                      : "Catalogue/InjectedFault.DoesWhatTheCatalogueSays/";
+        const std::string test = elsewhere ? one.point.test : own + one.name();
         EXPECT_NE(tests.find("\n" + test + "\n"), std::string::npos)
             << "ctest -L fault runs no " << test << ", which is to run " << one.name();
     }

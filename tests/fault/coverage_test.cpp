@@ -1,4 +1,5 @@
 // Every fault in coverage.toml has an existing test, and the page is current.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,6 +50,33 @@ TEST(FaultCoverage, NamesRowsOfTheCatalogue) {
             for (const std::string& row : fault.rows) EXPECT_TRUE(rows.count(row)) << fault.id << ": " << row;
 }
 
+TEST(FaultCoverage, TriesEachFaultAtTwoPointsAloneAndServedOrSaysWhyNot) {
+    for (const CoverageSection& section : coverage())
+        for (const CoveredFault& fault : section.faults) {
+            const std::string run = fault.reason + fault.not_tried.run + section.not_tried.run;
+            const std::string serve = fault.reason + fault.not_tried.serve + section.not_tried.serve;
+            EXPECT_TRUE(points_of(fault, catalogue(), Tried::alone).size() >= 2 || !run.empty())
+                << fault.id << " is tried at fewer than two points by a run, and does not say why";
+            EXPECT_TRUE(points_of(fault, catalogue(), Tried::served).size() >= 2 || !serve.empty())
+                << fault.id << " is tried at fewer than two points in a served machine, and does not say why";
+        }
+}
+
+TEST(FaultCoverage, GivesReasonsAsSentences) {
+    const auto expect_sentence = [](const std::string& who, const std::string& reason) {
+        EXPECT_THAT(reason, testing::MatchesRegex("([A-Z].{28,}[.])?")) << who;
+    };
+    for (const CoverageSection& section : coverage()) {
+        expect_sentence(section.name, section.not_tried.run);
+        expect_sentence(section.name, section.not_tried.serve);
+        for (const CoveredFault& fault : section.faults) {
+            expect_sentence(fault.id, fault.reason);
+            expect_sentence(fault.id, fault.not_tried.run);
+            expect_sentence(fault.id, fault.not_tried.serve);
+        }
+    }
+}
+
 /// Replaces every run of white space by one blank.
 std::string on_one_line(const std::string& text) {
     std::string out;
@@ -68,7 +96,7 @@ TEST(FaultCoverage, NamesTestsThatAreThere) {
     const std::string of_page = "hmi: ";
     for (const CoverageSection& section : coverage())
         for (const CoveredFault& fault : section.faults)
-            for (const std::string& test : fault.tests) {
+            for (const std::string& test : fault.tests) {  // those of its points, too
                 const bool page = test.rfind(of_page, 0) == 0;
                 const std::size_t dot = test.find('.');
                 const std::string words =

@@ -1,6 +1,7 @@
 // Catalogue as a page.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <tests/fault/catalogue.hpp>
 
 namespace motionrack::faults {
@@ -49,7 +50,7 @@ std::string points_text(const std::vector<Point>& points) {
     for (const Point& point : points) {
         std::string values;
         for (const auto& [name, value] : point.values)
-            if (value.find('\n') == std::string::npos)
+            if (std::none_of(value.begin(), value.end(), [](char c) { return c >= 0 && c < ' '; }))
                 values += fmt::format("{}{} `{}`", values.empty() ? "" : ", ", name, value);
         out += (out.empty() ? "" : "; ") + point.name + (values.empty() ? "" : " (" + values + ")");
     }
@@ -79,7 +80,8 @@ std::string catalogue_page(const std::vector<Group>& groups) {
     for (const Group& group : groups) {
         out += fmt::format("\n## {}\n{}\n", group.name, group.about);
         if (!group.setup.is.empty()) out += fmt::format("Run on {}.\n", group.setup.is);
-        if (!group.setup.program.empty()) out += fmt::format("\n```\n{}```\n\n", group.setup.program);
+        const bool is_text = group.setup.program.find('\n') != std::string::npos;  // not one placeholder
+        if (is_text) out += fmt::format("\n```\n{}```\n\n", group.setup.program);
         if (!group.setup.points.empty()) out += fmt::format("Operating points: {}.\n", points_text(group.setup.points));
         out += "\n| fault | injected | must stop | message | kept |\n|---|---|---|---|---|\n";
         for (const Fault& fault : group.faults) {
