@@ -1,0 +1,106 @@
+// The time in which STOP is answered beside a flood, judged by a reference of the same moments: a connection to a
+// thread that only answers. On a busy computer both take longer; a STOP that waits behind the flood does so alone.
+#pragma once
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace motionrack::test {
+
+/// Answers each connection to its port of loopback with a byte, and does nothing else.
+class ReferenceServer {
+  public:
+    ReferenceServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        address_.sin_family = AF_INET;
+        address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address_;
+        EXPECT_EQ(::bind(listener_, reinterpret_cast<const sockaddr*>(&address_), size), 0);
+        EXPECT_EQ(::listen(listener_, 16), 0);
+        EXPECT_EQ(::getsockname(listener_, reinterpret_cast<sockaddr*>(&address_), &size), 0);
+        thread_ = std::thread([this] { serve(); });
+    }
+    ~ReferenceServer() {
+        ::shutdown(listener_, SHUT_RDWR);
+        thread_.join();
+        ::close(listener_);
+    }
+    ReferenceServer(const ReferenceServer&) = delete;
+    ReferenceServer& operator=(const ReferenceServer&) = delete;
+
+    /// Connects, sends a request and waits for the answer.
+    void ask() const {
+        const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        std::array<char, 64> bytes = {};
+        EXPECT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&address_), sizeof address_), 0);
+        EXPECT_EQ(::send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size()));
+        EXPECT_EQ(::recv(client, bytes.data(), 1, 0), 1);
+        ::close(client);
+    }
+
+  private:
+    void serve() const {
+        for (int client = 0; (client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC)) >= 0; ::close(client)) {
+            std::array<char, 64> bytes = {};
+            if (::recv(client, bytes.data(), bytes.size(), MSG_WAITALL) > 0)
+                (void)::send(client, bytes.data(), 1, MSG_NOSIGNAL);
+        }
+    }
+    const int listener_;
+    sockaddr_in address_ = {};
+    std::thread thread_;
+};
+
+class AnswerDelays {
+  public:
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    static constexpr Milliseconds promised{50};
+    /// A STOP is several steps of several threads; the computer may delay each as much as the whole reference.
+    static constexpr double steps = 20;
+
+    /// Measures `stop`, and the reference right afterwards.
+    template <class Stop>
+    void measure(const Stop& stop) {
+        stops_.push_back(time_of(stop));
+        references_.push_back(time_of([this] { reference_.ask(); }));
+    }
+    std::size_t count() const { return stops_.size(); }
+
+    /// Expects this part of the STOPs to be answered within 50 ms, or within what the computer explains.
+    void expect_in_time(double part, const std::string& name) const {
+        const Milliseconds stop = within(stops_, part), reference = within(references_, part);
+        std::printf(
+            "%s: %.0f %% of %zu STOPs were answered within %.1f ms, all within %.1f ms; the reference: %.1f ms\n",
+            name.c_str(), 100 * part, stops_.size(), stop.count(), within(stops_, 1).count(), reference.count());
+        EXPECT_LE(stop.count(), std::max(promised, steps * reference).count())
+            << name << ": ms within which " << 100 * part << " % of the STOPs were answered; the reference took "
+            << reference.count();
+    }
+
+  private:
+    template <class Work>
+    static Milliseconds time_of(const Work& work) {
+        const auto begun = std::chrono::steady_clock::now();
+        work();
+        return std::chrono::steady_clock::now() - begun;
+    }
+    static Milliseconds within(std::vector<Milliseconds> all, double part) {
+        std::sort(all.begin(), all.end());
+        return all.empty() ? Milliseconds{0}
+                           : all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
+    }
+    ReferenceServer reference_;
+    std::vector<Milliseconds> stops_, references_;
+};
+
+}  // namespace motionrack::test
