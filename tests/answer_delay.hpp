@@ -1,5 +1,5 @@
-// The time in which STOP is answered beside a flood, judged by a reference of the same moments: a connection to a
-// thread that only answers. On a busy computer both take longer; a STOP that waits behind the flood does so alone.
+// The time in which a stop is answered, also beside a flood, judged by a reference of the same moments: a connection to
+// a thread that only answers. On a busy computer both take longer; a STOP that waits behind the flood does so alone.
 #pragma once
 
 #include <arpa/inet.h>
@@ -65,7 +65,7 @@ class AnswerDelays {
   public:
     using Milliseconds = std::chrono::duration<double, std::milli>;
     static constexpr Milliseconds promised{50};
-    /// A STOP is several steps of several threads; the computer may delay each as much as the whole reference.
+    /// A stop is several steps of several threads; the computer may delay each as much as the whole reference.
     static constexpr double steps = 20;
 
     /// Measures `stop`, and the reference right afterwards.
@@ -76,14 +76,14 @@ class AnswerDelays {
     }
     std::size_t count() const { return stops_.size(); }
 
-    /// Expects this part of the STOPs to be answered within 50 ms, or within what the computer explains.
+    /// Expects this part of the stops to be answered within 50 ms, or within what the computer explains.
     void expect_in_time(double part, const std::string& name) const {
         const Milliseconds stop = within(stops_, part), reference = within(references_, part);
         std::printf(
-            "%s: %.0f %% of %zu STOPs were answered within %.1f ms, all within %.1f ms; the reference: %.1f ms\n",
+            "%s: %.0f %% of %zu stops were answered within %.1f ms, all within %.1f ms; the reference: %.1f ms\n",
             name.c_str(), 100 * part, stops_.size(), stop.count(), within(stops_, 1).count(), reference.count());
         EXPECT_LE(stop.count(), std::max(promised, steps * reference).count())
-            << name << ": ms within which " << 100 * part << " % of the STOPs were answered; the reference took "
+            << name << ": ms within which " << 100 * part << " % of the stops were answered; the reference took "
             << reference.count();
     }
 

@@ -1,6 +1,11 @@
 // WebSocket clients: snapshots, commands, control, reloads.
 #include <gmock/gmock.h>
 
+#include <future>
+#include <optional>
+#include <tests/answer_delay.hpp>
+#include <thread>
+
 #include "running.hpp"
 
 namespace motionrack::server {
@@ -140,6 +145,32 @@ TEST(StreamConnection, EndsTheJogsThatItAskedForWhenItCloses) {
         return state_is(message, "standstill") && message["status"]["axes"][0]["commanded"] > 0;
     });
     EXPECT_LT(stood["status"]["axes"][0]["commanded"], 290) << "it stopped long before the end of its travel";
+}
+
+/// Half of the jogs at least stand within 50 ms of the close; their lease would last an hour.
+TEST(StreamConnection, EndsTheJogsThatItAskedForWithin50MsOfItsClose) {
+    Running running({}, {}, whole_seconds(3600));
+    const std::string token = running.token("anna");
+    operate::Machine& machine = running.served->machine();
+    const auto state = [&machine] {
+        std::promise<operate::MachineState> out;
+        machine.post([&] { out.set_value(machine.state()); });
+        return out.get_future().get();
+    };
+    test::AnswerDelays delays;
+    for (int i = 0; i < 21; ++i) {
+        std::optional<WebClient> anna;
+        anna.emplace(running.stream(token));
+        ASSERT_TRUE(anna->exchange({{"command", "take_control"}}).value("done", false));
+        ASSERT_TRUE(anna->exchange({{"command", "enable"}, {"on", true}}).value("done", false));
+        ASSERT_TRUE(anna->exchange({{"command", "jog"}, {"axis", "X"}, {"speed", 0.5}}).value("done", false));
+        ASSERT_TRUE(anna->receive_until([](const json& message) { return state_is(message, "jogging"); }).is_object());
+        delays.measure([&] {
+            anna.reset();
+            while (state() != operate::MachineState::standstill) std::this_thread::yield();
+        });
+    }
+    delays.expect_in_time(0.5, "a jog whose connection closes");
 }
 
 TEST(StreamConnection, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
