@@ -34,6 +34,15 @@ inline rack::RackConfig three_axes(const std::string& more = "") {
         more);
 }
 
+/// X, Y and Z with a probe; `block`: its text in the rack file.
+inline rack::RackConfig with_probe(const std::string& block) {
+    return rack_of(
+        "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard "
+        "= \"m\"\nchannel = \"y\"\n"
+        "[axis.Z]\ncard = \"m\"\nchannel = \"z\"\n[probe]\n" +
+        block);
+}
+
 inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
 }

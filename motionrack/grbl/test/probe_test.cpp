@@ -8,14 +8,6 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-rack::RackConfig with_probe(const std::string& block) {
-    return rack_of(
-        "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard "
-        "= \"m\"\nchannel = \"y\"\n"
-        "[axis.Z]\ncard = \"m\"\nchannel = \"z\"\n[probe]\n" +
-        block);
-}
-
 TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
     Bench b(with_probe("x_min_mm = 20.123\n"));
     // 640 pulses per mm: 20.123 mm is pulse 12879.

@@ -83,14 +83,24 @@ std::string zigzag(int i) {
     return "G1X" + std::to_string(i % 7) + "." + std::to_string(i % 10) + "Y" + std::to_string(i % 5) + "F3000\n";
 }
 
-/// Activity of the sender at the stop; `before` is sent first.
+rack::RackConfig no_switches() {
+    return three_axes();
+}
+rack::RackConfig far_probe() {
+    return with_probe("x_min_mm = 290\n");
+}
+void nothing_more(operate::Machine&) {}
+
+/// Activity of the sender, or of the machine beside it, at the stop; `before` is sent first.
 struct Doing {
     const char* name;
     std::string before;
     std::function<std::string(int)> line;
     bool homes = false;
+    rack::RackConfig (*config)() = no_switches;
+    void (*begin)(operate::Machine& machine) = nothing_more;
 };
-const std::array<Doing, 9> doings = {{
+const std::array<Doing, 12> doings = {{
     {"streams lines", "", zigzag},
     {"streams one long line", "", [](int i) { return i % 2 == 0 ? "G1X200F1500\n" : std::string("G1X0\n"); }},
     {"brakes into a feed hold", "G1X200F6000\n", [](int i) { return i == 0 ? "!G1X0\n" : zigzag(i); }},
@@ -99,15 +109,41 @@ const std::array<Doing, 9> doings = {{
     {"dwells", "G1X1F3000\nG4P3\n", zigzag},
     {"waits at M0", "G1X1F3000\nM0\n", zigzag},
     {"jogs", "", [](int i) { return "$J=G91X" + std::string(i % 3 == 2 ? "-2" : "3") + "F1500\n"; }},
-    {"homes", "$H\n", zigzag, true},
+    {"probes", "G38.2X280F1200\n", zigzag, false, far_probe},
+    {"executes single blocks", "", zigzag, false, no_switches, [](operate::Machine& m) { m.set_single_block(true); }},
+    {"sends lines beside a page's program", "", zigzag, false, no_switches,
+     [](operate::Machine& m) {
+         ASSERT_TRUE(m.enable(true));
+         ASSERT_TRUE(m.begin_program("G21 G90 F1200\nG1 X200\nG1 X0\nM2\n", "page.ngc"));
+     }},
+    {"homes", "$H\n", zigzag, true, router},
 }};
+constexpr std::size_t doings_without_homing = doings.size() - 1;
+
+/// Number of tested instants of each source in each state.
+std::uint64_t stop_instants() {
+    return trials("MOTIONRACK_STOPS", 3, 100);
+}
+double some_instant(std::mt19937& random) {
+    return 0.05 + static_cast<double>(random() % 1000) / 2500;
+}
+
+/// After the stop was reset, a line of the sender moves the machine.
+void expect_to_move(Bench& b) {
+    b.machine->set_single_block(false);
+    const std::int64_t stood = b.machine->status().axes[0].pulses;
+    EXPECT_EQ(b.ask("G91 G1 X0.5 F600\n", 0.02), "ok\r\n");
+    b.until_idle();
+    EXPECT_NE(b.machine->status().axes[0].pulses, stood);
+}
 
 class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
   protected:
     void try_once(double after, const Source& source, const Doing& doing) {
-        Bench b(doing.homes ? router() : three_axes());
+        Bench b(doing.config());
         Careless sender(b, doing.line);
         sender.say(doing.before, 0.1);
+        doing.begin(*b.machine);
         sender.stream(after);
         source.stop(*b.machine);
         const std::string heard = sender.stream(0.7);
@@ -127,19 +163,17 @@ class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::si
         EXPECT_THAT(b.report(), StartsWith("<Alarm|"));
         EXPECT_THAT(b.ask("$X\n", 0.2), EndsWith("[MSG:Caution: Unlocked]\r\nok\r\n"));
         if (doing.homes) return;
-        EXPECT_EQ(b.ask("G91 G1 X0.5 F600\n", 0.02), "ok\r\n");
-        b.until_idle();
-        EXPECT_NE(b.machine->status().axes[0].pulses, stood[0].pulses);
+        expect_to_move(b);
     }
 };
 
 /// MOTIONRACK_STOPS=N sets the number of tested instants.
 TEST_P(SenderStop, LeavesNoLineOfASenderToBeDriven) {
     const auto [which, what] = GetParam();
-    const std::uint64_t seed = seed_from_environment(), count = trials("MOTIONRACK_STOPS", 3, 30);
-    std::mt19937 random(static_cast<std::uint32_t>(seed * 100 + which * 10 + what));
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const double after = 0.05 + static_cast<double>(random() % 1000) / 2500;
+    const std::uint64_t seed = seed_from_environment();
+    std::mt19937 random(static_cast<std::uint32_t>(seed * 1000 + which * 100 + what));
+    for (std::uint64_t i = 0; i < stop_instants(); ++i) {
+        const double after = some_instant(random);
         SCOPED_TRACE(sources[which].name + std::string(" while it ") + doings[what].name + ", " +
                      std::to_string(after) + " s; MOTIONRACK_SEED=" + std::to_string(seed));
         try_once(after, sources[which], doings[what]);
@@ -149,6 +183,46 @@ TEST_P(SenderStop, LeavesNoLineOfASenderToBeDriven) {
 INSTANTIATE_TEST_SUITE_P(By, SenderStop,
                          testing::Combine(testing::Range(std::size_t{0}, sources.size()),
                                           testing::Range(std::size_t{0}, doings.size())));
+
+/// A pressed emergency stop: no line is answered, and $X does nothing, before the sender's own reset.
+class SenderAtTheButton : public testing::TestWithParam<std::size_t> {
+  protected:
+    static void try_once(double after, const Doing& doing) {
+        Bench b(doing.config());
+        Careless sender(b, doing.line);
+        sender.say(doing.before, 0.1);
+        doing.begin(*b.machine);
+        sender.stream(after);
+        ASSERT_TRUE(b.machine->wires().force("estop", 0));
+        ASSERT_THAT(sender.stream(0.7), AllOf(HasSubstr("ALARM:"), HasSubstr("[MSG:Reset to continue]\r\n")));
+        ASSERT_EQ(b.machine->state(), operate::MachineState::error_stop) << operate::name_of(b.machine->state());
+        const std::vector<operate::AxisStatus> stood = b.machine->status().axes;
+        ASSERT_TRUE(b.machine->wires().force("estop", 1));
+        const std::string later = sender.stream(0.5) + sender.say("$X\n~G1X2F600\n", 0.5);
+        EXPECT_THAT(later, Not(HasSubstr("ok\r\n")));
+        for (std::size_t i = 0; i < stood.size(); ++i)
+            EXPECT_EQ(b.machine->status().axes[i].pulses, stood[i].pulses) << "a line was driven after the stop";
+        EXPECT_THAT(b.ask("\x18", 0.2), EndsWith("[MSG:'$H'|'$X' to unlock]\r\n"));
+        EXPECT_THAT(b.ask("$X\n", 0.2), EndsWith("[MSG:Caution: Unlocked]\r\nok\r\n"));
+        for (std::size_t i = 0; i < stood.size(); ++i)
+            EXPECT_EQ(b.machine->status().axes[i].pulses, stood[i].pulses) << "a reset moves nothing";
+        expect_to_move(b);
+    }
+};
+
+/// MOTIONRACK_STOPS=N sets the number of tested instants.
+TEST_P(SenderAtTheButton, HasNoLineDrivenBeforeItsOwnReset) {
+    const std::uint64_t seed = seed_from_environment();
+    std::mt19937 random(static_cast<std::uint32_t>(seed * 1000 + 900 + GetParam()));
+    for (std::uint64_t i = 0; i < stop_instants(); ++i) {
+        const double after = some_instant(random);
+        SCOPED_TRACE(std::string("the button while it ") + doings[GetParam()].name + ", " + std::to_string(after) +
+                     " s; MOTIONRACK_SEED=" + std::to_string(seed));
+        try_once(after, doings[GetParam()]);
+        if (HasFailure()) return;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(By, SenderAtTheButton, testing::Range(std::size_t{0}, doings_without_homing));
 
 /// Bytes of the sender in the slice of the stop.
 class StoppedHoming : public testing::TestWithParam<const char*> {};
