@@ -84,6 +84,25 @@ class Operating(unittest.TestCase):
         with self.assertRaises(motionrack.InvalidInput):
             machine.wire("no.such")
 
+    def test_a_stop_drives_no_further_line_and_a_reset_moves_nothing(self) -> None:
+        machine = ready()
+        machine.start_program(TEXT, "there.ngc")
+        machine.advance(0.5)
+        machine.stop()
+        machine.wait("error stop", timeout=1)
+        place = machine.get("X.position_mm")
+        self.assertTrue(0 < place < 40)
+        acts: Acts = (lambda: machine.start_program(TEXT), machine.resume, lambda: machine.jog("X", 5))
+        for act in acts:
+            with self.assertRaises(Refused):
+                act()
+        machine.advance(2)
+        self.assertEqual(machine.get("X.position_mm"), place)
+        machine.reset()
+        machine.wait("standstill", timeout=1)
+        machine.advance(2)
+        self.assertEqual(machine.get("X.position_mm"), place)
+
     def test_a_limit_switch_is_an_error_stop_with_an_alarm(self) -> None:
         machine = ready()
         machine.start_program(TEXT, "there.ngc")

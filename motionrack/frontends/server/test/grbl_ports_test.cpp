@@ -1,22 +1,14 @@
 // Senders at the TCP port and at the pseudo-terminal of an unthrottled machine.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <termios.h>
 
-#include <chrono>
-#include <filesystem>
 #include <fstream>
-#include <motionrack/rack/config.hpp>
-#include <thread>
 
 #include "sender_ports.hpp"
 
 namespace motionrack::server {
 namespace {
 
-using test::banner;
-using test::Client;
-using test::SenderPorts;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -24,7 +16,7 @@ using testing::StartsWith;
 TEST_F(SenderPorts, GreetAndDriveOverTcp) {
     start();
     EXPECT_EQ(ports_->sender(), "none");
-    Client client = tcp();
+    SenderClient client = tcp();
     EXPECT_EQ(client.hear(banner), banner);
     EXPECT_THAT(ports_->sender(), StartsWith("tcp 127.0.0.1:"));
     EXPECT_EQ(client.ask("G1 X10 F1200\n"), "ok\r\n");
@@ -35,7 +27,7 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
     start();
     for (int i = 0; i < 3; ++i) {
         while (ports_->sender() != "none") std::this_thread::yield();
-        Client client = terminal();
+        SenderClient client = terminal();
         EXPECT_EQ(client.hear(banner), banner);
         EXPECT_EQ(ports_->sender(), "pty");
         client.say("G0 X1");  // unterminated: the next client's line must not begin with it
@@ -44,7 +36,7 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
         client.say("?");  // never read
     }
     while (ports_->sender() != "none") std::this_thread::yield();
-    Client client = terminal();
+    SenderClient client = terminal();
     EXPECT_EQ(client.hear(banner), banner);
     EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
 }
@@ -52,16 +44,16 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
 TEST_F(SenderPorts, HearALineOfWhoHasGoneAtOnce) {
     start();
     {
-        Client client = terminal();
+        SenderClient client = terminal();
         client.say("G1 X7 F600\n");
     }
-    Client client = tcp();
+    SenderClient client = tcp();
     EXPECT_THAT(client.until("Idle|MPos:7.000"), HasSubstr("7.000"));
 }
 
 TEST_F(SenderPorts, KeepTheTerminalRaw) {
     start();
-    Client client = terminal();
+    SenderClient client = terminal();
     client.hear(banner);
     termios line{};
     ASSERT_EQ(::tcgetattr(client.file(), &line), 0);
@@ -72,9 +64,9 @@ TEST_F(SenderPorts, KeepTheTerminalRaw) {
 
 TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
     start();
-    Client writer = tcp();
+    SenderClient writer = tcp();
     writer.hear(banner);
-    Client other = tcp();
+    SenderClient other = tcp();
     EXPECT_THAT(other.hear("]\r\n"), StartsWith("[MSG:Another sender has control."));
     other.say("G1 X50 F60\n$X\n");
     EXPECT_THAT(other.ask("?", ">\r\n"), HasSubstr("<Idle|MPos:0.000"));
@@ -90,10 +82,10 @@ TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
 TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
     settings_.resets_stop_all = true;
     start();
-    Client writer = tcp();
+    SenderClient writer = tcp();
     writer.say("G4 P100000\n");
     EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
-    Client other = tcp();
+    SenderClient other = tcp();
     other.hear("]\r\n");
     other.say("\x18");
     EXPECT_THAT(writer.hear("help]\r\n"), HasSubstr("ALARM:3\r\n"));
@@ -102,12 +94,12 @@ TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
 TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
     start();
     {
-        Client first = tcp();
+        SenderClient first = tcp();
         first.hear(banner);
     }
     std::string greeting;
     for (int i = 0; i < 100 && greeting != banner; ++i) {
-        Client next = tcp();
+        SenderClient next = tcp();
         greeting = next.hear("]\r\n");
     }
     EXPECT_EQ(greeting, banner);
@@ -115,13 +107,13 @@ TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
 
 TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
     start();
-    Client writer = tcp();
+    SenderClient writer = tcp();
     EXPECT_EQ(writer.ask("G4 P100000\n", banner), banner);
     EXPECT_THAT(writer.until("Run"), StartsWith("<Run|"));
     for (const std::string& first :
          {std::string("POST / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n\x18"), std::string("\x16\x03\x01\x02\x00\x01\x18", 7),
           std::string("SSH-2.0-OpenSSH_9.2\r\n\x18")}) {
-        Client stranger = tcp();
+        SenderClient stranger = tcp();
         stranger.hear("]\r\n");
         stranger.say(first);
         EXPECT_EQ(stranger.hear("ok"), "(closed)");
@@ -132,17 +124,17 @@ TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
 TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {
     settings_.observers = 1;
     start();
-    Client first = tcp(), second = tcp();
+    SenderClient first = tcp(), second = tcp();
     first.hear(banner);
     second.hear("]\r\n");
-    Client sender = tcp();
+    SenderClient sender = tcp();
     EXPECT_EQ(sender.hear(banner), banner) << "the oldest silent one had the port";
     EXPECT_EQ(first.hear("x"), "(closed)");
 }
 
 TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
     start();
-    Client client = tcp();
+    SenderClient client = tcp();
     client.hear(banner);
     EXPECT_THAT(client.ask("?", ">\r\n"), StartsWith("<Idle|"));
     client.ask("$$\n");
@@ -153,7 +145,7 @@ TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
 
 TEST_F(SenderPorts, TellASenderWhoStoppedIt) {
     start();
-    Client client = tcp();
+    SenderClient client = tcp();
     client.say("G4 P100000\n");
     EXPECT_THAT(client.until("Run"), HasSubstr("<Run"));
     machine_->post([this] { machine_->stop({"anna", "192.168.1.5", "STOP"}); });
@@ -167,7 +159,7 @@ TEST_F(SenderPorts, TellASenderWhoStoppedIt) {
 
 TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
     start();
-    Client client = tcp();
+    SenderClient client = tcp();
     EXPECT_EQ(client.ask("G1 X1 F600\nM0\n"), banner + "ok\r\n");
     EXPECT_THAT(client.until("Hold:0"), HasSubstr("Hold:0"));
     machine_->post([this] { EXPECT_TRUE(lease_.take("anna", "w1", true, operate::is_stationary(machine_->state()))); });
@@ -184,9 +176,9 @@ TEST_F(SenderPorts, LetOnlyTheirOwnerOpenTheTerminal) {
 
 TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMoves) {
     start();
-    Client first = tcp();
+    SenderClient first = tcp();
     first.hear(banner);
-    Client second = terminal();
+    SenderClient second = terminal();
     second.hear(banner);
     first.say("G4 P100000\n");
     EXPECT_THAT(second.until("Run"), StartsWith("<Run|"));
@@ -198,7 +190,7 @@ TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMo
 
 TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
     start();
-    Client client = terminal();
+    SenderClient client = terminal();
     client.hear(banner);
     EXPECT_EQ(client.ask("$32=1\n"), "ok\r\n");
     client.ask("$G\n");
@@ -207,7 +199,7 @@ TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
 
 TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {
     start();
-    Client client = tcp();
+    SenderClient client = tcp();
     client.hear(banner);
     EXPECT_EQ(client.ask("G1 X1 F600\n"), "ok\r\n");
     EXPECT_EQ(client.ask("G1 X" + std::string(1 << 20, '1') + "\n", "\r\n"), "error:11\r\n");
@@ -259,7 +251,7 @@ TEST_F(SenderPorts, SayThatThePortIsTaken) {
         *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
     const auto opened = GrblPorts::open(same, *machine, lease_);
     ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, HasSubstr("Choose another port"));
+    EXPECT_THAT(opened.error().message, HasSubstr("Give another port"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A client of the Grbl ports, and a fixture with both ports on an unthrottled machine.
+// Senders at the TCP port and at the pseudo-terminal of an unthrottled machine.
 #pragma once
 
 #include <arpa/inet.h>
@@ -12,6 +12,7 @@
 #include <chrono>
 #include <filesystem>
 #include <future>
+#include <memory>
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/rack/config.hpp>
@@ -20,15 +21,15 @@
 #include <thread>
 #include <utility>
 
-namespace motionrack::server::test {
+namespace motionrack::server {
 
 inline const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
 /// Client end: sends text and reads until an expected text arrives (10 s at most).
-class Client {
+class SenderClient {
   public:
-    static Client tcp(std::uint16_t port) {
-        Client out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    static SenderClient tcp(std::uint16_t port) {
+        SenderClient out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
         sockaddr_in place{};
         place.sin_family = AF_INET;
         place.sin_port = htons(port);
@@ -36,8 +37,8 @@ class Client {
         EXPECT_EQ(::connect(out.file_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
         return out;
     }
-    static Client terminal(const std::string& path) {
-        return Client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+    static SenderClient terminal(const std::string& path) {
+        return SenderClient(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     }
 
     void say(const std::string& text) {
@@ -75,7 +76,7 @@ class Client {
     int file() const { return file_.number(); }
 
   private:
-    explicit Client(int file) : file_(file) { EXPECT_GE(file, 0); }
+    explicit SenderClient(int file) : file_(file) { EXPECT_GE(file, 0); }
     OpenFile file_;
     std::string heard_;
 };
@@ -120,8 +121,8 @@ class SenderPorts : public testing::Test {
         machine_->post([&] { out.set_value(machine_->state()); });
         return out.get_future().get();
     }
-    Client tcp() { return Client::tcp(ports_->port()); }
-    Client terminal() { return Client::terminal(settings_.link); }
+    SenderClient tcp() { return SenderClient::tcp(ports_->port()); }
+    SenderClient terminal() { return SenderClient::terminal(settings_.link); }
 
     const std::filesystem::path folder_ =
         std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
@@ -134,4 +135,4 @@ class SenderPorts : public testing::Test {
     std::string told_;
 };
 
-}  // namespace motionrack::server::test
+}  // namespace motionrack::server

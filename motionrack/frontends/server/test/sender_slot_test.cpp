@@ -1,6 +1,5 @@
 // The one client of the TCP port that may write: who gets its slot when the writer goes or says nothing.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <memory>
@@ -11,18 +10,15 @@
 namespace motionrack::server {
 namespace {
 
-using test::banner;
-using test::Client;
-using test::SenderPorts;
 using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
     settings_.silence = std::chrono::milliseconds(0);
     start();
-    Client silent = tcp();
+    SenderClient silent = tcp();
     silent.hear(banner);
-    Client sender = tcp();
+    SenderClient sender = tcp();
     sender.hear("]\r\n");
     EXPECT_EQ(sender.ask("$I\n", "\r\nok\r\n").substr(0, banner.size()), banner);
     EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
@@ -31,9 +27,9 @@ TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
 
 TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenASilentConnectionGoes) {
     start();
-    auto silent = std::make_unique<Client>(tcp());
+    auto silent = std::make_unique<SenderClient>(tcp());
     silent->hear(banner);
-    Client sender = tcp();
+    SenderClient sender = tcp();
     sender.hear("]\r\n");
     EXPECT_THAT(sender.ask("?", ">\r\n"), StartsWith("<Idle|"));
     sender.say("G1 X1 F600\n");
@@ -47,9 +43,9 @@ TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenASilentConnectionGoes) {
 TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenItsHolderIsSilentForTooLong) {
     settings_.silence = std::chrono::seconds(1);
     start();
-    Client silent = tcp();
+    SenderClient silent = tcp();
     silent.hear(banner);
-    Client sender = tcp();
+    SenderClient sender = tcp();
     sender.hear("]\r\n");
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     std::string heard;
@@ -62,9 +58,9 @@ TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenItsHolderIsSilentForTooLong) {
 
 TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
     start();
-    auto silent = std::make_unique<Client>(tcp());
+    auto silent = std::make_unique<SenderClient>(tcp());
     silent->hear(banner);
-    Client sender = tcp();
+    SenderClient sender = tcp();
     sender.hear("]\r\n");
     EXPECT_THAT(sender.ask("?", ">\r\n"), StartsWith("<Idle|"));
     EXPECT_THAT(sender.ask("G1 F600 X5?", ">\r\n"), StartsWith("<Idle|"));
