@@ -50,7 +50,7 @@ void Machine::take_stop() {
         if (in_work) door_.keep_tools(status_);
         tools_off();
     }
-    if (latch.latched()) jogs_.let_go(), service_.break_off();
+    if (latch.latched()) jogs_.let_go(), service_.break_off(), tools_off();
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
 }

@@ -177,11 +177,20 @@ class StopInAState : public testing::TestWithParam<Case> {
     double stop_s() const { return 0.45 + 0.6 * source().ahead_s; }
 
     rack::Rack& rack() { return o_.machine->rack(); }
-    double level(const char* wire) { return *o_.machine->wires().get(wire); }
+    double level(const std::string& wire) { return *o_.machine->wires().get(wire); }
     double stage_velocity() { return std::fabs(rack().stage("mask")->motor->velocity(o_.machine->now())); }
     double belt_velocity() { return rack().track("line")->track().velocity(to_seconds(o_.machine->now())); }
     double marked() { return *rack::get_quantity(rack(), "head.marked_mm"); }
 
+    /// Declares the positions, then switches the spindle and both coolants on. Before a state begins, that line is
+    /// over.
+    void begin_tools() {
+        o_.at(0.004, [](Machine& m) {
+            EXPECT_TRUE(m.set_position('X', 100));
+            EXPECT_TRUE(m.set_position('Y', 0));
+        });
+        o_.at(0.016, [](Machine& m) { EXPECT_TRUE(m.line("M3 S1000 M7 M8", 1)); });
+    }
     /// Starts a laser for eight seconds, a belt and a stage, and switches outputs on.
     void begin_all() {
         rtc5::Engine& laser = rack::rtc5_card_of(rack(), "scan")->engine();
@@ -190,20 +199,32 @@ class StopInAState : public testing::TestWithParam<Case> {
         ASSERT_TRUE(laser.put(*rtc5::list_command(rtc5::Op::mark_abs, {200'000, 0})));
         ASSERT_TRUE(laser.put(*rtc5::list_command(rtc5::Op::set_end_of_list, {})));
         ASSERT_TRUE(laser.execute_list(1));
-        rack::ioflex02_card_of(rack(), "glass")->write(ioflex02::offset("OUTL"), 0xFF);
+        for (const std::uint32_t low_and_high : {ioflex02::offset("OUTL"), ioflex02::offset("OUTH")})
+            rack::ioflex02_card_of(rack(), "glass")->write(low_and_high, 0xFF);
+    }
+    void expect_tools(control::gcode::Spindle spindle, bool coolant) {
+        const Status& status = o_.machine->status();
+        EXPECT_EQ(status.spindle, spindle);
+        EXPECT_EQ(status.mist, coolant);
+        EXPECT_EQ(status.flood, coolant);
+    }
+    void expect_outputs(double value) {
+        for (int output = 0; output < 16; ++output)
+            EXPECT_EQ(level("glass.out" + std::to_string(output)), value) << output;
     }
     void expect_all_on() {
         EXPECT_EQ(o_.machine->state(), state().state) << name_of(o_.machine->state());
         EXPECT_EQ(level("scan.laser_on"), 1);
-        EXPECT_EQ(level("glass.out0"), 1);
+        expect_tools(control::gcode::Spindle::clockwise, true);
+        expect_outputs(1);
         EXPECT_GT(belt_velocity(), 0);
         EXPECT_GT(stage_velocity(), 0.01);
     }
     /// Expects everything that must be off immediately.
     void expect_off() {
         EXPECT_EQ(level("scan.laser_on"), 0);
-        EXPECT_EQ(level("glass.out0"), 0);
-        EXPECT_EQ(o_.machine->status().spindle, control::gcode::Spindle::off);
+        expect_tools(control::gcode::Spindle::off, false);
+        expect_outputs(0);
     }
 
     Operated o_;
@@ -211,11 +232,8 @@ class StopInAState : public testing::TestWithParam<Case> {
 
 TEST_P(StopInAState, HoldsUntilAReset) {
     double x = 0, y = 0, laser = 0, belt = 0;
-    o_.at(0.02, [&](Machine& m) {
-        begin_all();
-        EXPECT_TRUE(m.set_position('X', 100));
-        EXPECT_TRUE(m.set_position('Y', 0));
-    });
+    begin_tools();
+    o_.at(0.02, [&](Machine&) { begin_all(); });
     const double stop = stop_s(), released = stop + 0.1, looked = stop + 0.35, over = stop + 0.5;
     state().begin(o_, stop);
     o_.at(stop - source().ahead_s, source().begin);
