@@ -11,8 +11,10 @@
 #include <motionrack/panel/operation_specs.hpp>
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/rack/config.hpp>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <tests/invariants/watch.hpp>
 #include <tests/source_root.hpp>
 #include <thread>
 #include <vector>
@@ -55,6 +57,7 @@ class Asked {
         auto made = operate::Machine::make(config, std::move(machine_settings));
         EXPECT_TRUE(made) << made.error().message;
         machine = std::move(*made);
+        watch.emplace(*machine);
         settings.picture_every = std::chrono::microseconds(0);
         panel = std::make_unique<Panel>(*machine, lease, std::move(settings));
     }
@@ -93,6 +96,7 @@ class Asked {
     /// Its clock stands still, so that control does not expire on a busy computer.
     auth::ControlLease lease{[] { return auth::Moment{}; }};
     std::unique_ptr<operate::Machine> machine;
+    std::optional<test::MachineWatch> watch;  ///< the laws of every run
     std::unique_ptr<Panel> panel;
 
   private:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <motionrack/rack/command_schedule.hpp>
 #include <string>
+#include <tests/invariants/watch.hpp>
 #include <tests/journey.hpp>
 #include <tests/pulse_referee.hpp>
 #include <utility>
@@ -56,6 +57,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     auto plan = CommandSchedule::create(rack, texts);
     EXPECT_TRUE(plan);
     FlagAt flag(rack.kernel(), flag_at);
+    test::RackWatch watch(rack);
     JobSettings settings;
     settings.program = program;
     settings.program_name = "test";
@@ -66,6 +68,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     settings.on_slice = [&] {
         if (rack.kernel().now() >= ctrl_c) (*plan)->ask_stop();
         if (slice) slice(rack);
+        watch.look();
     };
     Job job(rack, settings);
     test::PulseReferee referee(rack);

@@ -6,6 +6,7 @@
 #include <motionrack/rack/recorded_job.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 #include <motionrack/rack/test/servo_helpers.hpp>
+#include <tests/invariants/watch.hpp>
 
 namespace motionrack::rack {
 namespace {
@@ -36,7 +37,8 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
     request.commands = *read_commands(orders);
     auto job = RecordedJob::create(request, {});
     EXPECT_TRUE(job) << job.error().message;
-    return {(*job)->run(nullptr, {}), request.config};
+    test::RackWatch watch((*job)->rack());
+    return {(*job)->run(nullptr, [&](const JobProgress&) { watch.look(); }), request.config};
 }
 
 void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {

@@ -10,7 +10,9 @@
 #include <motionrack/frontends/server/served_rack.hpp>
 #include <motionrack/rack/config.hpp>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <tests/invariants/watch.hpp>
 #include <thread>
 #include <vector>
 
@@ -48,6 +50,7 @@ class Running {
         auto opened = ServedRack::open(*reading.config, std::move(settings));
         if (!opened) throw std::runtime_error(opened.error().text());
         served = std::move(*opened);
+        watch.emplace(served->machine());
         thread = std::thread([this] { served->run(); });
     }
     ~Running() {
@@ -99,6 +102,7 @@ class Running {
     }
 
     std::unique_ptr<ServedRack> served;
+    std::optional<test::MachineWatch> watch;  ///< the laws of every run
     std::thread thread;
     std::mutex lock;
     std::chrono::hours later{0};

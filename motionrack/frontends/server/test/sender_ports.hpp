@@ -17,7 +17,9 @@
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/rack/config.hpp>
 #include <mutex>
+#include <optional>
 #include <string>
+#include <tests/invariants/watch.hpp>
 #include <thread>
 #include <utility>
 
@@ -90,6 +92,7 @@ class SenderPorts : public testing::Test {
             "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
             "\"y\"\n";
         machine_ = *operate::Machine::make(*rack::read_rack_text(axes).config, {});
+        watch_.emplace(*machine_);
         settings_.port = 0;
         settings_.link = (folder_ / "grbl").string();
         settings_.on_setting = [this](const std::string& sender, const std::string& text) {
@@ -129,6 +132,7 @@ class SenderPorts : public testing::Test {
     GrblPortSettings settings_;
     auth::ControlLease lease_;
     std::unique_ptr<operate::Machine> machine_;
+    std::optional<test::MachineWatch> watch_;  ///< the laws of every run
     std::unique_ptr<GrblPorts> ports_;
     std::thread thread_;
     std::mutex told_mutex_;
