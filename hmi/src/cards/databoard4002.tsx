@@ -3,16 +3,17 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
 import uPlot from 'uplot';
-import { notice, commandFor } from '../link/commands';
+import { notice, commandFor, query, sentence } from '../link/commands';
 import type { CardInfo, CommandInfo } from '../link/rack';
 import { fixed, typed, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Button, Empty, Field, Panel } from '../parts/ui';
 import { Chart, Legend } from '../scope/chart';
 import { Console, mayAccess } from './console';
-import { ask, give, type Bus, type Exchanged } from './handshake';
+import { ask, choose, give, type Bus, type Exchanged, type Shown } from './handshake';
 import { LiveCard } from './live_card';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
+import { analogOutputs } from './words';
 
 interface SlopesAnswer {
   /** Velocity in Hz over counts. */
@@ -66,15 +67,28 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
 /** Longer arguments are tables, for programs. */
 const MAX_BYTES = 4;
 
+/** Asks the card who is selected; null if rejected, with the sentence on the screen. */
+async function shownBy(card: CardInfo): Promise<Shown | null> {
+  try {
+    const answer = await query<CardAnswer>('card', { name: card.name });
+    const select = valueOf(answer, 'SELECT');
+    if (select === null) notice('refused', `${card.name} does not tell its number (SELECT). Nothing was sent.`);
+    return { csb: answer.pins.csb, select };
+  } catch (why) {
+    notice('refused', sentence(why));
+    return null;
+  }
+}
+
 /** Ports by name; DATA is written as OUT and read as INP. */
-function busOf(card: CardInfo, answer: CardAnswer | null): Bus {
+function busOf(card: CardInfo): Bus {
   const port = (name: string): number =>
     card.bus.base +
     (card.registers.find((one) => one.name === name || (name === 'DATA' && one.name === 'OUT'))?.offset ?? 0);
   const write = async (name: string, value: number): Promise<boolean> =>
     (await commandFor('write_register', { card: card.name, bits: 8, address: port(name), value })) !== null;
   return {
-    choose: async () => answer?.pins.csb === 1 || (await write('CS', valueOf(answer, 'SELECT') ?? 0)),
+    choose: () => choose(() => shownBy(card), write),
     read: async (name) =>
       ((await commandFor('read_register', { card: card.name, bits: 8, address: port(name) }))?.value as
         number | undefined) ?? null,
@@ -138,9 +152,9 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
 }
 
 /** One row per command. */
-function Commands({ card, answer }: { card: CardInfo; answer: CardAnswer | null }): JSX.Element {
+function Commands({ card }: { card: CardInfo }): JSX.Element {
   const why = mayAccess(card);
-  const bus = busOf(card, answer);
+  const bus = busOf(card);
   return (
     <Panel title="Commands" class="wide">
       <div class="scroll" tabIndex={0} role="region" aria-label="Commands of the card">
@@ -185,7 +199,7 @@ function LiveDataboard({ card, place }: { card: CardInfo; place: string }): JSX.
 }
 
 function VirtualDataboard({ card }: { card: CardInfo }): JSX.Element {
-  const { data } = usePoll<CardAnswer>('card', { name: card.name }, 200);
+  const { data, why } = usePoll<CardAnswer>('card', { name: card.name }, 200);
   const shown = card.registers.filter((one) => ['STAT', 'EVENT'].includes(one.name));
   return (
     <>
@@ -194,11 +208,12 @@ function VirtualDataboard({ card }: { card: CardInfo }): JSX.Element {
           <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
         ))}
         <p class="tabular">
-          Rate {whole(valueOf(data.value, 'RATE'))}, {fixed(data.value?.pins.vout, 4)} V behind the relay
+          Rate {whole(valueOf(data.value, 'RATE'))}, {analogOutputs(data.value?.pins)}
         </p>
+        {why.value !== '' && <p class="hint">{why.value}</p>}
         <Quantities card={card} />
       </Panel>
-      <Commands card={card} answer={data.value} />
+      <Commands card={card} />
       <Panel title="Ports" class="ports">
         <Console card={card} />
       </Panel>

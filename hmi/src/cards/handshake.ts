@@ -14,23 +14,48 @@ export interface Bus {
   rest(): Promise<void>;
 }
 
+/** The card as it answers now. */
+export interface Shown {
+  /** 1 while the host addresses the card. */
+  csb: number | undefined;
+  /** Number under which it is addressed. */
+  select: number | null;
+}
+
+/** Selects the card unless it is selected. `look` asks the card itself, since an earlier answer may be outdated. */
+export async function choose(
+  look: () => Promise<Shown | null>,
+  write: (port: string, byte: number) => Promise<boolean>,
+): Promise<boolean> {
+  const shown = await look();
+  if (shown === null || shown.select === null) return false;
+  return shown.csb === 1 || (await write('CS', shown.select));
+}
+
 export type Exchanged = { value: number | null } | { why: string };
 
 const READY = 0x80;
+/** STAT where no card answers; the function library takes it so too. */
+const NO_CARD = 0xff;
 const LOOKS = 40;
 const refused: Exchanged = { why: '' };
 const late = (sent: string): Exchanged => ({
   why: `The card was not ready after ${LOOKS} reads of STAT. ${sent} Check whether its program hangs, or reset it.`,
 });
+const absent = (sent: string): Exchanged => ({
+  why: `No card answers (STAT reads FFh). ${sent} Check the card's number and its supply.`,
+});
 
-async function ready(bus: Bus): Promise<boolean | null> {
+/** Waits for Ready. Returns null when the next byte may follow. `sent` says how far the command came. */
+async function waitReady(bus: Bus, sent: string): Promise<Exchanged | null> {
   for (let look = 0; look < LOOKS; ++look) {
     const status = await bus.read('STAT');
-    if (status === null) return null;
-    if ((status & READY) !== 0) return true;
+    if (status === null) return refused;
+    if (status === NO_CARD) return absent(sent);
+    if ((status & READY) !== 0) return null;
     await bus.rest();
   }
-  return false;
+  return late(sent);
 }
 
 /** Bytes of a number, least significant first; negative numbers as two's complement. */
@@ -46,9 +71,8 @@ export function numberOf(bytes: readonly number[]): number {
 
 async function begin(bus: Bus, command: CommandInfo): Promise<Exchanged | null> {
   if (!(await bus.choose())) return refused;
-  const state = await ready(bus);
-  if (state === null) return refused;
-  if (!state) return late('Nothing was sent.');
+  const wrong = await waitReady(bus, 'Nothing was sent.');
+  if (wrong !== null) return wrong;
   return (await bus.write('C2', command.code)) ? null : refused;
 }
 
@@ -58,9 +82,9 @@ export async function give(bus: Bus, command: CommandInfo, argument: number): Pr
   if (wrong !== null) return wrong;
   const bytes = bytesOf(argument, command.data_bytes);
   for (const [sent, byte] of bytes.entries()) {
-    const state = await ready(bus);
-    if (state === false) return late(`Of ${bytes.length} bytes of ${command.name} it has ${sent}.`);
-    if (state === null || !(await bus.write('DATA', byte))) return refused;
+    const stopped = await waitReady(bus, `Of ${bytes.length} bytes of ${command.name} it has ${sent}.`);
+    if (stopped !== null) return stopped;
+    if (!(await bus.write('DATA', byte))) return refused;
   }
   return { value: null };
 }
@@ -71,9 +95,10 @@ export async function ask(bus: Bus, command: CommandInfo): Promise<Exchanged> {
   if (wrong !== null) return wrong;
   const bytes: number[] = [];
   while (bytes.length < command.answer_bytes) {
-    const state = await ready(bus);
-    if (state === false) return late(`Of ${command.answer_bytes} bytes of ${command.name} ${bytes.length} were read.`);
-    const byte = state === null ? null : await bus.read('DATA');
+    const read = `Of ${command.answer_bytes} bytes of ${command.name} ${bytes.length} were read.`;
+    const stopped = await waitReady(bus, read);
+    if (stopped !== null) return stopped;
+    const byte = await bus.read('DATA');
     if (byte === null) return refused;
     bytes.push(byte);
   }

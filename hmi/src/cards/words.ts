@@ -1,5 +1,6 @@
 // Register words as fields and as typed text.
 import type { FieldInfo, RegisterInfo } from '../link/rack';
+import { fixed } from '../parts/numbers';
 
 export interface FieldValue {
   field: FieldInfo;
@@ -29,3 +30,7 @@ export function typedWord(text: string, bits: number): number | null {
   else if (/^(0x[0-9a-f]+|\d+)$/i.test(plain)) word = Number(plain);
   return word < 2 ** bits ? word : null;
 }
+
+/** Both analog outputs of a DataBoard 4002; EMS acts on the one behind the relay only. */
+export const analogOutputs = (pins: Record<string, number> | undefined): string =>
+  `${fixed(pins?.vout, 4)} V behind the relay, ${fixed(pins?.vdirect, 4)} V direct`;

@@ -1,6 +1,6 @@
 // The handshake of a DataBoard 4002, with a card that is busy after each byte.
 import { describe, expect, test } from 'vitest';
-import { ask, bytesOf, give, numberOf, type Bus } from '../../src/cards/handshake';
+import { ask, bytesOf, choose, give, numberOf, type Bus, type Shown } from '../../src/cards/handshake';
 import type { CommandInfo } from '../../src/link/rack';
 
 const command = (name: string, more: Partial<CommandInfo> = {}): CommandInfo => ({
@@ -92,5 +92,91 @@ describe('a command', () => {
       rest: () => Promise.resolve(),
     };
     expect(await give(bus, command('G'), 0)).toEqual({ why: '' });
+  });
+});
+
+describe('an empty bus', () => {
+  /** Answers FFh once `answered` bytes were written. */
+  const leaving = (answered: number): { bus: Bus; sent: string[] } => {
+    const sent: string[] = [];
+    const bus: Bus = {
+      choose: () => Promise.resolve(true),
+      read: (port) => Promise.resolve(sent.length < answered && port === 'STAT' ? 0x80 : 0xff),
+      write: (port, byte) => {
+        sent.push(`${port} ${byte}`);
+        return Promise.resolve(true);
+      },
+      rest: () => Promise.reject(new Error('It is not waited for.')),
+    };
+    return { bus, sent };
+  };
+
+  test('is not taken for a card that is ready: nothing is sent', async () => {
+    const { bus, sent } = leaving(0);
+    const why = 'No card answers (STAT reads FFh). Nothing was sent.';
+    expect(await give(bus, command('G'), 0)).toMatchObject({ why: expect.stringContaining(why) as string });
+    expect(await ask(bus, command('V', { answer_bytes: 1 }))).toMatchObject({
+      why: expect.stringContaining(why) as string,
+    });
+    expect(sent).toEqual([]);
+  });
+
+  test('in the middle of a command ends it with the bytes that were sent', async () => {
+    const { bus, sent } = leaving(2);
+    expect(await give(bus, command('P', { data_bytes: 3 }), 1)).toMatchObject({
+      why: expect.stringContaining('Of 3 bytes of P it has 1.') as string,
+    });
+    expect(sent).toEqual(['C2 80', 'DATA 1']);
+  });
+
+  test('gives no answer', async () => {
+    const { bus } = leaving(1);
+    expect(await ask(bus, command('P', { answer_bytes: 3 }))).toMatchObject({
+      why: expect.stringContaining('Of 3 bytes of P 0 were read.') as string,
+    });
+  });
+});
+
+describe('the card', () => {
+  const writes = (): { written: string[]; write: (port: string, byte: number) => Promise<boolean> } => {
+    const written: string[] = [];
+    return {
+      written,
+      write: (port, byte) => {
+        written.push(`${port} ${byte}`);
+        return Promise.resolve(true);
+      },
+    };
+  };
+  const shown = (csb: number, select: number | null): Promise<Shown> => Promise.resolve({ csb, select });
+
+  test('is selected by the number that it tells, unless it is selected', async () => {
+    const { written, write } = writes();
+    expect(await choose(() => shown(1, 13), write)).toBe(true);
+    expect(written).toEqual([]);
+    expect(await choose(() => shown(0, 13), write)).toBe(true);
+    expect(written).toEqual(['CS 13']);
+  });
+
+  test('is not selected before its number is known', async () => {
+    const { written, write } = writes();
+    expect(await choose(() => Promise.resolve(null), write)).toBe(false);
+    expect(await choose(() => shown(0, null), write)).toBe(false);
+    expect(written).toEqual([]);
+  });
+
+  test('is asked each time who is selected', async () => {
+    const { written, write } = writes();
+    const answers: (Shown | null)[] = [
+      { csb: 1, select: 13 },
+      { csb: 0, select: 13 },
+    ];
+    const look = (): Promise<Shown | null> => Promise.resolve(answers.shift() ?? null);
+    expect([await choose(look, write), await choose(look, write), await choose(look, write)]).toEqual([
+      true,
+      true,
+      false,
+    ]);
+    expect(written).toEqual(['CS 13']);
   });
 });

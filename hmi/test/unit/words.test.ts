@@ -1,7 +1,7 @@
 // Words of registers: their fields, and words as they are typed.
 import { expect, test } from 'vitest';
 import type { RegisterInfo } from '../../src/link/rack';
-import { fieldValues, typedWord } from '../../src/cards/words';
+import { analogOutputs, fieldValues, typedWord } from '../../src/cards/words';
 
 const register = (...fields: [name: string, low: number, bits: number][]): RegisterInfo => ({
   name: 'RR0',
@@ -56,4 +56,9 @@ test('a word that needs more bits than there are is refused', () => {
   expect(typedWord('FFFFFFFFh', 32)).toBe(0xffffffff);
   expect(typedWord('100000000h', 32)).toBeNull();
   expect(typedWord("'€'", 8)).toBeNull();
+});
+
+test('both analog outputs are shown, the one behind the relay and the direct one', () => {
+  expect(analogOutputs({ vout: 0, vdirect: -9.5 })).toBe('0.0000 V behind the relay, −9.5000 V direct');
+  expect(analogOutputs(undefined)).toBe('– V behind the relay, – V direct');
 });
