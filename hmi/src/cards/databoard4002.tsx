@@ -67,7 +67,7 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
 /** Longer arguments are tables, for programs. */
 const MAX_BYTES = 4;
 
-/** Asks the card who is selected; null if rejected, with the sentence on the screen. */
+/** Asks for the card's number and its CSB; null if rejected, with the sentence on the screen. */
 async function shownBy(card: CardInfo): Promise<Shown | null> {
   try {
     const answer = await query<CardAnswer>('card', { name: card.name });

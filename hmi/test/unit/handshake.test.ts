@@ -165,7 +165,7 @@ describe('the card', () => {
     expect(written).toEqual([]);
   });
 
-  test('is asked each time who is selected', async () => {
+  test('is asked each time for its CSB', async () => {
     const { written, write } = writes();
     const answers: (Shown | null)[] = [
       { csb: 1, select: 13 },
