@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -115,6 +116,24 @@ class Recordings(unittest.TestCase):
             self.assertIn("step", text)
             with self.assertRaises(Refused):
                 rack.waves(f"{folder}/a.txt")
+
+    @unittest.skipUnless(shutil.which("sigrok-cli") and shutil.which("vcd2fst"), "sigrok-cli or gtkwave is missing")
+    def test_waves_are_read_by_sigrok_and_vcd2fst(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            rack = moving()
+            with rack.waves(f"{folder}/a.vcd", "X.*"):
+                rack.advance(ms=100)
+            counted = subprocess.run(
+                ["sigrok-cli", "-I", "vcd", "-i", f"{folder}/a.vcd"]
+                + ["-P", "counter:data=X_step:data_edge=rising", "-A", "counter=edge_count"],
+                capture_output=True,
+                text=True,
+                check=True,
+            ).stdout.split()
+            self.assertEqual(int(counted[-1]), rack.peek("motion.x.LP"))
+            self.assertGreater(rack.peek("motion.x.LP"), 10)
+            subprocess.run(["vcd2fst", f"{folder}/a.vcd", f"{folder}/a.fst"], capture_output=True, check=True)
+            self.assertGreater(Path(f"{folder}/a.fst").stat().st_size, 0)
 
 
 class Pictures(unittest.TestCase):
