@@ -9,6 +9,7 @@
 namespace motionrack {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class FramesPage : public InFolder {};
@@ -40,6 +41,18 @@ TEST_F(FramesPage, WavesHaveStatesAndLinesOfEveryBit) {
     for (const char* signal : {"wire 1 ", "bus_clk", "bus_hold", "bus_read_n", "bus_addr0", "bus_data31", "real 64 ",
                                "c1_state", "bus_data", "\nr12 "})
         EXPECT_THAT(vcd, HasSubstr(signal));
+}
+
+TEST_F(FramesPage, PositionsBelowZeroAreNegativeInJsonAndInWaves) {
+    const std::string scale = "scale = { pitch_um = 4, interpolation = 4 }\n";
+    write("below_zero.toml",
+          "[card.dec]\ntype = \"grating_decoder\"\nscales = 2\n[card.c1]\ntype = \"grating_bus\"\nscales = 2\n"
+          "[stage.S0]\ncard = \"c1\"\ninput = 0\noutput = 0\nstart_mm = -0.0005\n" +
+              scale + "[stage.S1]\ncard = \"c1\"\ninput = 1\noutput = 1\nstart_mm = -32.9425\n" + scale);
+    const Ran ran = motionrack("frames below_zero.toml --duration 0.001 --json --vcd f.vcd");
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("\"counts\":[-1,-32943]"));
+    EXPECT_THAT(text_of(folder / "f.vcd"), AllOf(HasSubstr("\nr-1 "), HasSubstr("\nr-32943 ")));
 }
 
 TEST_F(FramesPage, WrongOptionsAndRacksAreRefused) {
