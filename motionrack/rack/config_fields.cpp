@@ -104,7 +104,8 @@ constexpr std::array<Field, 8> homing_table = {
     formerly("home_type",
              field<&RackHoming::type>(
                  "method", 1, 4, "",
-                 "1 stop at the switch, 2 then again slowly, 3 as 1, then to the index, 4 as 2, then to the index")),
+                 "1 stop at the switch, 2 then again slowly, 3 as 1, then to the index, 4 as 2, then to the index "
+                 "(unlike HomeType4, which ends at the switch)")),
     with_choices(formerly("direction", field<&RackHoming::direction>("search_direction", 0, 0, "",
                                                                      "direction of the search for the home switch")),
                  directions),
