@@ -25,6 +25,18 @@ class OldHosts : public InFolder {
         write(name, listing);
         return shell(command + " " + name);
     }
+    /// Runs the script `run` of an example, as where its packages are installed and its program is built; its messages
+    /// are in the file errors.
+    Ran by_script(const std::string& host, const std::string& program, const std::string& arguments) const {
+        const std::string built = "tree/build/release/examples/" + host;
+        shell("rm -rf tree && mkdir -p tree/cmake tree/examples " + built + " && cp -r examples/" + host +
+              " tree/examples && ln -s " + program + " " + built);
+        write("tree/cmake/setup.sh", R"(run_packages=(some) release_options=(-DRELEASE=ON)
+need_packages() { printf 'packages: %s\n' "$*" >&2; }
+build_in() { printf 'built: %s\n' "$*" >&2; }
+)");
+        return run_in(folder, "tree/examples/" + host + "/run " + arguments, "errors");
+    }
 };
 
 // ---- BASIC
@@ -33,6 +45,16 @@ TEST_F(OldHosts, ThePrintedBasicProgramPrintsTheExpectedOutput) {
     const Ran ran = run_in(host_examples / "basic_host", MOTIONRACK_BASIC_EXAMPLE " demo4002.bas 2 c1.esr 260 265");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(host_examples / "basic_host" / "expected.txt")) << run_again("basic_host", ran.out);
+}
+
+TEST_F(OldHosts, TheBasicScriptBuildsAndRunsThePrintedProgramOrTheGivenOne) {
+    const Ran ran = by_script("basic_host", MOTIONRACK_BASIC_EXAMPLE, "");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(host_examples / "basic_host" / "expected.txt"));
+    EXPECT_THAT(text_of(folder / "errors"), HasSubstr("built: build/release example_basic_host -DRELEASE=ON"));
+    const Ran given = by_script("basic_host", MOTIONRACK_BASIC_EXAMPLE, "demo4002.bas 1");
+    EXPECT_EQ(given.out, run_in(host_examples / "basic_host", MOTIONRACK_BASIC_EXAMPLE " demo4002.bas 1").out);
+    EXPECT_NE(given.out, ran.out);
 }
 
 TEST_F(OldHosts, TheBasicInterpreterNamesTheLineOfAMistake) {
@@ -95,6 +117,17 @@ TEST_F(OldHosts, ThePrintedZ80ProgramPrintsTheExpectedOutput) {
     const Ran ran = run_in(host_examples / "z80_host", MOTIONRACK_Z80_EXAMPLE " run demo4002.asm 1 c1.esr 20 25");
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(host_examples / "z80_host" / "expected.txt")) << run_again("z80_host", ran.out);
+}
+
+TEST_F(OldHosts, TheZ80ScriptBuildsAndRunsThePrintedProgramOrTheGivenOne) {
+    const Ran ran = by_script("z80_host", MOTIONRACK_Z80_EXAMPLE, "");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(host_examples / "z80_host" / "expected.txt"));
+    EXPECT_THAT(text_of(folder / "errors"),
+                HasSubstr("libz80ex-dev\nbuilt: build/release example_z80_host -DRELEASE=ON"));
+    const Ran given = by_script("z80_host", MOTIONRACK_Z80_EXAMPLE, "demo4002.asm 1");
+    EXPECT_EQ(given.out, run_in(host_examples / "z80_host", MOTIONRACK_Z80_EXAMPLE " run demo4002.asm 1").out);
+    EXPECT_NE(given.out, ran.out);
 }
 
 TEST_F(OldHosts, AnotherAssemblerMakesTheSameBytesOfTheZ80Program) {
