@@ -31,11 +31,7 @@ export function LiveCard(props: {
         At <code>{props.place}</code>. Its motors are real: provide a hard-wired emergency stop. Its limit switches and
         inputs act in the card only and do not stop the machine of the rack.
       </p>
-      {seen === null || none !== '' ? (
-        <Empty>{none !== '' ? none : 'Reading the card.'}</Empty>
-      ) : (
-        props.children(seen)
-      )}
+      {seen === null || none !== '' ? <Empty>{none !== '' ? none : 'Reading the card.'}</Empty> : props.children(seen)}
     </Panel>
   );
 }
