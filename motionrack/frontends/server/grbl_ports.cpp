@@ -169,24 +169,25 @@ class GrblPorts::Inside {
     /// No input takes effect before the client is known to be a sender.
     void heard(Visitor& visitor, std::string bytes) {
         using Verdict = grbl::Introduction::Verdict;
-        if (!visitor.is_sender) {
+        const bool known = visitor.is_sender;
+        if (!known) {
             const Verdict verdict = visitor.introduction.hear(bytes);
             if (verdict == Verdict::stranger) return turn_away(visitor);
             if (verdict == Verdict::open) return visitor.line->read_on();
             visitor.is_sender = true;
             bytes = visitor.introduction.take_bytes();
         }
-        if (writer_ != &visitor && is_slot_free()) let_write(visitor);
+        if (is_held_in_silence() || (writer_ == nullptr && !known)) let_write(visitor);
         if (writer_ != &visitor)
             visitor.ignore(bytes);
         else if (std::string rest = visitor.take_rest_of_line(bytes); !rest.empty())
             tcp_port_->hear(std::move(rest), false, visitor.address, [] {});
         tcp_port_->hear(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
     }
-    /// True without a writer, and while the writer is a connection that has not said anything for too long.
-    bool is_slot_free() const {
-        return writer_ == nullptr ||
-               (!writer_->is_sender && std::chrono::steady_clock::now() - writer_->since >= settings_.silence);
+    /// True while the writer is a connection that has not spoken as a sender for too long.
+    bool is_held_in_silence() const {
+        return writer_ != nullptr && !writer_->is_sender &&
+               std::chrono::steady_clock::now() - writer_->since >= settings_.silence;
     }
     void turn_away(Visitor& visitor) {
         if (settings_.on_unknown_sender && unknown_senders_.take("", std::chrono::steady_clock::now()))
@@ -208,10 +209,11 @@ class GrblPorts::Inside {
                 ? "[MSG:Another sender has control. This one is an observer: only ? ! and resets are accepted]\r\n"
                 : "[MSG:Another sender has control. This one is an observer: only ? and ! are accepted]\r\n")});
     }
-    /// The sender that has waited longest writes next.
+    /// The place of a connection that was not a sender is taken by the sender that has waited longest. That of a sender
+    /// stays free: it may come back.
     void gone(Visitor* visitor) {
-        const bool wrote = visitor == writer_;
-        if (wrote) {
+        const bool gives_way = visitor == writer_ && !visitor->is_sender;
+        if (visitor == writer_) {
             writer_ = nullptr;
             name_tcp_sender("");
             tcp_port_->left();
@@ -219,7 +221,7 @@ class GrblPorts::Inside {
         std::erase_if(visitors_, [&](const auto& one) { return one.get() == visitor; });
         const auto next =
             std::find_if(visitors_.begin(), visitors_.end(), [](const auto& one) { return one->is_sender; });
-        if (wrote && next != visitors_.end()) let_write(**next);
+        if (gives_way && next != visitors_.end()) let_write(**next);
     }
     void broadcast(const PortMessage& said) {
         for (const auto& visitor : std::vector<std::shared_ptr<Visitor>>(visitors_))

@@ -4,11 +4,11 @@
 //   sender ──TCP──► 127.0.0.1:PORT ──grbl::Introduction─┐
 //   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::Session ─► operate::Machine
 //
-// One sender writes to the TCP port; the others observe, but their ? and ! are executed. When it goes, the one that has
-// waited longest writes, and is greeted as after a reset. Each port is a separate Grbl
-// on the same machine; the control lease decides which may move it. The port has neither pairing nor encryption and
-// therefore serves programs on this computer only. A connection whose first bytes are not those of a sender is ignored.
-// The pseudo-terminal is accessible to its owner only.
+// One sender writes to the TCP port; the others observe, but their ? and ! are executed. A connection that took the
+// writer's place and never spoke as a sender loses it to the sender that has waited longest, which is greeted as after
+// a reset. Each port is a separate Grbl on the same machine; the control lease decides which may move it. The port has
+// neither pairing nor encryption and therefore serves programs on this computer only. A connection whose first bytes
+// are not those of a sender is ignored. The pseudo-terminal is accessible to its owner only.
 #pragma once
 
 #include <chrono>

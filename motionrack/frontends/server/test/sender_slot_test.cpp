@@ -1,9 +1,10 @@
-// The one client of the TCP port that may write: who gets its slot when the writer goes or says nothing.
+// The one client of the TCP port that may write: its slot when the writer goes or says nothing.
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "sender_ports.hpp"
 
@@ -69,6 +70,22 @@ TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
     sender.say("0 Y30\n");
     EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
     EXPECT_THAT(sender.until("Idle|MPos:1.000"), HasSubstr("MPos:1.000,0.000"));
+}
+
+TEST_F(SenderPorts, KeepThePlaceOfASenderThatComesBackFreeOfObservers) {
+    start();
+    auto sender = std::make_unique<Client>(tcp());
+    sender->hear(banner);
+    EXPECT_THAT(sender->ask("?", ">\r\n"), StartsWith("<Idle|"));
+    Client observer = tcp();
+    observer.hear("]\r\n");
+    EXPECT_THAT(observer.ask("?", ">\r\n"), StartsWith("<Idle|"));
+    sender.reset();
+    while (ports_->sender() != "none") std::this_thread::yield();
+    EXPECT_THAT(observer.ask("?", ">\r\n"), StartsWith("<Idle|"));
+    EXPECT_EQ(ports_->sender(), "none");
+    Client back = tcp();
+    EXPECT_EQ(back.hear(banner), banner);
 }
 
 }  // namespace
