@@ -9,11 +9,12 @@ namespace {
 
 constexpr int stop_writes = 2;
 
+// A terminate handler finds nothing but what is global.
+// NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 std::mutex listed_cards_lock;
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a terminate handler finds nothing else
 LastStop* listed_cards = nullptr;
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::terminate_handler after_last_stop = nullptr;
+// NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 void stop_listed(FunctionLibrary& library) {
     try {
