@@ -91,6 +91,21 @@ class Mcx314(unittest.TestCase):
 
 
 class DataBoard(unittest.TestCase):
+    def test_the_trim_table_of_a_card_gives_its_voltage(self) -> None:
+        rack = Rack.from_text('[card.c1]\ntype = "databoard4002"\ntrim = "0.5 15000, 10 16383"\n')
+        board = rack.cards["c1"].driver
+        board.connect()
+        for rate, volts in ((15000, 0.5), (16383, 10.0)):
+            board.set_rate(rate)
+            board.set_number(1_000_000)
+            board.go()
+            rack.advance(ms=1)
+            self.assertEqual(rack.wires["c1.vout"], volts)
+            self.assertEqual(rack.wires["c1.vdirect"], volts)
+            board.quit()
+        with self.assertRaisesRegex(motionrack.InvalidInput, "Row 2 of the trim table"):
+            Rack.from_text('[card.c1]\ntype = "databoard4002"\ntrim = "0.5 15000, 0.4 16383"\n')
+
     def test_a_move_follows_its_table(self) -> None:
         rack = Rack.from_text('card.c1 = "databoard4002"')
         board: motionrack.Databoard4002 = rack.cards["c1"].open(counts_per_mm=100)

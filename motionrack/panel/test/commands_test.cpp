@@ -206,6 +206,31 @@ TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     EXPECT_FALSE(a.machine->status().axes[0].position_valid);
 }
 
+TEST(CardsByHand, AnIoflex02IsCalibratedWhileItsAxisMoves) {
+    Asked a(
+        config_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
+                  "[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n"
+                  "[wires]\n\"glass.a0\" = \"X.enc_a\"\n\"glass.b0\" = \"X.enc_b\"\n"));
+    const auto position = [&] { return a.machine->rack().card("glass")->inspect("0.POSITION").value_or(-1); };
+    // CMD: cRes for axis 0; the others keep what they wait for.
+    const json zeroed = {{"card", "glass"}, {"bits", 16}, {"address", 0x2312}, {"value", 0x0E01}};
+    std::int64_t before = 0, after = 0, later = 0;
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.5, "mdi", {{"text", "G1 X30 F600"}});
+    a.at(1.5, [&] { before = position(); });
+    a.good(1.6, "write_register", zeroed);
+    a.at(1.7, [&] { after = position(); });
+    a.at(2.2, [&] { later = position(); });
+    a.run(5);
+    // 10 mm/s of 800 counts a millimetre.
+    EXPECT_GT(before, 4'000);
+    EXPECT_GT(after, 0);
+    EXPECT_LT(after, 1'700) << "it counts from 0 again";
+    EXPECT_NEAR(static_cast<double>(later - after), 4'000, 400) << "and the motion goes on";
+    EXPECT_NEAR(a.x(), 30, 1e-6);
+}
+
 TEST(CardsByHand, HaveWiresAndFaults) {
     Asked a(two_axes());
     a.good(0.1, "take_control");

@@ -117,6 +117,20 @@ TEST(Mcx314libArcs, OfAnyTwoAxesGoTheirWayRound) {
     }
 }
 
+TEST(Mcx314libArcs, BeginWhereTheAxesStandWhateverNumbersThatPlaceHas) {
+    const Open chip;
+    set_up();
+    LPS(x, 5'000);
+    LPS(y, static_cast<unsigned>(-300));
+    for (int n = 1; n <= 2; ++n) {
+        CIRCLEDATA arc = quarter(true);
+        CircleCW_C(&arc, x + y);
+        EXPECT_EQ(mcx314_wait(all, 10'000), 0) << mcx314_last_error();
+        EXPECT_EQ(place_of(x), 5'000 + 1'000 * n);
+        EXPECT_EQ(place_of(y), -300 + 1'000 * n);
+    }
+}
+
 TEST(Mcx314libArcs, WithATCurveDecelerateAtThePointOfManualDec) {
     const Open chip;
     set_up();
