@@ -12,10 +12,10 @@
 #include <motionrack/journal/test/bad_disk.hpp>
 #include <motionrack/operate/journal_writer.hpp>
 #include <motionrack/operate/machine.hpp>
-#include <motionrack/rack/template.hpp>
 #include <tests/invariants/watch.hpp>
 #include <tests/swarm/life.hpp>
 #include <tests/swarm/order.hpp>
+#include <tests/swarm/racks.hpp>
 #include <utility>
 #include <vector>
 
@@ -41,24 +41,6 @@ constexpr std::size_t events_kept = 12;
 constexpr double stepper_tolerance = 0.05, servo_tolerance = 0.35;
 /// Steps lost this shortly before the end are not detected.
 constexpr Duration found_within = milliseconds(100);
-
-rack::RackConfig draw_rack(Draws& draws, std::string& what) {
-    const int kind = draws.pick(5);
-    const char* name = std::array{"two axes", "single", "router", "router", "carriage"}[static_cast<std::size_t>(kind)];
-    const char* profile = draws.one_in(2) ? "trapezoid" : "jerk_limited";
-    rack::RackConfig out;
-    if (kind == 0) {
-        out = *rack::read_rack_text(
-                   "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
-                   "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n")
-                   .config;
-    } else {
-        out = *rack::read_rack_text(*rack::rack_template(name)).config;
-    }
-    if (!out.point_to_point()) out.controller.profile = profile;
-    what += fmt::format("{}, {}", name, profile);
-    return out;
-}
 
 class Lives {
   public:
@@ -114,7 +96,7 @@ class Lives {
         look_for_taken();
         operate::MachineSettings settings;
         settings.standing = standing();
-        settings.pace = [this](Instant now) { return pace(now), true; };
+        settings.pace = [this](Instant now) { return pace(now), !stands(); };
         settings.on_status = [this](const Status& status) { see(status); };
         auto made = Machine::make(config_, std::move(settings));
         if (!made) return found({Rule::usable_again, {}, made.error().message});
@@ -131,7 +113,7 @@ class Lives {
         is_last_ = last;
         phase_ = 0;
         disturbed_.reset();
-        finished_ = forbidden_ = false;
+        finished_ = forbidden_ = stood_ = false;
         machine_->run();
         end();
     }
@@ -214,6 +196,13 @@ class Lives {
         for (const operate::AxisStatus& axis : status.axes) hash(static_cast<std::uint64_t>(axis.pulses));
     }
 
+    /// A paused clock: the same instant comes once more, with a status and possibly with commands. While a stop is in
+    /// force the clock runs, because the laws count statuses until it is heeded.
+    bool stands() {
+        const bool may = machine_ && !stood_ && !finished_ && !machine_->rack().stop_latch().latched();
+        return stood_ = may && draws_.one_in(20);
+    }
+
     void pace(Instant now) {
         if (!machine_) return;
         if (out_.finding) return finish();
@@ -223,6 +212,7 @@ class Lives {
                 break_something();
             else
                 order(draw_order(draws_));
+            if (draws_.one_in(8)) continue;  // another one in the same slice
             next_ += from_seconds(draws_.one_in(3) ? draws_.number(0.1, 0.5) : draws_.number(0, 0.05));
         }
         if (now < ends_) return;
@@ -374,6 +364,7 @@ class Lives {
     std::optional<Instant> disturbed_;  ///< time of the last fault
     int phase_ = 0;                     ///< state of use_again()
     bool forbidden_ = false, finished_ = false;
+    bool stood_ = false;  ///< the clock stood in the last slice
 };
 
 }  // namespace

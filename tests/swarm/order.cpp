@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 #include <tests/random_program.hpp>
 #include <tests/swarm/order.hpp>
 
@@ -63,8 +65,29 @@ operate::StopOrigin somebody(Draws& draws, const char* kind) {
     return {std::array{"anna", "bert", ""}[draws.pick(3)], fmt::format("10.0.0.{}", 1 + draws.pick(3)), kind};
 }
 
+// ---- clients: pages with a session each, whose jogs are numbered
+
+std::string some_session(Draws& draws) {
+    return fmt::format("w{}", 1 + draws.pick(3));
+}
+/// Half of the jogs come from a page. Some of these overtake each other, and some renew a jog that has ended.
+operate::JogOrigin some_origin(Machine& machine, Draws& draws) {
+    if (draws.one_in(2)) return {};
+    std::string session = some_session(draws);
+    const std::int64_t sequence = machine.status().sequence + 3 - draws.pick(3);
+    return {std::move(session), sequence, draws.one_in(3)};
+}
+Result<void> end_session(Machine& machine, Draws& draws) {
+    const std::string session = some_session(draws);
+    machine.jogs().end_of(session);
+    machine.service().end_of(session);
+    return {};
+}
+
 Result<void> jog(Machine& machine, Draws& draws) {
-    return machine.jog(some_letter(machine, draws), draws.one_in(5) ? 0 : some_speed(draws));
+    const char letter = some_letter(machine, draws);
+    const double speed = draws.one_in(5) ? 0 : some_speed(draws);
+    return machine.jog(letter, speed, some_origin(machine, draws));
 }
 Result<void> jog_by(Machine& machine, Draws& draws) {
     const char letter = some_letter(machine, draws);
@@ -142,8 +165,41 @@ const std::string& some_card(Machine& machine, Draws& draws) {
 }
 Result<void> service(Machine& machine, Draws& draws) {
     if (draws.one_in(3)) return machine.service().end([](const Result<std::string>&) {});
-    return machine.service().begin(some_card(machine, draws), somebody(draws, "Service"), "swarm",
+    const std::string& card = some_card(machine, draws);
+    const operate::StopOrigin who = somebody(draws, "Service");
+    return machine.service().begin(card, who, draws.one_in(3) ? some_session(draws) : "swarm",
                                    [](const Result<std::string>&) {});
+}
+/// Reads a register of a card, or writes the general outputs of an MCX314: its axes lose their positions and do not
+/// move.
+Result<void> access(Machine& machine, Draws& draws) {
+    constexpr std::uint32_t registers = 8, wr4 = 8;
+    operate::ManualAccess::BusAccess made;
+    made.card = some_card(machine, draws);
+    made.address = 2 * static_cast<std::uint32_t>(draws.pick(registers));
+    if (draws.one_in(2)) {
+        made.address = wr4;
+        made.value = static_cast<std::uint32_t>(draws.raw() & 0xFFFF);
+    }
+    return machine.manual_access().request(made, [](const Result<std::uint32_t>&) {});
+}
+
+// ---- a belt and a laser, of racks that have them
+
+Result<void> start_part(Machine& machine, Draws&) {
+    MOTIONRACK_CHECK(machine.may_begin("Nothing was started"));
+    return rack::start_part(machine.rack(), "line");
+}
+Result<void> mark(Machine& machine, Draws& draws) {
+    MOTIONRACK_CHECK(machine.may_begin("Nothing was marked"));
+    auto* const card = rack::rtc5_card_of(machine.rack(), "scan");
+    if (card == nullptr) return fail(ErrorKind::refused, "The rack has no laser.");
+    rtc5::Engine& laser = card->engine();
+    const double to = 1'000.0 * (1 + draws.pick(200));
+    const bool begun = laser.set_start_list(1) && laser.put(*rtc5::list_command(rtc5::Op::set_mark_speed, {25})) &&
+                       laser.put(*rtc5::list_command(rtc5::Op::mark_abs, {to, 0})) &&
+                       laser.put(*rtc5::list_command(rtc5::Op::set_end_of_list, {})) && laser.execute_list(1);
+    return begun ? Result<void>() : fail(ErrorKind::refused, "The laser is at work.");
 }
 
 /// Mostly the initial values of a form, so that axes move; some anywhere in their range or beyond.
@@ -191,11 +247,22 @@ constexpr std::array orders = {DrawnOrder{"begin_program", 14, Order::motion, be
                                DrawnOrder{"set_coolant", 1, {}, coolant},
                                DrawnOrder{"acknowledge_alarm", 3, {}, acknowledge},
                                DrawnOrder{"touch_off", 2, {}, touch_off},
+                               DrawnOrder{"end_session", 4, {}, end_session},
+                               DrawnOrder{"access_register", 4, {}, access},
+                               DrawnOrder{"start_part", 4, Order::part, start_part},
+                               DrawnOrder{"mark", 4, {}, mark},
                                DrawnOrder{"service", 6, Order::motion, service},
                                DrawnOrder{"call", 14, Order::motion, call}};
 
 constexpr double released = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array ends = {"limit_plus", "limit_minus", "home"};
+constexpr std::array contacts = {"estop", "estop1", "estop2", "door"};
+
+/// A contact of the operator that the rack has.
+std::string some_contact(Machine& machine, Draws& draws) {
+    const std::string wire = contacts[static_cast<std::size_t>(draws.pick(4))];
+    return machine.wires().knows(wire) ? wire : "estop";
+}
 
 std::string wire_of(char letter, const char* end) {
     return fmt::format("{}.{}", letter, end);
@@ -221,8 +288,9 @@ const DrawnOrder& draw_order(Draws& draws) {
 DrawnFault draw_fault(Machine& machine, Draws& draws) {
     const char letter = some_letter(machine, draws);
     if (draws.one_in(3)) {
-        const bool emergency = draws.one_in(2);
-        const std::string wire = emergency ? "estop" : wire_of(letter, ends[static_cast<std::size_t>(draws.pick(3))]);
+        const bool contact = draws.one_in(2);
+        const std::string wire =
+            contact ? some_contact(machine, draws) : wire_of(letter, ends[static_cast<std::size_t>(draws.pick(3))]);
         const double value = draws.one_in(3) ? released : draws.pick(2);
         if (!machine.wires().knows(wire) || !machine.wires().force(wire, value)) return {};
         return {fmt::format("{}={}", wire, value)};
@@ -235,6 +303,7 @@ DrawnFault draw_fault(Machine& machine, Draws& draws) {
     // Without its encoder, a servo's position is uncertain up to its following error limit.
     const bool servo = machine.rack().axes().front().servo != nullptr;
     if (servo && fault.starts_with("encoder.")) return {};
+    if (fault.starts_with("drive.")) return {};  // the speed of a belt is an order to it
     const double value = draws.one_in(3) ? 0 : draws.one_in(2) ? 1 : draws.number(1, 200);
     const std::string text = fmt::format("{}={:.3g}", fault, value);
     if (!rack::inject_fault(machine.rack(), text, target.name)) return {};

@@ -1,4 +1,4 @@
-// Random commands of operators, senders and pages to a machine.
+// Random commands of operators, senders and pages to a machine, its belt and its laser, and accesses to its cards.
 #pragma once
 
 #include <motionrack/operate/machine.hpp>

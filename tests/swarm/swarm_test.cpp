@@ -28,7 +28,7 @@ class Swarm : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Part, Swarm, testing::Range<std::uint64_t>(0, parts));
 
 TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
-    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_MACHINES", 1'000);
+    const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_MACHINES", 2'000);
     const std::chrono::duration<double> time{static_cast<double>(from_environment("MOTIONRACK_SWARM_SECONDS", 0)) /
                                              parts_of_a_shard};
     const auto begun = std::chrono::steady_clock::now();
