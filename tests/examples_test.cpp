@@ -182,6 +182,47 @@ TEST(CommandLine, FaultsHappenAtTheirInstantAndEventsAreWritten) {
     EXPECT_NE(lost.out.find("ended before the fault X.home=release@99s"), std::string::npos) << lost.out;
 }
 
+/// The headline of a report: green, or red with exit code 4.
+TEST(CommandLine, ARunThatIsNotGoodEndsWithCode4AndARedHeadline) {
+    const auto page = std::filesystem::temp_directory_path() / "motionrack_headline_test.html";
+    const auto run_to_page = [&](const std::string& options) {
+        std::filesystem::remove(page);
+        return run(examples, std::string(MOTIONRACK_PROGRAM) +
+                                 " run 01_first_move/first_move.ngc -q --json --report '" + page.string() + "' " +
+                                 options);
+    };
+    const std::string good = "<p class=\"verdict good\">", wrong = "<p class=\"verdict wrong\">";
+    const Ran kept = run_to_page("");
+    EXPECT_EQ(kept.code, 0);
+    EXPECT_EQ(nlohmann::json::parse(kept.out)["ok"], true);
+    EXPECT_NE(text_of(page).find(good), std::string::npos);
+    for (const char* fault : {"X.motor.lose_steps=64@100ms", "X.limit_plus=0@0.25s"}) {
+        const Ran ran = run_to_page(std::string("--fault ") + fault);
+        EXPECT_EQ(ran.code, 4) << fault;
+        EXPECT_EQ(nlohmann::json::parse(ran.out)["ok"], false) << fault;
+        EXPECT_NE(text_of(page).find(wrong), std::string::npos) << fault;
+        EXPECT_EQ(text_of(page).find(good), std::string::npos) << fault;
+    }
+    std::filesystem::remove(page);
+}
+
+TEST(CommandLine, AStopDrivesNoFurtherLine) {
+    const auto folder = std::filesystem::temp_directory_path() / "motionrack_stop_test";
+    std::filesystem::create_directories(folder);
+    const Ran stopped = run(folder, "printf 'G21 G90 F600\nG1 X100\nG1 Y50\nM2\n' | " MOTIONRACK_PROGRAM
+                                    " run - --no-report --json --at stop@1s");
+    EXPECT_EQ(stopped.code, 130);
+    const nlohmann::json json = nlohmann::json::parse(stopped.out);
+    EXPECT_EQ(json["ok"], false);
+    EXPECT_EQ(json["error"]["line"], 2);
+    EXPECT_LT(json["duration_s"].get<double>(), 1.2);
+    for (const nlohmann::json& axis : json["axes"]) {
+        const auto pulses = axis["pulses_sent"].get<std::int64_t>();
+        EXPECT_EQ(pulses > 0, axis["axis"] == "X") << "Y is that of line 3: " << axis;
+    }
+    std::filesystem::remove_all(folder);
+}
+
 TEST(CommandLine, FaultsThatCannotHappenAreRefusedBeforeAnythingMoves) {
     struct Case {
         const char* option;
