@@ -95,8 +95,8 @@ class Asked {
 
     /// Its clock stands still, so that control does not expire on a busy computer.
     auth::ControlLease lease{[] { return auth::Moment{}; }};
+    std::optional<test::MachineWatch> watch;  ///< the laws of every run, to the machine's last slice
     std::unique_ptr<operate::Machine> machine;
-    std::optional<test::MachineWatch> watch;  ///< the laws of every run
     std::unique_ptr<Panel> panel;
 
   private:

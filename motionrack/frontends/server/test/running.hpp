@@ -101,8 +101,8 @@ class Running {
         return path_;
     }
 
+    std::optional<test::MachineWatch> watch;  ///< the laws of every run, to the machine's last slice
     std::unique_ptr<ServedRack> served;
-    std::optional<test::MachineWatch> watch;  ///< the laws of every run
     std::thread thread;
     std::mutex lock;
     std::chrono::hours later{0};
