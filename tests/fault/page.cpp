@@ -23,7 +23,7 @@ std::string injected(const std::string& option) {
 
 std::string what_is_done(const Fault& fault) {
     std::string out = fault.does;
-    for (const std::string& option : fault.inject) out += " " + injected(option);
+    for (const std::string& option : fault.inject) out += fmt::format(" {}", injected(option));
     if (!fault.command.empty()) out += " `" + fault.command + "`";
     return out;
 }
