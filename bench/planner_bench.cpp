@@ -220,7 +220,7 @@ void look_ahead_with_full_passes(benchmark::State& state) {
     const auto moves = curve(20'000, 0.1);
     const PathLimits limits(machine());
     struct Node {
-        double joint, reach, cruise, entry;
+        double junction, reach, cruise, entry;
     };
     std::vector<Node> window;
     Geometry last;
@@ -232,18 +232,18 @@ void look_ahead_with_full_passes(benchmark::State& state) {
         const Move& move = moves[i];
         const Geometry path = geometry_of(move, at);
         const AlongPathLimits along = limits.along(path, move);
-        const double joint = window.empty()
-                                 ? 0
-                                 : limits.max_junction_velocity2(last, last_along.velocity, path, along.velocity,
-                                                                 move.path, move.tolerance_mm);
+        const double junction = window.empty()
+                                    ? 0
+                                    : limits.max_junction_velocity2(last, last_along.velocity, path, along.velocity,
+                                                                    move.path, move.tolerance_mm);
         if (window.size() == 1024) {
             committed = window[1].entry;
             window.erase(window.begin());
         }
-        window.push_back({joint, 2 * along.accel * path.length, along.velocity * along.velocity, 0});
+        window.push_back({junction, 2 * along.accel * path.length, along.velocity * along.velocity, 0});
         double entry = 0;
         for (std::size_t k = window.size(); k-- > 0;) {
-            entry = std::min(window[k].joint, entry + window[k].reach);
+            entry = std::min(window[k].junction, entry + window[k].reach);
             window[k].entry = entry;
         }
         entry = committed;

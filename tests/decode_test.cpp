@@ -66,11 +66,11 @@ TEST_F(Decode, AgreesWithSigrokAndReadsItsFiles) {
     write("move.ngc", "G21 G90\nG1 X0.2 Y0.1 F600\nG1 X0.05\nM2\n");
     ASSERT_EQ(motionrack("trace move.ngc move.vcd --timescale-ns 1000 --signals 'X.enc_?' --signals 'Y.enc_?' -q").code,
               0);
-    const Ran told = run(
+    const Ran reported = run(
         "sigrok-cli -I vcd -i move.vcd -P graycode:d0=X_enc_a:d1=X_enc_b -A graycode=count 2>/dev/null | tail -n 1");
-    const std::size_t colon = told.out.find(": ");
-    ASSERT_NE(colon, std::string::npos) << told.out;
-    const int counts = std::atoi(told.out.c_str() + colon + 2);
+    const std::size_t colon = reported.out.find(": ");
+    ASSERT_NE(colon, std::string::npos) << reported.out;
+    const int counts = std::atoi(reported.out.c_str() + colon + 2);
     const auto from_vcd = json_of("decode move.vcd --json");
     // sigrok reports each position when it is left: the last one reported is one step before the end.
     EXPECT_EQ(from_vcd["channels"][0]["counts"], 40);

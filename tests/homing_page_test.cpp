@@ -59,9 +59,9 @@ Result<void> jog(mcx314::Driver& card, const std::function<bool()>& pressed) {
 TEST(HomingPage, ItsProgramsRun) {
     mcx314::HomeRig rig({mcx314::RigAxis{}, mcx314::RigAxis{.start_mm = 55}});
     rig.start();
-    const Result<std::string> told = one_axis(rig.driver);
-    ASSERT_TRUE(told) << told.error().message;
-    EXPECT_NE(page().find("    " + *told + "\n"), std::string::npos) << *told;
+    const Result<std::string> reported = one_axis(rig.driver);
+    ASSERT_TRUE(reported) << reported.error().message;
+    EXPECT_NE(page().find("    " + *reported + "\n"), std::string::npos) << *reported;
     EXPECT_TRUE(two_axes(rig.driver, mcx314::rig_settings(2)));
     EXPECT_DOUBLE_EQ(rig.position(0), 1.0);
     EXPECT_DOUBLE_EQ(rig.position(1), 1.0);

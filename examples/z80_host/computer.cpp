@@ -38,7 +38,7 @@ bool Computer::run() {
         if (z80ex_doing_halt(cpu_.get()) != 0)
             throw Failure("The program has halted at " + std::to_string(z80ex_get_reg(cpu_.get(), regPC)) +
                           ". It was ended.");
-        if (states_ * t_state_ns > machine_.patience_ns()) machine_.pass_to(states_ * t_state_ns);
+        if (states_ * t_state_ns > machine_.max_ready_wait_ns()) machine_.pass_to(states_ * t_state_ns);
     }
     if (failure_) std::rethrow_exception(failure_);
     return !cancelled_;

@@ -95,9 +95,9 @@ void Machine::set_wire(double level) {
 }
 
 void Machine::pass_to(std::uint64_t ns) {
-    if (ns > patience_ns_)
+    if (ns > max_wait_ns_)
         throw Failure("The program has put nothing on its screen for 1000 s. It was ended after " +
-                      std::to_string(patience_ns_ / 1'000'000'000) + " s; check the card's STAT.");
+                      std::to_string(max_wait_ns_ / 1'000'000'000) + " s; check the card's STAT.");
     while (press_ && press_->from_ns <= ns) {
         if (press_->from_ns > now_ns()) must(mr_advance_ns(rack_, press_->from_ns - now_ns()));
         set_wire(press_->until_ns > press_->from_ns ? 1 : 0);

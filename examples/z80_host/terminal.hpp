@@ -58,16 +58,16 @@ class Machine {
     /// The card's counter.
     double counts() const;
     /// The program does something that its user sees.
-    void seen() { patience_ns_ = now_ns() + 1'000'000'000'000; }
+    void seen() { max_wait_ns_ = now_ns() + 1'000'000'000'000; }
     /// Instant at which pass_to() gives the program up.
-    std::uint64_t patience_ns() const { return patience_ns_; }
+    std::uint64_t max_ready_wait_ns() const { return max_wait_ns_; }
 
   private:
     void set_wire(double level);
 
     mr_rack* rack_ = nullptr;
     std::optional<Press> press_;
-    std::uint64_t patience_ns_ = 1'000'000'000'000;
+    std::uint64_t max_wait_ns_ = 1'000'000'000'000;
 };
 
 class Terminal {

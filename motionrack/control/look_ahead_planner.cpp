@@ -45,12 +45,12 @@ Result<void> LookAheadPlanner::push(const Move& move) {
 
     if (!std::exchange(apart_, false) && merge(move, path)) return {};
     const AlongPathLimits along = along_of(path, move);
-    double joint = 0;
+    double junction = 0;
     if (tail_ != ready_) {
-        joint = junction_velocity2(last_, path, along);
-        if (joint == 0) flush();
+        junction = junction_velocity2(last_, path, along);
+        if (junction == 0) flush();
     }
-    append(move, path, along, joint);
+    append(move, path, along, junction);
     if (tail_ - ready_ >= batch_) {
         backward();
         forward(std::max(ready_ + chunk_, settled_));
@@ -68,11 +68,11 @@ AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& mov
 /// Returns the square of the junction velocity.
 double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& path,
                                             const AlongPathLimits& along) const {
-    const double joint = limits_.max_junction_velocity2(before.path, before.along.velocity, path, along.velocity,
-                                                        before.control, before.tolerance_mm);
-    if (joint <= 0 || drive_ == nullptr) return joint;
+    const double junction = limits_.max_junction_velocity2(before.path, before.along.velocity, path, along.velocity,
+                                                           before.control, before.tolerance_mm);
+    if (junction <= 0 || drive_ == nullptr) return junction;
     const double velocity = drive_->max_junction_velocity(before.path, path);
-    return std::min(joint, velocity * velocity);
+    return std::min(junction, velocity * velocity);
 }
 
 /// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
@@ -93,10 +93,10 @@ LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geome
     return {std::max(1.0, ratio * ratio), cosine < min_cosine, 1};
 }
 
-LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double joint,
+LookAheadPlanner::Node LookAheadPlanner::node_of(const Geometry& path, const AlongPathLimits& along, double junction,
                                                  const Gain& gain) const {
     const double usable = path.length - (drive_ != nullptr ? drive_->constant_velocity_length(path) : 0);
-    return {joint, 2 * along.accel * usable, along.velocity * along.velocity, 0, gain, along.accel * late_seconds_};
+    return {junction, 2 * along.accel * usable, along.velocity * along.velocity, 0, gain, along.accel * late_seconds_};
 }
 
 /// Returns the velocity2 from which a move can decelerate to the square `exit`: v^2 + 2 lag v = exit + reach.
@@ -175,8 +175,8 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     if (move.path == PathControl::continuous) tolerance = std::max(tolerance, part_of_tolerance * move.tolerance_mm);
     if (line.shape != last_.path.shape || !is_on_the_way(line, tolerance)) return false;
     const AlongPathLimits along = along_of(line, whole);
-    const double joint = index == ready_ ? node(index).joint : junction_velocity2(before_last_, line, along);
-    if (index != ready_ && joint <= 0) return false;
+    const double junction = index == ready_ ? node(index).junction : junction_velocity2(before_last_, line, along);
+    if (index != ready_ && junction <= 0) return false;
     between_[between_size_++] = position_;
     last.move = whole;
     last.length = line.length;
@@ -185,7 +185,7 @@ bool LookAheadPlanner::merge(const Move& move, const Geometry& path) {
     ++last.moves;
     ++pushed_;
     const Gain gain = index == ready_ ? Gain{} : gain_of(before_last_, line);
-    node(index) = node_of(line, along, joint, gain);
+    node(index) = node_of(line, along, junction, gain);
     position_ = move.end;
     last_.path = line;
     last_.along = along;
@@ -204,7 +204,7 @@ void LookAheadPlanner::append_dwell(const Move& move) {
     ready_ = settled_ = ++tail_;
 }
 
-void LookAheadPlanner::append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint) {
+void LookAheadPlanner::append(const Move& move, const Geometry& path, const AlongPathLimits& along, double junction) {
     PlannedMove& planned = slot(tail_);
     planned.move = move;
     planned.start = position_;
@@ -214,7 +214,7 @@ void LookAheadPlanner::append(const Move& move, const Geometry& path, const Alon
     planned.accel = along.accel;
     planned.jerk = along.jerk;
     const Gain gain = tail_ == ready_ ? Gain{} : gain_of(last_, path);
-    node(tail_) = node_of(path, along, joint, gain);
+    node(tail_) = node_of(path, along, junction, gain);
     ++tail_;
     position_ = move.end;
     before_last_ = last_;
@@ -234,8 +234,8 @@ void LookAheadPlanner::backward() {
     for (std::uint64_t i = tail_; i > last_settled + 1;) {
         Node& here = node(--i);
         const double from = braked(here, entry) / here.gain.braking;
-        if (here.joint <= from && settled_ == last_settled) settled_ = i;
-        here.entry = std::min(here.joint, from);
+        if (here.junction <= from && settled_ == last_settled) settled_ = i;
+        here.entry = std::min(here.junction, from);
         entry = here.entry / here.gain.square;
     }
 }
@@ -293,8 +293,8 @@ void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& cha
         const AlongPathLimits along = along_of(path, planned.move);
         planned.accel = along.accel;
         planned.jerk = along.jerk;
-        const double joint = i != head_ && node(i).joint > 0 ? junction_velocity2(before, path, along) : 0;
-        node(i) = node_of(path, along, joint, node(i).gain);
+        const double junction = i != head_ && node(i).junction > 0 ? junction_velocity2(before, path, along) : 0;
+        node(i) = node_of(path, along, junction, node(i).gain);
         before_last_ = std::exchange(before, {path, along, planned.move.path, planned.move.tolerance_mm});
     }
     last_ = before;

@@ -72,10 +72,10 @@ class LookAheadPlanner final : public TrajectoryPlanner {
 
     /// Data of a move for the two passes, kept apart from the rest so that it stays in the cache.
     struct Node {
-        double joint;   ///< max_junction_velocity2 at the start
-        double reach;   ///< change of velocity2 over the move: 2 accel length
-        double cruise;  ///< highest velocity2 on the move
-        double entry;   ///< velocity2 at the start from which the end of the window can be reached
+        double junction;  ///< max_junction_velocity2 at the start
+        double reach;     ///< change of velocity2 over the move: 2 accel length
+        double cruise;    ///< highest velocity2 on the move
+        double entry;     ///< velocity2 at the start from which the end of the window can be reached
         Gain gain;
         double lag;  ///< velocity that deceleration could remove before a new one applies: accel late_seconds
     };
@@ -91,14 +91,14 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
     PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
     void append_dwell(const Move& move);
-    void append(const Move& move, const Geometry& path, const AlongPathLimits& along, double joint);
+    void append(const Move& move, const Geometry& path, const AlongPathLimits& along, double junction);
     bool merge(const Move& move, const Geometry& path);
     double min_length(const Geometry& path, const Move& move) const;
     bool is_on_the_way(const Geometry& line, double tolerance_mm) const;
     AlongPathLimits along_of(const Geometry& path, const Move& move) const;
     double junction_velocity2(const Last& before, const Geometry& path, const AlongPathLimits& along) const;
     Gain gain_of(const Last& before, const Geometry& path) const;
-    Node node_of(const Geometry& path, const AlongPathLimits& along, double joint, const Gain& gain) const;
+    Node node_of(const Geometry& path, const AlongPathLimits& along, double junction, const Gain& gain) const;
     static double braked(const Node& node, double exit);
     static double min_exit(const Node& node, double entry);
     void backward();

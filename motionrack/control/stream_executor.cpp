@@ -31,7 +31,7 @@ StreamExecutor::StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExe
       planner_(make_look_ahead_planner(axes, settings.gcode.limits, settings.accel_reserve, settings.planner,
                                        settings.gcode.start)),
       read_to_(settings.gcode.start) {
-    if (settings_.jerk_limited) ride_ = new_ride(settings.gcode.start);
+    if (settings_.jerk_limited) interpolator_ = make_interpolator(settings.gcode.start);
 }
 
 // ---- reading
@@ -114,7 +114,7 @@ void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
         pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / min_pulses);
     // Point-to-point axes would stop at the end of each slice.
-    if (!ride_ && !settings_.gcode.point_to_point)
+    if (!interpolator_ && !settings_.gcode.point_to_point)
         cut.pieces = static_cast<int>(
             std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / max_sweep), 1e9))));
     cutting_ = cut;
@@ -145,13 +145,13 @@ void StreamExecutor::hold() {
         return;
     }
     wish_ = Wish::hold;
-    stop_flag_ = !ride_ && !last_probe_.runs;
+    stop_flag_ = !interpolator_ && !last_probe_.runs;
 }
 
 void StreamExecutor::resume() {
     if (state_ != ExecutionState::feed_hold && state_ != ExecutionState::paused) return;
     state_ = ExecutionState::running;
-    if (ride_) ride_->generator().resume();
+    if (interpolator_) interpolator_->generator().resume();
 }
 
 void StreamExecutor::stop() {
@@ -161,7 +161,7 @@ void StreamExecutor::stop() {
         return;
     }
     wish_ = Wish::stop;
-    stop_flag_ = !ride_ || last_probe_.runs;
+    stop_flag_ = !interpolator_ || last_probe_.runs;
 }
 
 void StreamExecutor::set_overrides(double feed, double rapid) {
@@ -172,7 +172,7 @@ void StreamExecutor::set_overrides(double feed, double rapid) {
 // ---- execution
 
 Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
-    if (ride_) return drive_ride(more_may_come);
+    if (interpolator_) return drive_trajectory(more_may_come);
     const bool brakes = wish_ != Wish::none;
     if (brakes && !path_begun_) return stand();
     if (!brakes && (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)) return state_;
@@ -235,7 +235,7 @@ Result<ExecutionState> StreamExecutor::submit(const PlannedMove& planned) {
         block_began_ = never;
         blocks_.clear();
     }
-    if (ride_) {
+    if (interpolator_) {
         blocks_.push_back(planned.number);
     } else {
         blocks_.push_back(planned.moves);
@@ -258,10 +258,10 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     take_move_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
-    if (ride_) pop_driven(ride_->generator().first_pending_move());
+    if (interpolator_) pop_driven(interpolator_->generator().first_pending_move());
     while (handed_ > 0) pop();
     if (single_block_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
-    if (ride_ && wish_ == Wish::hold && !has_work()) ride_->generator().resume();
+    if (interpolator_ && wish_ == Wish::hold && !has_work()) interpolator_->generator().resume();
     return stand();
 }
 
@@ -284,7 +284,7 @@ Result<ExecutionState> StreamExecutor::stand() {
 }
 
 Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
-    const bool held = !ride_ && error.kind == ErrorKind::stopped && wish_ == Wish::hold;
+    const bool held = !interpolator_ && error.kind == ErrorKind::stopped && wish_ == Wish::hold;
     wish_ = Wish::none;
     stop_flag_ = false;
     path_begun_ = false;
@@ -345,8 +345,8 @@ void StreamExecutor::clear_offsets() {
 void StreamExecutor::new_planner(const Point& place) {
     planner_ =
         make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, place);
-    if (ride_) ride_ = new_ride(place);
-    ride_ends_ = true;
+    if (interpolator_) interpolator_ = make_interpolator(place);
+    trajectory_ends_ = true;
 }
 
 // ---- entries that the machine has passed

@@ -183,12 +183,12 @@ class StreamExecutor {
     void new_planner(const Point& place);
 
     // jerk-limited execution
-    Result<ExecutionState> drive_ride(bool more_may_come);
-    Result<void> fill_ride();
-    bool ride_may_wait(bool rest_follows) const;
+    Result<ExecutionState> drive_trajectory(bool more_may_come);
+    Result<void> fill_interpolator();
+    bool trajectory_may_wait(bool rest_follows) const;
     void pop_before_block(std::int64_t block);
     void pop_driven(std::int64_t first_pending_move);
-    TrajectoryInterpolator new_ride(const Point& place) const;
+    TrajectoryInterpolator make_interpolator(const Point& place) const;
 
     AxisGroup* axes_;
     Interrupt& host_;
@@ -196,12 +196,12 @@ class StreamExecutor {
     PathLimits limits_;
     gcode::Interpreter interpreter_;
     LookAheadPlanner planner_;
-    std::optional<TrajectoryInterpolator> ride_;  ///< if the jerk is limited; planner_ is unused then
-    /// Submitted moves from the executing one on: their numbers in the interpolator (ride_), or how many of entries_
+    std::optional<TrajectoryInterpolator> interpolator_;  ///< if the jerk is limited; planner_ is unused then
+    /// Submitted moves from the executing one on: their numbers in the interpolator_, or how many of entries_
     /// each covers.
     std::deque<std::int64_t> blocks_;
     std::int64_t first_block_ = 0;    ///< number of the first of blocks_, as the axes count
-    bool ride_ends_ = true;           ///< the interpolator was flushed
+    bool trajectory_ends_ = true;     ///< the interpolator was flushed
     Instant last_push_{};             ///< instant of the last push to the interpolator
     std::deque<QueueEntry> entries_;  ///< front: executing
     std::optional<Cutting> cutting_;

@@ -15,57 +15,57 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 }  // namespace
 
-TrajectoryInterpolator StreamExecutor::new_ride(const Point& place) const {
+TrajectoryInterpolator StreamExecutor::make_interpolator(const Point& place) const {
     InterpolatorSettings settings;
     settings.cut_dwells = true;
     return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
 }
 
-Result<ExecutionState> StreamExecutor::drive_ride(bool more_may_come) {
+Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
     if (wish_ != Wish::none) {
         if (!path_begun_) return stand();
-        ride_->generator().hold();
+        interpolator_->generator().hold();
     } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
         return state_;
     }
     pull_steps();
-    ride_->generator().set_overrides(feed_wanted_, rapid_wanted_);
-    if (Result<void> filled = fill_ride(); !filled) {
+    interpolator_->generator().set_overrides(feed_wanted_, rapid_wanted_);
+    if (Result<void> filled = fill_interpolator(); !filled) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
-    if (ride_may_wait(rest_follows)) return state_ = ExecutionState::waiting;
+    if (trajectory_may_wait(rest_follows)) return state_ = ExecutionState::waiting;
     const bool late =
-        ride_->generator().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
-    if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
-        ride_->flush();
-        ride_ends_ = true;
+        interpolator_->generator().seconds_to_braking() < ends_before && host_.now() > last_push_ + sender_is_silent;
+    if (!trajectory_ends_ && (rest_follows || late) && interpolator_->has_room()) {
+        interpolator_->flush();
+        trajectory_ends_ = true;
     }
-    if (PlannedMove planned; ride_->pull(planned, true)) return submit(planned);
-    const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
+    if (PlannedMove planned; interpolator_->pull(planned, true)) return submit(planned);
+    const bool more_follows = !trajectory_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
         // The interpolator is stationary: at the end of the known path, or on hold.
         Result<ExecutionState> finished = finish_path();
         if (!finished || !more_follows) return finished;
     } else {
-        pop_driven(ride_->generator().first_pending_move());  // dwells of zero duration
+        pop_driven(interpolator_->generator().first_pending_move());  // dwells of zero duration
     }
     return more_follows ? state_ = ExecutionState::waiting : stand();
 }
 
 /// Returns true while a single first move waits for the line after it, so that it need not end at standstill.
-bool StreamExecutor::ride_may_wait(bool rest_follows) const {
-    return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !ride_ends_;
+bool StreamExecutor::trajectory_may_wait(bool rest_follows) const {
+    return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !trajectory_ends_;
 }
 
-Result<void> StreamExecutor::fill_ride() {
-    for (; ride_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
+Result<void> StreamExecutor::fill_interpolator() {
+    for (; interpolator_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
         QueueEntry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
-        entry.number = ride_->generator().pushed();
-        MOTIONRACK_CHECK(ride_->push(entry.step.move, entry.is_overridable()));
-        ride_ends_ = false;
+        entry.number = interpolator_->generator().pushed();
+        MOTIONRACK_CHECK(interpolator_->push(entry.step.move, entry.is_overridable()));
+        trajectory_ends_ = false;
         last_push_ = host_.now();
     }
     return {};
@@ -75,10 +75,11 @@ Result<void> StreamExecutor::fill_ride() {
 /// cover several moves.
 void StreamExecutor::pop_before_block(std::int64_t block) {
     for (; first_block_ < block; ++first_block_) {
-        for (std::int64_t left = ride_ ? 0 : blocks_.front(); left > 0; pop()) left -= entries_.front().is_move();
+        for (std::int64_t left = interpolator_ ? 0 : blocks_.front(); left > 0; pop())
+            left -= entries_.front().is_move();
         blocks_.pop_front();
     }
-    if (ride_) pop_driven(blocks_.front());
+    if (interpolator_) pop_driven(blocks_.front());
 }
 
 /// Removes all entries up to the last move before this one.

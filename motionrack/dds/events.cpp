@@ -94,12 +94,12 @@ std::string sentence(const BusEvent& e) {
 
 bool EventQueue::open(EventKind kind, Instant now) const {
     const auto at = static_cast<std::size_t>(kind);
-    return !told_[at] || now - last_[at] >= min_distance;
+    return !reported_[at] || now - last_[at] >= min_distance;
 }
 
 void EventQueue::put(const BusEvent& event) {
     const auto kind = static_cast<std::size_t>(event.kind);
-    told_[kind] = true;
+    reported_[kind] = true;
     last_[kind] = event.when;
     if (count_ == ring_.size()) return;
     ring_[(first_ + count_++) % ring_.size()] = event;

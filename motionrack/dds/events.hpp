@@ -55,7 +55,7 @@ class EventQueue {
     std::array<BusEvent, 32> ring_;
     std::size_t first_ = 0, count_ = 0;
     std::array<Instant, event_kinds> last_{};
-    std::array<bool, event_kinds> told_{};
+    std::array<bool, event_kinds> reported_{};
 };
 
 }  // namespace motionrack::dds

@@ -166,8 +166,8 @@ Validation FrameValidator::use(const Frame& frame, Instant now) {
     used_at_ = now;
     doubtful_ = false;
     stale_ = false;
-    if (stale_told_) events_.put({EventKind::fresh, now, source_, {}, frame.sequence, 0, counts_.stale});
-    stale_told_ = false;
+    if (stale_reported_) events_.put({EventKind::fresh, now, source_, {}, frame.sequence, 0, counts_.stale});
+    stale_reported_ = false;
     ++counts_.used;
     return Validation::used;
 }
@@ -254,8 +254,8 @@ void FrameValidator::look(Instant now) {
         stale_ = true;
         ++counts_.stale;
     }
-    if (stale_told_ || !events_.open(EventKind::stale, now)) return;
-    stale_told_ = true;
+    if (stale_reported_ || !events_.open(EventKind::stale, now)) return;
+    stale_reported_ = true;
     events_.put({EventKind::stale,
                  now,
                  source_,

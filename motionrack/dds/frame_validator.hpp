@@ -99,7 +99,7 @@ class FrameValidator {
 
     ValidatorSettings settings_;
     Counts counts_;
-    bool joined_ = false, stale_ = true, stale_told_ = false;
+    bool joined_ = false, stale_ = true, stale_reported_ = false;
     PublisherIdentity source_;
     std::int64_t period_ = 0, pace_ = 0;
     Frame frame_;

@@ -94,7 +94,7 @@ class Run {
   private:
     void choose();
     void feed(const SampleBlock& block);
-    void tell_times(const SampleBlock& block);
+    void report_times(const SampleBlock& block);
     std::int64_t ticks_of(const SampleBlock& block, std::uint64_t sample) const {
         return block.times ? block.times[sample - number_] : static_cast<std::int64_t>(sample);
     }
@@ -155,7 +155,7 @@ void Run::feed(const SampleBlock& block) {
 }
 
 /// Converts sample numbers of findings in the block to times while the block is valid.
-void Run::tell_times(const SampleBlock& block) {
+void Run::report_times(const SampleBlock& block) {
     for (ChannelRun& run : runs_) {
         const auto& illegal = run.decoder().illegal_samples();
         while (run.illegal.size() < illegal.size()) {
@@ -218,7 +218,7 @@ Result<Analysis> Run::all() {
         if (!more) break;
         if (block.samples == 0) continue;
         feed(block);
-        tell_times(block);
+        report_times(block);
         number_ += block.samples;
         if (settings_.progress)
             settings_.progress(capture_.bytes_total() == 0 ? -1

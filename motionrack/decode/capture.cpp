@@ -95,10 +95,10 @@ Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, co
     if (format == Format::raw && !sigrok_line(head).empty()) {
         const std::string_view line = sigrok_line(head),
                                said = line.substr(sigrok_begin.size(), line.size() - sigrok_begin.size() - 1);
-        CaptureSettings told = settings;
-        if (const auto rate = read_rate(said); rate && !(told.sample_rate_hz > 0)) told.sample_rate_hz = *rate;
+        CaptureSettings reported = settings;
+        if (const auto rate = read_rate(said); rate && !(reported.sample_rate_hz > 0)) reported.sample_rate_hz = *rate;
         looked->skip(line.size());
-        return open_raw(std::move(looked), name, told);
+        return open_raw(std::move(looked), name, reported);
     }
     switch (format) {
         case Format::vcd:

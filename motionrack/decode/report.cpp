@@ -45,11 +45,12 @@ std::string illegal_text(const ChannelResult& channel, int places, std::size_t s
     if (channel.illegal == 0 || shown == 0) return "";
     std::string out = fmt::format("\nillegal transitions of {}: {}\n{}{:>16}  {:>14}\n", channel.name, channel.illegal,
                                   tab, "at s", "sample");
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (const IllegalAt& at : channel.first_illegal)
-        if (told < shown) out += fmt::format("{}{:>16.{}f}  {:>14}\n", tab, at.time_s, places, at.sample), ++told;
-    if (channel.illegal > told)
-        out += fmt::format("{}{:>16}\n", tab, fmt::format("and {} more", channel.illegal - told));
+        if (reported < shown)
+            out += fmt::format("{}{:>16.{}f}  {:>14}\n", tab, at.time_s, places, at.sample), ++reported;
+    if (channel.illegal > reported)
+        out += fmt::format("{}{:>16}\n", tab, fmt::format("and {} more", channel.illegal - reported));
     return out;
 }
 
@@ -57,15 +58,15 @@ std::string index_text(const ChannelResult& channel, int places, std::size_t sho
     if (channel.indexes == 0 || shown == 0) return "";
     std::string out = fmt::format("\nindexes of {}: {}\n{}{:>16}  {:>14}  {:>14}  {:>14}\n", channel.name,
                                   channel.indexes, tab, "at s", "sample", "count", "since the last");
-    std::size_t told = 0;
-    for (std::size_t i = 0; i < channel.first_indexes.size() && told < shown; ++i, ++told) {
+    std::size_t reported = 0;
+    for (std::size_t i = 0; i < channel.first_indexes.size() && reported < shown; ++i, ++reported) {
         const IndexAt& at = channel.first_indexes[i];
         const std::string since = i == 0 ? "-" : fmt::format("{}", at.count - channel.first_indexes[i - 1].count);
         out +=
             fmt::format("{}{:>16.{}f}  {:>14}  {:>14}  {:>14}\n", tab, at.time_s, places, at.sample, at.count, since);
     }
-    if (channel.indexes > told)
-        out += fmt::format("{}{:>16}\n", tab, fmt::format("and {} more", channel.indexes - told));
+    if (channel.indexes > reported)
+        out += fmt::format("{}{:>16}\n", tab, fmt::format("and {} more", channel.indexes - reported));
     return out;
 }
 

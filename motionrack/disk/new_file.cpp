@@ -148,7 +148,7 @@ bool NewFile::is_as_written() {
 
 Result<void> NewFile::commit() {
     if (file_ < 0) return {};
-    const auto told = [this] { return fail(ErrorKind::io, trouble_); };
+    const auto reported = [this] { return fail(ErrorKind::io, trouble_); };
     const bool in_place = made_ == path_;
     // A device cannot be synchronised.
     bool good = trouble_.empty() && (in_place || ::fsync(file_) == 0 || fail_with(errno));
@@ -158,17 +158,17 @@ Result<void> NewFile::commit() {
         trouble_ = "another file has taken its name";
         good = false;
     }
-    if (!good) return told();
+    if (!good) return reported();
     if (!close()) {
         (void)fail_with(errno);
-        return told();
+        return reported();
     }
     if (in_place || sync_folder_of(path_)) return {};
     trouble_ = "it is there, but may be gone after a power failure: " + std::string(std::strerror(EIO));
-    return told();
+    return reported();
 }
 
-Result<void> NewFile::told(std::string_view kind) const {
+Result<void> NewFile::reported(std::string_view kind) const {
     if (trouble_.empty()) return {};
     return fail(ErrorKind::io,
                 fmt::format("Only about {} bytes of the {} file could be written: {}. They are kept in {}, which ends "

@@ -65,7 +65,7 @@ class NewFile {
     /// is allowed. After success, later calls do nothing.
     Result<void> commit();
     /// Errors: io, the first error as a sentence, for a file with a kept part; `kind`: "CSV".
-    Result<void> told(std::string_view kind) const;
+    Result<void> reported(std::string_view kind) const;
 
   private:
     void swap(NewFile& other) noexcept;

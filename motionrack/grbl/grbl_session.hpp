@@ -167,18 +167,18 @@ class GrblSession {
     bool resets_ = false;                    ///< the reported stop is the session's own
     bool never_enabled_ = false;             ///< the machine has never been enabled
     bool held_ = false, door_ = false, asleep_ = false;
-    bool hold_seen_ = false;        ///< the machine has reached its hold
-    bool jogging_ = false;          ///< the machine jogs, or decelerates after a jog
-    bool stop_told_ = false;        ///< the present error stop of the machine was reported
-    std::int64_t probes_told_ = 0;  ///< see control::ProbeReport::count
-    bool was_g80_ = false;          ///< no motion mode, because of G80
+    bool hold_seen_ = false;            ///< the machine has reached its hold
+    bool jogging_ = false;              ///< the machine jogs, or decelerates after a jog
+    bool stop_reported_ = false;        ///< the present error stop of the machine was reported
+    std::int64_t probes_reported_ = 0;  ///< see control::ProbeReport::count
+    bool was_g80_ = false;              ///< no motion mode, because of G80
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;
     int spindle_override_ = 100;
     int until_offset_ = 0, until_overrides_ = 0;  ///< countdown of reports
-    control::Point told_offset_ = {};
-    Overrides told_overrides_;
-    std::string told_accessories_;
+    control::Point reported_offset_ = {};
+    Overrides reported_overrides_;
+    std::string reported_accessories_;
 };
 
 }  // namespace motionrack::grbl

@@ -185,11 +185,11 @@ void GrblSession::watch_machine() {
     }
     while (!n_words_.empty() && n_words_.front().first < machine_.stream().current_line()) n_words_.pop_front();
     const control::ProbeReport& probe = machine_.stream().last_probe();
-    const bool probed = std::exchange(probes_told_, probe.count) != probe.count;
+    const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
     if (probed && probe.begun) put(probe_text());
     if (state != MachineState::error_stop) {
-        stop_told_ = false;
-    } else if (!std::exchange(stop_told_, true) && !(stopped_ && !has_alarm(machine_)) &&
+        stop_reported_ = false;
+    } else if (!std::exchange(stop_reported_, true) && !(stopped_ && !has_alarm(machine_)) &&
                !(doing_ && doing_->what == PendingLine::What::homing)) {
         held_ = door_ = hold_seen_ = false;
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)

@@ -91,10 +91,10 @@ void GrblSession::report() {
 std::string GrblSession::counted_reports(State now) {
     const control::Point& offset = interpreter().frame().offset;
     const Overrides overrides_now = overrides();
-    if (offset != std::exchange(told_offset_, offset)) until_offset_ = 0;
-    if (overrides_now != std::exchange(told_overrides_, overrides_now)) until_overrides_ = 0;
+    if (offset != std::exchange(reported_offset_, offset)) until_offset_ = 0;
+    if (overrides_now != std::exchange(reported_overrides_, overrides_now)) until_overrides_ = 0;
     std::string accessories_now = accessories();
-    if (accessories_now != std::exchange(told_accessories_, accessories_now)) until_overrides_ = 0;
+    if (accessories_now != std::exchange(reported_accessories_, accessories_now)) until_overrides_ = 0;
     std::string out;
     if (until_offset_ > 0) {
         --until_offset_;

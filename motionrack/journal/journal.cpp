@@ -166,7 +166,7 @@ bool Journal::end_work() {
         const std::lock_guard<std::mutex> guard(alone_);
         quit_ = true;
     }
-    news_.notify_one();
+    wake_up_.notify_one();
     if (!thread_.joinable()) return false;
     thread_.join();
     return true;
@@ -182,7 +182,7 @@ void Journal::write(Instant at, std::string kind, std::string text, std::string 
             waiting_.push_back(
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
-    if (room) return news_.notify_one();
+    if (room) return wake_up_.notify_one();
     if (!closed) failed(fmt::format("is delayed: {} entries wait for the disk", max_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): moved only if the queue had space
     done(fail(ErrorKind::io,
@@ -197,7 +197,7 @@ void Journal::keep(std::string key, std::string value) {
         const std::lock_guard<std::mutex> guard(alone_);
         keeping_[std::move(key)] = std::move(value);
     }
-    news_.notify_one();
+    wake_up_.notify_one();
 }
 
 void Journal::work() {
@@ -206,8 +206,8 @@ void Journal::work() {
         std::map<std::string, std::string> kept;
         {
             std::unique_lock<std::mutex> guard(alone_);
-            const auto news = [this] { return quit_ || !waiting_.empty() || !keeping_.empty(); };
-            if (!news_.wait_for(guard, look_every, news)) {
+            const auto changed = [this] { return quit_ || !waiting_.empty() || !keeping_.empty(); };
+            if (!wake_up_.wait_for(guard, look_every, changed)) {
                 guard.unlock();
                 if (const Result<void> there = files_->check(); !there) failed(there.error().message);
                 continue;
@@ -231,14 +231,14 @@ void Journal::work() {
 }
 
 void Journal::keep_quota(Instant at) {
-    const Result<std::string> news = quota_->look(*writer_);
-    if (!news) {
+    const Result<std::string> changed = quota_->look(*writer_);
+    if (!changed) {
         (void)writer_->run("ROLLBACK");
-        return failed(fmt::format("could not be kept within its quota: {}", news.error().message));
+        return failed(fmt::format("could not be kept within its quota: {}", changed.error().message));
     }
-    if (news->empty()) return;
-    write(at, "journal", *news);
-    if (settings_.on_quota) settings_.on_quota(*news);
+    if (changed->empty()) return;
+    write(at, "journal", *changed);
+    if (settings_.on_quota) settings_.on_quota(*changed);
 }
 
 /// Any thread. Keeps the first failure; later ones are consequences.

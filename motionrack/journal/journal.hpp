@@ -139,7 +139,7 @@ class Journal {
     std::optional<LastRun> before_;
     mutable std::mutex reading_;
     mutable std::mutex alone_;
-    std::condition_variable news_;
+    std::condition_variable wake_up_;
     std::vector<PendingEntry> waiting_;
     std::map<std::string, std::string> keeping_;
     bool quit_ = false;

@@ -11,7 +11,7 @@ namespace motionrack::nats {
 namespace {
 
 using GatherClock = std::chrono::steady_clock;
-constexpr auto min_patience = std::chrono::seconds(10);
+constexpr auto min_wait = std::chrono::seconds(10);
 
 class Gatherer {
   public:
@@ -38,15 +38,15 @@ class Gatherer {
         }
         MOTIONRACK_CHECK(offer());
         GatherClock::time_point heard = GatherClock::now();
-        auto patience = min_patience;
+        auto max_wait = min_wait;
         while (!done() && !stop_) {
             // Short waits, so that Ctrl-C takes effect.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
-            if (some) heard = GatherClock::now(), patience = min_patience;
-            if (!some && GatherClock::now() - heard > patience) {
-                if (waits_) waits_(patience.count());
-                patience *= 2;
+            if (some) heard = GatherClock::now(), max_wait = min_wait;
+            if (!some && GatherClock::now() - heard > max_wait) {
+                if (waits_) waits_(max_wait.count());
+                max_wait *= 2;
                 // If another program removed rows, their points run again. All other points are queued and stay there
                 // once.
                 MOTIONRACK_CHECK(offer());

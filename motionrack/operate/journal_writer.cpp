@@ -88,7 +88,7 @@ bool JournalWriter::may_repeat(Instant at) {
 
 void JournalWriter::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
     if (journal_ != nullptr) journal_->write(at, kind, text, data);
-    if (told_) told_(at, kind, text, data);
+    if (reported_) reported_(at, kind, text, data);
 }
 
 void JournalWriter::see_state(const Status& status) {

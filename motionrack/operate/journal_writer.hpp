@@ -24,7 +24,7 @@ class JournalWriter {
         std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
     explicit JournalWriter(journal::Journal& journal) : JournalWriter(&journal, {}) {}
     /// `journal` may be nullptr, `told` empty.
-    JournalWriter(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
+    JournalWriter(journal::Journal* journal, Told reported) : journal_(journal), reported_(std::move(reported)) {}
     /// Call with every status; writes its differences from the previous one.
     void see(const Status& status);
     /// Writes a stop command with its user, address and kind. Further stops by the same source within a second count as
@@ -44,7 +44,7 @@ class JournalWriter {
     void write(Instant at, const std::string& kind, const std::string& text, const std::string& data);
 
     journal::Journal* journal_;
-    Told told_;
+    Told reported_;
     bool first_ = true;
     MachineState state_ = MachineState::disabled;
     bool program_runs_ = false, single_block_ = false;

@@ -12,7 +12,7 @@ namespace {
 constexpr Duration live_piece = milliseconds(1);         // virtual time between two looks at the card
 constexpr Duration max_live_lag = milliseconds(50);      // virtual time does not catch up beyond this
 constexpr Duration registers_every = milliseconds(500);  // period of reading all registers
-constexpr Duration stop_patience = milliseconds(100);    // limit for a function that waits for an axis to stop
+constexpr Duration max_stop_wait = milliseconds(100);    // limit for a function that waits for an axis to stop
 constexpr int min_stop_waits = 10;                       // minimum looks within it, for a busy computer
 constexpr int max_live_looks = 100;
 
@@ -126,7 +126,7 @@ void LiveCard::keep_up() {
 void LiveCard::heed_stop() {
     if (stopping_ || !stop_requested()) return;
     if (!stopped_) stopped_ = now();
-    gives_up_ = ++stop_waits_ > min_stop_waits && now() - *stopped_ > stop_patience;
+    gives_up_ = ++stop_waits_ > min_stop_waits && now() - *stopped_ > max_stop_wait;
 }
 
 // ---- stops
@@ -137,7 +137,7 @@ std::optional<Error> LiveCard::doubt() const {
         ErrorKind::machine,
         fmt::format("The function had not ended {} ms after the stop and was aborted; it does not show whether the "
                     "axes of card {} are at standstill. Check the alarms and the registers of the card.",
-                    stop_patience / milliseconds(1), place_.card)};
+                    max_stop_wait / milliseconds(1), place_.card)};
 }
 
 bool LiveCard::stands_after_stop(FunctionLibrary& library) {

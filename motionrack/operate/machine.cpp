@@ -20,8 +20,8 @@ StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, con
 
 /// Reports a stop that has a source. The first of several gives the reason, since a page sends its STOP on two
 /// channels.
-void tell_stop(const StopReport& report, std::string& why,
-               const std::vector<std::function<void(const StopReport&)>>& listeners) {
+void report_stop(const StopReport& report, std::string& why,
+                 const std::vector<std::function<void(const StopReport&)>>& listeners) {
     if (report.source.kind.empty()) return;
     if (!idle(report.state) && (report.state != MachineState::stopping || why.empty())) why = report.text;
     for (const auto& call : listeners) call(report);
@@ -49,7 +49,7 @@ rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisSt
 Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
     : settings_(std::move(settings)),
       rack_(placed(config, settings_.standing)),
-      desk_(rack_),
+      context_(rack_),
       tap_(rack_.kernel()),
       probe_(rack_.kernel()),
       validity_(rack_),
@@ -210,7 +210,7 @@ void Machine::stop(const StopOrigin& by) {
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
     rack_.stop_latch().stop();
     take_stop();
-    tell_stop(report, status_.reason, stop_listeners_);
+    report_stop(report, status_.reason, stop_listeners_);
 }
 
 void Machine::cancel(const StopOrigin& by) {
@@ -227,7 +227,7 @@ void Machine::cancel(const StopOrigin& by) {
     stop_wanted_ = true;
     stops_at_rest_ = idle(state_);
     if (!idle(state_) && state_ != MachineState::stopping) enter(MachineState::stopping);
-    tell_stop(report, status_.reason, stop_listeners_);
+    report_stop(report, status_.reason, stop_listeners_);
 }
 
 void Machine::reset(const StopOrigin& by) {
@@ -235,7 +235,7 @@ void Machine::reset(const StopOrigin& by) {
     report.releases = idle(state_);
     cancel();
     reset_wanted_ = rack_.stop_latch().trips();
-    tell_stop(report, status_.reason, stop_listeners_);
+    report_stop(report, status_.reason, stop_listeners_);
 }
 
 namespace {

@@ -153,7 +153,7 @@ class Machine {
     /// Manual accesses to the cards' buses.
     ManualAccess& manual_access() { return manual_access_; }
     rack::Rack& rack() { return rack_; }
-    rack::WireAccess& wires() { return desk_; }
+    rack::WireAccess& wires() { return context_; }
     /// For recordings of on-demand pins, for periodic samples, and for the grating bus, if present.
     rack::WireTap& tap() { return tap_; }
     rack::PeriodicSampler& probe() { return probe_; }
@@ -190,7 +190,7 @@ class Machine {
 
     MachineSettings settings_;
     rack::Rack rack_;
-    rack::WireAccess desk_;
+    rack::WireAccess context_;
     rack::WireTap tap_;
     rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;

@@ -15,8 +15,8 @@ bool can_home(const rack::RackConfig& config) {
 namespace {
 
 /// Returns the initial state of an axis. `known`: the position cannot be found by homing.
-InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& told, bool known) {
-    for (const InitialAxisState& one : told)
+InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& reported, bool known) {
+    for (const InitialAxisState& one : reported)
         if (one.letter == axis.letter) return one;
     return {axis.letter, axis.start_position, axis.start_position, known};
 }

@@ -137,11 +137,11 @@ void Service::take() {
         if (lost.empty())
             note_ = fmt::format(" The service of card {} was not started. {}", card_, begun.error().message);
     }
-    if (const Told told = std::exchange(begun_, {}))
-        told(begun ? Result<std::string>(fmt::format(
-                         "Card {} is in service: it was reset, and only its functions drive it.{}", card_,
-                         lost.empty() ? "" : fmt::format(" The position of {} is not valid any more.", lost)))
-                   : tl::unexpected<Error>(begun.error()));
+    if (const Told reported = std::exchange(begun_, {}))
+        reported(begun ? Result<std::string>(fmt::format(
+                             "Card {} is in service: it was reset, and only its functions drive it.{}", card_,
+                             lost.empty() ? "" : fmt::format(" The position of {} is not valid any more.", lost)))
+                       : tl::unexpected<Error>(begun.error()));
 }
 
 Result<void> Service::take_library() {
@@ -223,7 +223,7 @@ void Service::finish() {
     session_.clear();
     stop_ = false;
     if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
-    if (const Told told = std::exchange(begun_, {})) told(fail(ErrorKind::stopped, sentence));
+    if (const Told reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
     if (!taken) return machine_.failed(taken.error());
     const bool any = std::find(machine_.enabled_.begin(), machine_.enabled_.end(), true) != machine_.enabled_.end();
     if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
@@ -231,7 +231,7 @@ void Service::finish() {
     else if (machine_.state_ == MachineState::stopping)
         machine_.status_.reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
-    if (const Told told = std::exchange(ended_, {})) told(sentence);
+    if (const Told reported = std::exchange(ended_, {})) reported(sentence);
 }
 
 }  // namespace motionrack::operate

@@ -20,7 +20,7 @@ class BackgroundWorker {
             const std::lock_guard<std::mutex> alone(lock_);
             quit_ = true;
         }
-        news_.notify_one();
+        wake_up_.notify_one();
         thread_.join();
     }
     BackgroundWorker(const BackgroundWorker&) = delete;
@@ -33,7 +33,7 @@ class BackgroundWorker {
             if (waiting_.size() >= max_waiting) return false;
             waiting_.push_back(std::move(work));
         }
-        news_.notify_one();
+        wake_up_.notify_one();
         return true;
     }
 
@@ -43,7 +43,7 @@ class BackgroundWorker {
             std::function<void()> one;
             {
                 std::unique_lock<std::mutex> alone(lock_);
-                news_.wait(alone, [this] { return quit_ || !waiting_.empty(); });
+                wake_up_.wait(alone, [this] { return quit_ || !waiting_.empty(); });
                 if (quit_) return;
                 one = std::move(waiting_.front());
                 waiting_.pop_front();
@@ -53,7 +53,7 @@ class BackgroundWorker {
     }
 
     std::mutex lock_;
-    std::condition_variable news_;
+    std::condition_variable wake_up_;
     std::deque<std::function<void()>> waiting_;
     bool quit_ = false;
     std::thread thread_;

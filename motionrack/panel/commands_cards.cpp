@@ -14,25 +14,25 @@ using nlohmann::json;
 namespace {
 
 /// Refused for a card replaced by a real one, since effects on the virtual card would be mistaken for its own.
-Result<void> check_virtual(PanelContext& desk, std::string_view name, std::string_view what) {
-    const operate::LivePlace* const live = desk.machine.service().live_place(card_part(name));
+Result<void> check_virtual(PanelContext& context, std::string_view name, std::string_view what) {
+    const operate::LivePlace* const live = context.machine.service().live_place(card_part(name));
     if (live == nullptr) return {};
     return fail(ErrorKind::refused,
                 fmt::format("{}: card {} is a real one at {}. Nothing was done. Call the functions of its library.",
                             what, live->card, live->place));
 }
 
-Result<json> set_wire(PanelContext& desk, const json& fields) {
+Result<json> set_wire(PanelContext& context, const json& fields) {
     const auto& name = fields.at("name").get_ref<const std::string&>();
     const json& value = fields.at("value");
-    MOTIONRACK_CHECK(check_virtual(desk, name, "The wire was not driven"));
-    return accepted(desk.machine.wires().force(
+    MOTIONRACK_CHECK(check_virtual(context, name, "The wire was not driven"));
+    return accepted(context.machine.wires().force(
         name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
 /// The button of the page acts in series with the machine's own contacts.
-Result<json> set_estop(PanelContext& desk, bool pressed) {
-    rack::SafetyContacts& contacts = desk.machine.rack().stop_latch().contacts();
+Result<json> set_estop(PanelContext& context, bool pressed) {
+    rack::SafetyContacts& contacts = context.machine.rack().stop_latch().contacts();
     contacts.press(pressed);
     if (pressed || !contacts.is_pressed()) return json::object();
     return fail(ErrorKind::refused,
@@ -40,39 +40,40 @@ Result<json> set_estop(PanelContext& desk, bool pressed) {
                 "page was released; close the contact, or release the wire.");
 }
 
-Result<json> start_part(PanelContext& desk, const std::string& part) {
-    MOTIONRACK_CHECK(desk.machine.may_begin("Nothing was started"));
-    return accepted(rack::start_part(desk.machine.rack(), part));
+Result<json> start_part(PanelContext& context, const std::string& part) {
+    MOTIONRACK_CHECK(context.machine.may_begin("Nothing was started"));
+    return accepted(rack::start_part(context.machine.rack(), part));
 }
 
-Result<json> inject_fault(PanelContext& desk, const json& fields) {
+Result<json> inject_fault(PanelContext& context, const json& fields) {
     const auto& target = fields.at("target").get_ref<const std::string&>();
-    MOTIONRACK_CHECK(check_virtual(desk, target, "Nothing was broken"));
-    return accepted(rack::inject_fault(desk.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
+    MOTIONRACK_CHECK(check_virtual(context, target, "Nothing was broken"));
+    return accepted(
+        rack::inject_fault(context.machine.rack(), fields.at("fault").get_ref<const std::string&>(), target));
 }
 
-void access(PanelContext& desk, const json& fields, Ready ready) {
+void access(PanelContext& context, const json& fields, Ready ready) {
     operate::ManualAccess::BusAccess access{fields.at("card").get<std::string>(),
                                             static_cast<int>(fields.at("bits").get<double>()),
                                             static_cast<std::uint32_t>(fields.at("address").get<double>()),
                                             {}};
     if (fields.contains("value")) access.value = static_cast<std::uint32_t>(fields.at("value").get<double>());
-    if (const Result<void> is = check_virtual(desk, access.card, "The card was not accessed"); !is)
+    if (const Result<void> is = check_virtual(context, access.card, "The card was not accessed"); !is)
         return ready(tl::unexpected<Error>(is.error()));
-    const Result<void> taken = desk.machine.manual_access().request(access, [ready](Result<std::uint32_t> value) {
+    const Result<void> taken = context.machine.manual_access().request(access, [ready](Result<std::uint32_t> value) {
         ready(value ? Result<json>(json{{"value", *value}}) : tl::unexpected<Error>(value.error()));
     });
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
-Result<operate::ClockPacer*> pacer_of(PanelContext& desk) {
-    if (desk.settings.pacer != nullptr) return desk.settings.pacer;
+Result<operate::ClockPacer*> pacer_of(PanelContext& context) {
+    if (context.settings.pacer != nullptr) return context.settings.pacer;
     return fail(ErrorKind::refused, "The clock of this machine cannot be changed.");
 }
 
-Result<json> set_clock(PanelContext& desk, const json& fields) {
-    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
-    if (const auto live = desk.machine.service().live_places(); !live.empty())
+Result<json> set_clock(PanelContext& context, const json& fields) {
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(context));
+    if (const auto live = context.machine.service().live_places(); !live.empty())
         return fail(ErrorKind::refused,
                     fmt::format("The clock was not changed: card {} is a real one, so the rack runs in real time with "
                                 "factor 1. Serve it without --live to change the clock.",
@@ -85,34 +86,36 @@ Result<json> set_clock(PanelContext& desk, const json& fields) {
     return fail(ErrorKind::invalid_input, "The clock has no such mode.");
 }
 
-Result<json> advance_clock(PanelContext& desk, const json& fields) {
-    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(desk));
+Result<json> advance_clock(PanelContext& context, const json& fields) {
+    MOTIONRACK_TRY(operate::ClockPacer * pacer, pacer_of(context));
     return accepted(pacer->step(from_seconds(fields.at("duration_s").get<double>())));
 }
 
 constexpr std::array card_rows = {
-    OperationHandler{"set_wire",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return set_wire(desk, fields); }},
-    OperationHandler{"set_estop", [](PanelContext& desk, const Caller&,
-                                     const json& fields) { return set_estop(desk, fields.at("pressed").get<bool>()); }},
-    OperationHandler{"inject_fault",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return inject_fault(desk, fields); }},
+    OperationHandler{
+        "set_wire", [](PanelContext& context, const Caller&, const json& fields) { return set_wire(context, fields); }},
+    OperationHandler{"set_estop",
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return set_estop(context, fields.at("pressed").get<bool>());
+                     }},
+    OperationHandler{"inject_fault", [](PanelContext& context, const Caller&,
+                                        const json& fields) { return inject_fault(context, fields); }},
     OperationHandler{"start_part",
-                     [](PanelContext& desk, const Caller&, const json& fields) {
-                         return start_part(desk, fields.at("part").get_ref<const std::string&>());
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return start_part(context, fields.at("part").get_ref<const std::string&>());
                      }},
     OperationHandler{"write_register", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         access(desk, fields, std::move(ready));
+                     [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
+                         access(context, fields, std::move(ready));
                      }},
     OperationHandler{"read_register", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         access(desk, fields, std::move(ready));
+                     [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
+                         access(context, fields, std::move(ready));
                      }},
-    OperationHandler{"set_clock",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return set_clock(desk, fields); }},
-    OperationHandler{"advance_clock",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return advance_clock(desk, fields); }},
+    OperationHandler{"set_clock", [](PanelContext& context, const Caller&,
+                                     const json& fields) { return set_clock(context, fields); }},
+    OperationHandler{"advance_clock", [](PanelContext& context, const Caller&,
+                                         const json& fields) { return advance_clock(context, fields); }},
 };
 
 }  // namespace

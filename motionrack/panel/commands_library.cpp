@@ -30,9 +30,9 @@ json function_json(const FunctionInfo& function) {
             {"own", function.own}};
 }
 
-Result<json> library_of(PanelContext& desk, const json& fields) {
+Result<json> library_of(PanelContext& context, const json& fields) {
     MOTIONRACK_TRY(const auto functions,
-                   operate::library_of(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
+                   operate::library_of(context.machine.rack(), fields.at("name").get_ref<const std::string&>()));
     json out = json::array();
     for (const FunctionInfo& one : functions) out.push_back(function_json(one));
     return json{{"functions", std::move(out)}};
@@ -44,38 +44,40 @@ operate::StopOrigin origin_of(const Caller& caller) {
     return {caller.user, caller.address, {}};
 }
 
-void service(PanelContext& desk, const Caller& caller, const json& fields, const Ready& ready) {
+void service(PanelContext& context, const Caller& caller, const json& fields, const Ready& ready) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
-    const auto told = [ready](const Result<std::string>& text) {
+    const auto reported = [ready](const Result<std::string>& text) {
         ready(text ? Result<json>(json{{"text", *text}}) : tl::unexpected<Error>(text.error()));
     };
-    operate::Service& service = desk.machine.service();
+    operate::Service& service = context.machine.service();
     if (!fields.at("on").get<bool>() && service.on() && service.card() != card)
         return ready(fail(ErrorKind::refused, fmt::format("Card {} is in service, not card {}. Nothing was changed.",
                                                           service.card(), card)));
-    const Result<void> taken =
-        fields.at("on").get<bool>() ? service.begin(card, origin_of(caller), caller.session, told) : service.end(told);
+    const Result<void> taken = fields.at("on").get<bool>()
+                                   ? service.begin(card, origin_of(caller), caller.session, reported)
+                                   : service.end(reported);
     if (!taken) ready(tl::unexpected<Error>(taken.error()));
 }
 
 /// Records a call that was rejected or has ended, and the start of a call that waits. So the journal shows its motion
 /// even if the program ends meanwhile.
-void note_call(PanelContext& desk, const Caller& caller, const std::string& function, const std::string& what) {
+void note_call(PanelContext& context, const Caller& caller, const std::string& function, const std::string& what) {
     const json data = {{"command", "call"}, {"user", caller.user}};
-    const Event& event = desk.book.add(
-        {0, desk.machine.now(), "command", fmt::format("{}: call {}: {}", caller.user, function, what), data});
-    if (desk.settings.journal != nullptr) desk.settings.journal->write(event.at, event.kind, event.text, text_of(data));
+    const Event& event = context.book.add(
+        {0, context.machine.now(), "command", fmt::format("{}: call {}: {}", caller.user, function, what), data});
+    if (context.settings.journal != nullptr)
+        context.settings.journal->write(event.at, event.kind, event.text, text_of(data));
 }
 
-void call(PanelContext& desk, const Caller& caller, const json& fields, const Ready& ready) {
+void call(PanelContext& context, const Caller& caller, const json& fields, const Ready& ready) {
     operate::Service::FunctionCall call{
         fields.at("card").get<std::string>(), fields.at("function").get<std::string>(), {}};
     const json arguments = fields.value("arguments", json::object());
     for (const auto& [name, value] : arguments.items())
         call.arguments[name] = static_cast<std::int64_t>(value.get<double>());
-    const auto answered = [&desk, caller, function = call.function, ready](const Result<CallAnswer>& answer) {
+    const auto answered = [&context, caller, function = call.function, ready](const Result<CallAnswer>& answer) {
         if (!answer) {
-            note_call(desk, caller, function, answer.error().text());
+            note_call(context, caller, function, answer.error().text());
             return ready(tl::unexpected<Error>(answer.error()));
         }
         json out = {{"text", answer->text}};
@@ -84,25 +86,25 @@ void call(PanelContext& desk, const Caller& caller, const json& fields, const Re
     };
     const std::string card = call.card, function = call.function;
     const Result<void> taken =
-        desk.machine.service().call(std::move(call), origin_of(caller), caller.session, answered);
+        context.machine.service().call(std::move(call), origin_of(caller), caller.session, answered);
     if (!taken) return ready(tl::unexpected<Error>(taken.error()));
-    const auto functions = operate::library_of(desk.machine.rack(), card);
+    const auto functions = operate::library_of(context.machine.rack(), card);
     for (const FunctionInfo& one : *functions)
         if (one.name == function && one.waits)
-            note_call(desk, caller, function, fmt::format("begun with {}", text_of(arguments)));
+            note_call(context, caller, function, fmt::format("begun with {}", text_of(arguments)));
 }
 
 constexpr std::array library_rows = {
     OperationHandler{"service", nullptr,
-                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
-                         service(desk, caller, fields, ready);
+                     [](PanelContext& context, const Caller& caller, const json& fields, Ready ready) {
+                         service(context, caller, fields, ready);
                      }},
     OperationHandler{"call", nullptr,
-                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
-                         call(desk, caller, fields, ready);
+                     [](PanelContext& context, const Caller& caller, const json& fields, Ready ready) {
+                         call(context, caller, fields, ready);
                      }},
-    OperationHandler{"library",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return library_of(desk, fields); }},
+    OperationHandler{"library", [](PanelContext& context, const Caller&,
+                                   const json& fields) { return library_of(context, fields); }},
 };
 
 }  // namespace

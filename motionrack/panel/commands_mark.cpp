@@ -87,24 +87,24 @@ struct MarkCommand {
 };
 
 /// Refuses a command that something has ended since it was given.
-Result<void> check_still_wanted(PanelContext& desk, const MarkCommand& command) {
-    MOTIONRACK_CHECK(desk.machine.may_begin("Not marked"));
+Result<void> check_still_wanted(PanelContext& context, const MarkCommand& command) {
+    MOTIONRACK_CHECK(context.machine.may_begin("Not marked"));
     const auto refuse = [](const char* why) {
         return fail(ErrorKind::refused,
                     fmt::format("Not marked: {} while the list was made. Nothing was marked; mark again.", why));
     };
-    if (desk.machine.rack().stop_latch().trips() != command.stops) return refuse("the machine was stopped");
-    if (desk.mark_stops != command.mark_stops) return refuse("the marking was stopped");
-    const auto holder = desk.lease.holder();
+    if (context.machine.rack().stop_latch().trips() != command.stops) return refuse("the machine was stopped");
+    if (context.mark_stops != command.mark_stops) return refuse("the marking was stopped");
+    const auto holder = context.lease.holder();
     if (!holder || holder->session != command.session) return refuse("control was lost");
     return {};
 }
 
 /// Call on the motion thread, between runs.
-Result<json> begin_marking(PanelContext& desk, const MarkCommand& command, const Lists& lists) {
-    MOTIONRACK_CHECK(check_still_wanted(desk, command));
+Result<json> begin_marking(PanelContext& context, const MarkCommand& command, const Lists& lists) {
+    MOTIONRACK_CHECK(check_still_wanted(context, command));
     const std::string& card = command.card;
-    rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
+    rtc5::Engine& engine = rack::rtc5_card_of(context.machine.rack(), card)->engine();
     if (!engine.at_rest())
         return fail(
             ErrorKind::refused,
@@ -131,34 +131,34 @@ Result<json> begin_marking(PanelContext& desk, const MarkCommand& command, const
     return json{{"commands", lists.main.size()}, {"notes", lists.notes}};
 }
 
-Result<void> check_card(PanelContext& desk, const std::string& card) {
-    MOTIONRACK_CHECK(rack::card_named(desk.machine.rack(), card));
-    if (rack::rtc5_card_of(desk.machine.rack(), card) != nullptr) return {};
+Result<void> check_card(PanelContext& context, const std::string& card) {
+    MOTIONRACK_CHECK(rack::card_named(context.machine.rack(), card));
+    if (rack::rtc5_card_of(context.machine.rack(), card) != nullptr) return {};
     return fail(ErrorKind::invalid_input,
                 fmt::format("Card {} marks nothing: it is not an RTC5. Nothing was done.", card));
 }
 
-void mark(PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
+void mark(PanelContext& context, const Caller& caller, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
-    if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
-    if (const Result<void> may = desk.machine.may_begin("Not marked"); !may)
+    if (const Result<void> good = check_card(context, card); !good) return ready(tl::unexpected<Error>(good.error()));
+    if (const Result<void> may = context.machine.may_begin("Not marked"); !may)
         return ready(tl::unexpected<Error>(may.error()));
-    const MarkCommand command{card, caller.session, desk.machine.rack().stop_latch().trips(), desk.mark_stops};
-    const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(),
+    const MarkCommand command{card, caller.session, context.machine.rack().stop_latch().trips(), context.mark_stops};
+    const auto work = [card, config = context.machine.rack().config(), text = fields.at("job").get<std::string>(),
                        drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
         return lists_of(config, card, text, drawing, on_parts);
     };
-    desk.run_async<Lists>(work, [&desk, ready, command](const Result<Lists>& lists) {
-        ready(lists ? begin_marking(desk, command, *lists) : tl::unexpected<Error>(lists.error()));
+    context.run_async<Lists>(work, [&context, ready, command](const Result<Lists>& lists) {
+        ready(lists ? begin_marking(context, command, *lists) : tl::unexpected<Error>(lists.error()));
     });
 }
 
 /// Blocks further starts and ends the running list.
-Result<json> stop(PanelContext& desk, const json& fields) {
+Result<json> stop(PanelContext& context, const json& fields) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
-    MOTIONRACK_CHECK(check_card(desk, card));
-    rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
-    ++desk.mark_stops;
+    MOTIONRACK_CHECK(check_card(context, card));
+    rtc5::Engine& engine = rack::rtc5_card_of(context.machine.rack(), card)->engine();
+    ++context.mark_stops;
     engine.set_control_mode(0);
     engine.stop_execution();
     return json::object();
@@ -166,11 +166,11 @@ Result<json> stop(PanelContext& desk, const json& fields) {
 
 constexpr std::array mark_rows = {
     OperationHandler{"mark", nullptr,
-                     [](PanelContext& desk, const Caller& caller, const json& fields, Ready ready) {
-                         mark(desk, caller, fields, std::move(ready));
+                     [](PanelContext& context, const Caller& caller, const json& fields, Ready ready) {
+                         mark(context, caller, fields, std::move(ready));
                      }},
     OperationHandler{"mark_stop",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return stop(desk, fields); }},
+                     [](PanelContext& context, const Caller&, const json& fields) { return stop(context, fields); }},
 };
 
 }  // namespace

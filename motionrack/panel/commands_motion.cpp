@@ -16,68 +16,70 @@ operate::JogOrigin origin_of(const Caller& caller, const json& fields) {
 
 constexpr std::array control = {
     OperationHandler{"take_control",
-                     [](PanelContext& desk, const Caller& caller, const json& fields) {
-                         return accepted(desk.lease.take(caller.user, caller.session, fields.value("force", false),
-                                                         operate::is_stationary(desk.machine.state())));
+                     [](PanelContext& context, const Caller& caller, const json& fields) {
+                         return accepted(context.lease.take(caller.user, caller.session, fields.value("force", false),
+                                                            operate::is_stationary(context.machine.state())));
                      }},
-    OperationHandler{"release_control", [](PanelContext& desk, const Caller& caller,
-                                           const json&) { return accepted(desk.lease.release(caller.session)); }},
-    OperationHandler{"renew_control", [](PanelContext& desk, const Caller& caller,
-                                         const json&) { return accepted(desk.lease.keep(caller.session)); }},
+    OperationHandler{"release_control", [](PanelContext& context, const Caller& caller,
+                                           const json&) { return accepted(context.lease.release(caller.session)); }},
+    OperationHandler{"renew_control", [](PanelContext& context, const Caller& caller,
+                                         const json&) { return accepted(context.lease.keep(caller.session)); }},
     OperationHandler{"stop",
-                     [](PanelContext& desk, const Caller& caller, const json&) -> Result<json> {
-                         desk.machine.stop({caller.user, caller.address, "STOP"});
-                         desk.lease.revoke(caller.user, caller.session);
+                     [](PanelContext& context, const Caller& caller, const json&) -> Result<json> {
+                         context.machine.stop({caller.user, caller.address, "STOP"});
+                         context.lease.revoke(caller.user, caller.session);
                          return json::object();
                      }},
 };
 
 constexpr std::array motion = {
     OperationHandler{"enable",
-                     [](PanelContext& desk, const Caller&, const json& fields) {
-                         return accepted(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return accepted(context.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
                      }},
-    OperationHandler{"home", [](PanelContext& desk, const Caller&,
-                                const json& fields) { return accepted(desk.machine.home(fields.value("axes", ""))); }},
+    OperationHandler{"home",
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return accepted(context.machine.home(fields.value("axes", "")));
+                     }},
     OperationHandler{"jog",
-                     [](PanelContext& desk, const Caller& caller, const json& fields) -> Result<json> {
-                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         const bool again = desk.machine.state() == operate::MachineState::jogging;
+                     [](PanelContext& context, const Caller& caller, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(context, fields));
+                         const bool again = context.machine.state() == operate::MachineState::jogging;
                          MOTIONRACK_CHECK(
-                             desk.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
+                             context.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
                          return json{{"again", again}};
                      }},
     OperationHandler{"jog_by",
-                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
-                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         return accepted(desk.machine.jog_by(letter, fields.at("distance").get<double>(),
-                                                             fields.at("speed").get<double>()));
+                     [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(context, fields));
+                         return accepted(context.machine.jog_by(letter, fields.at("distance").get<double>(),
+                                                                fields.at("speed").get<double>()));
                      }},
     OperationHandler{"jog_stop",
-                     [](PanelContext& desk, const Caller& caller, const json& fields) -> Result<json> {
+                     [](PanelContext& context, const Caller& caller, const json& fields) -> Result<json> {
                          static_cast<void>(
-                             desk.machine.jogs().see(origin_of(caller, fields)));  // a stop is accepted at any age
-                         if (desk.machine.state() == operate::MachineState::jogging) desk.machine.cancel();
+                             context.machine.jogs().see(origin_of(caller, fields)));  // a stop is accepted at any age
+                         if (context.machine.state() == operate::MachineState::jogging) context.machine.cancel();
                          return json::object();
                      }},
     OperationHandler{"touch_off",
-                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
-                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         return accepted(desk.machine.touch_off(letter, fields.at("value").get<double>()));
+                     [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(context, fields));
+                         return accepted(context.machine.touch_off(letter, fields.at("value").get<double>()));
                      }},
     OperationHandler{"set_position",
-                     [](PanelContext& desk, const Caller&, const json& fields) -> Result<json> {
-                         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
-                         return accepted(desk.machine.set_position(letter, fields.at("position").get<double>()));
+                     [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
+                         MOTIONRACK_TRY(const char letter, axis_of(context, fields));
+                         return accepted(context.machine.set_position(letter, fields.at("position").get<double>()));
                      }},
 };
 
 }  // namespace
 
-Result<char> axis_of(PanelContext& desk, const json& fields) {
+Result<char> axis_of(PanelContext& context, const json& fields) {
     const auto& text = fields.at("axis").get_ref<const std::string&>();
     std::string known;
-    for (const rack::RackAxis& axis : desk.machine.rack().config().axes) {
+    for (const rack::RackAxis& axis : context.machine.rack().config().axes) {
         if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
         known += axis.letter;
     }

@@ -8,7 +8,7 @@ using nlohmann::json;
 
 namespace {
 
-Result<json> arm(PanelContext& desk, const json& fields) {
+Result<json> arm(PanelContext& context, const json& fields) {
     ScopeSettings settings;
     settings.channels = fields.at("channels").get<std::vector<std::string>>();
     settings.trigger = fields.value("trigger", "");
@@ -19,20 +19,20 @@ Result<json> arm(PanelContext& desk, const json& fields) {
     settings.length = from_seconds(number_of(fields, "length", 0.1));
     settings.pre = from_seconds(number_of(fields, "pre", 0));
     settings.again = mode == "run";
-    return accepted(desk.scope.arm(settings));
+    return accepted(context.scope.arm(settings));
 }
 
 /// Writes the data as JSON in the worker, in parallel with motion.
-void look(PanelContext& desk, const json& fields, Ready ready) {
-    const ScopeSettings& settings = desk.scope.settings();
-    json out = {{"state", name_of(desk.scope.state())},
+void look(PanelContext& context, const json& fields, Ready ready) {
+    const ScopeSettings& settings = context.scope.settings();
+    json out = {{"state", name_of(context.scope.state())},
                 {"channels", settings.channels},
                 {"trigger", settings.trigger},
                 {"mode", settings.again ? "run" : "single"}};
-    const std::shared_ptr<const ScopeCapture> capture = desk.scope.capture();
+    const std::shared_ptr<const ScopeCapture> capture = context.scope.capture();
     if (!capture || capture->number <= static_cast<std::int64_t>(number_of(fields, "since", 0)))
         return ready(std::move(out));
-    desk.run_async(
+    context.run_async(
         [out = std::move(out), capture]() mutable -> Result<json> {
             out["capture"] = to_json(*capture);
             return out;
@@ -42,15 +42,15 @@ void look(PanelContext& desk, const json& fields, Ready ready) {
 
 constexpr std::array scope_rows = {
     OperationHandler{"scope_arm",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return arm(desk, fields); }},
+                     [](PanelContext& context, const Caller&, const json& fields) { return arm(context, fields); }},
     OperationHandler{"scope_stop",
-                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
-                         desk.scope.stop();
+                     [](PanelContext& context, const Caller&, const json&) -> Result<json> {
+                         context.scope.stop();
                          return json::object();
                      }},
     OperationHandler{"scope", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         look(desk, fields, std::move(ready));
+                     [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
+                         look(context, fields, std::move(ready));
                      }},
 };
 

@@ -34,13 +34,13 @@ class Panel::Inside {
   public:
     Inside(Panel& panel, operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
         : panel_(panel),
-          desk_(machine, lease, std::move(settings)),
+          context_(machine, lease, std::move(settings)),
           writer_(machine),
-          logbook_(desk_.settings.journal,
+          logbook_(context_.settings.journal,
                    [this](Instant at, const std::string& kind, const std::string& text, const std::string& data) {
-                       desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
+                       context_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
                    }),
-          loss_(desk_) {
+          loss_(context_) {
         for (const std::span<const OperationHandler> table :
              {control_doers(), motion_doers(), program_doers(), card_doers(), library_doers(), scope_doers(),
               mark_doers(), looking_doers()})
@@ -58,61 +58,61 @@ class Panel::Inside {
         look_for_control();
         logbook_.see(status);
         answer_orders();
-        desk_.scope.slice(status.at);
-        desk_.driven.add(status);
+        context_.scope.slice(status.at);
+        context_.driven.add(status);
         const auto real = std::chrono::steady_clock::now();
-        if (real - shown_ < desk_.settings.picture_every) return;
+        if (real - shown_ < context_.settings.picture_every) return;
         shown_ = real;
-        tell_conditions(real);
+        report_conditions(real);
         show(status);
     }
 
     void carry_out(const OperationSpec& row, const Caller& caller, const json& fields, const Reply& reply) {
         if (row.lease)
-            if (const Result<void> held = desk_.lease.check(caller.session); !held)
+            if (const Result<void> held = context_.lease.check(caller.session); !held)
                 return reply(error_answer(held.error()));
         if (const Result<void> may = loss_.may(row); !may) return reply(error_answer(may.error()));
         const OperationHandler& doer = *doers_.at(row.name);
         const auto ready = [this, &row, caller, fields, reply](Result<json> result) {
             finish(row, caller, fields, reply, std::move(result));
         };
-        if (doer.later != nullptr) return doer.later(desk_, caller, fields, ready);
-        ready(doer.now(desk_, caller, fields));
+        if (doer.later != nullptr) return doer.later(context_, caller, fields, ready);
+        ready(doer.now(context_, caller, fields));
     }
 
-    PanelContext& desk() { return desk_; }
+    PanelContext& context() { return context_; }
 
   private:
     /// Ends a service when the session that started it loses control.
     void look_for_control() {
-        operate::Service& service = desk_.machine.service();
+        operate::Service& service = context_.machine.service();
         if (!service.on()) return;
-        const auto holder = desk_.lease.holder();
+        const auto holder = context_.lease.holder();
         if (holder && holder->session == service.session()) return;
-        desk_.machine.post([&service, session = service.session()] { service.end_of(session); });
+        context_.machine.post([&service, session = service.session()] { service.end_of(session); });
     }
 
     void show(const operate::Status& status) {
-        std::atomic_store(&panel_.picture_, std::make_shared<const StatusSnapshot>(status, writer_.writer(desk_)));
-        desk_.channels.show(status.sequence, status.at);
+        std::atomic_store(&panel_.picture_, std::make_shared<const StatusSnapshot>(status, writer_.writer(context_)));
+        context_.channels.show(status.sequence, status.at);
     }
 
     /// Reports conditions of cards and parts: lost steps, missed edges.
-    void tell_conditions(std::chrono::steady_clock::time_point real) {
-        if (real - looked_ < 20 * desk_.settings.picture_every) return;
+    void report_conditions(std::chrono::steady_clock::time_point real) {
+        if (real - looked_ < 20 * context_.settings.picture_every) return;
         looked_ = real;
-        rack::Rack& rack = desk_.machine.rack();
+        rack::Rack& rack = context_.machine.rack();
         const std::vector<sim::Condition> all = rack.kernel().conditions();
         const std::uint64_t first = rack.kernel().dropped_conditions();
-        for (std::uint64_t i = std::max(told_, first); i < first + all.size(); ++i) {
+        for (std::uint64_t i = std::max(reported_, first); i < first + all.size(); ++i) {
             const sim::Condition& condition = all[static_cast<std::size_t>(i - first)];
-            desk_.book.add({0,
-                            condition.at,
-                            "condition",
-                            rack.describe(condition),
-                            {{"device", rack.kernel().device_name(condition.device)}}});
+            context_.book.add({0,
+                               condition.at,
+                               "condition",
+                               rack.describe(condition),
+                               {{"device", rack.kernel().device_name(condition.device)}}});
         }
-        told_ = first + all.size();
+        reported_ = first + all.size();
     }
 
     /// Executed commands become events; their answer waits for the journal.
@@ -120,9 +120,9 @@ class Panel::Inside {
                 Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
         Answer answer = done(std::move(*result));
-        const bool told = row.role != auth::Role::observe && !row.high_rate && !answer.body.value("again", false);
+        const bool reported = row.role != auth::Role::observe && !row.high_rate && !answer.body.value("again", false);
         answer.body.erase("again");
-        if (!told) return reply(std::move(answer));
+        if (!reported) return reply(std::move(answer));
         taken_.push_back(
             {&row, caller, fields, [&row, reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
                  reply(RecordLoss::answer(row, answer, kept));
@@ -139,10 +139,10 @@ class Panel::Inside {
                 continue;
             }
             const json data = {{"command", one.row->name}, {"user", one.caller.user}};
-            const Event& event =
-                desk_.book.add({0, desk_.machine.now(), "command", sentence(*one.row, one.caller, one.fields), data});
-            if (desk_.settings.journal != nullptr)
-                desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(one.safe));
+            const Event& event = context_.book.add(
+                {0, context_.machine.now(), "command", sentence(*one.row, one.caller, one.fields), data});
+            if (context_.settings.journal != nullptr)
+                context_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(one.safe));
             else
                 one.safe(event.number);
         }
@@ -168,14 +168,14 @@ class Panel::Inside {
     };
 
     Panel& panel_;
-    PanelContext desk_;
+    PanelContext context_;
     StatusWriter writer_;
     operate::JournalWriter logbook_;
     RecordLoss loss_;
     std::map<std::string_view, const OperationHandler*> doers_;
     std::vector<Taken> taken_;
     std::chrono::steady_clock::time_point shown_{}, looked_{};
-    std::uint64_t told_ = 0;
+    std::uint64_t reported_ = 0;
 };
 
 Panel::Panel(operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
@@ -194,13 +194,13 @@ void Panel::ask(const Caller& caller, std::string_view name, const json& fields,
                                        auth::name_of(caller.role))));
     if (const Result<void> good = check_fields(*row, fields); !good) return reply(error_answer(good.error()));
     if (row->external) {
-        const auto& handlers = inside_->desk().settings.external;
+        const auto& handlers = inside_->context().settings.external;
         const auto found = handlers.find(row->name);
         if (found == handlers.end())
             return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
         return reply(found->second(caller, fields));
     }
-    inside_->desk().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] {
+    inside_->context().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] {
         inside_->carry_out(*row, caller, fields, answer);
     });
 }
@@ -210,7 +210,7 @@ void Panel::stop(const Caller& caller) {
 }
 
 void Panel::left(std::string session) {
-    operate::Machine& machine = inside_->desk().machine;
+    operate::Machine& machine = inside_->context().machine;
     machine.post([&machine, session = std::move(session)] {
         machine.jogs().end_of(session);
         machine.service().end_of(session);
@@ -219,13 +219,13 @@ void Panel::left(std::string session) {
 
 void Panel::subscribe(std::vector<std::string> channels,
                       std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {
-    inside_->desk().machine.post([this, channels = std::move(channels), ready = std::move(ready)] {
-        ready(inside_->desk().channels.set_of(channels));
+    inside_->context().machine.post([this, channels = std::move(channels), ready = std::move(ready)] {
+        ready(inside_->context().channels.set_of(channels));
     });
 }
 
 void Panel::on_event(std::function<void(const Event&)> call) {
-    inside_->desk().book.listen(std::move(call));
+    inside_->context().book.listen(std::move(call));
 }
 
 const json& Panel::openapi() {

@@ -109,11 +109,11 @@ struct PanelContext {
 };
 
 /// Handler of a command or query; returns the answer's members.
-using HandlerFunction = Result<nlohmann::json> (*)(PanelContext& desk, const Caller& caller,
+using HandlerFunction = Result<nlohmann::json> (*)(PanelContext& context, const Caller& caller,
                                                    const nlohmann::json& fields);
 /// Handler that answers later.
 using Ready = std::function<void(Result<nlohmann::json>)>;
-using AsyncHandlerFunction = void (*)(PanelContext& desk, const Caller& caller, const nlohmann::json& fields,
+using AsyncHandlerFunction = void (*)(PanelContext& context, const Caller& caller, const nlohmann::json& fields,
                                       Ready ready);
 struct OperationHandler {
     std::string_view name;
@@ -134,6 +134,6 @@ Result<nlohmann::json> accepted(const Result<void>& result);
 double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
 /// Returns the axis letter in the field. Errors: invalid_input unless the rack has that axis.
-Result<char> axis_of(PanelContext& desk, const nlohmann::json& fields);
+Result<char> axis_of(PanelContext& context, const nlohmann::json& fields);
 
 }  // namespace motionrack::panel

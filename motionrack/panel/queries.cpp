@@ -13,24 +13,24 @@ using nlohmann::json;
 
 namespace {
 
-Result<json> channels_of(PanelContext& desk) {
+Result<json> channels_of(PanelContext& context) {
     json list = json::array();
-    for (const auto& [name, channel] : desk.channels.all())
+    for (const auto& [name, channel] : context.channels.all())
         list.push_back(
             {{"name", name}, {"unit", channel.unit}, {"text", channel.text}, {"looks", name_of(channel.looks)}});
     return json{{"channels", std::move(list)}};
 }
 
-Result<json> rack_of(PanelContext& desk) {
-    json out = desk.facts;
-    out["text"] = desk.settings.rack_text;
+Result<json> rack_of(PanelContext& context) {
+    json out = context.facts;
+    out["text"] = context.settings.rack_text;
     return out;
 }
 
-Result<json> card_of(PanelContext& desk, const json& fields) {
+Result<json> card_of(PanelContext& context, const json& fields) {
     MOTIONRACK_TRY(rack::Card * card,
-                   rack::card_named(desk.machine.rack(), fields.at("name").get_ref<const std::string&>()));
-    return card_now(desk.machine, *card);
+                   rack::card_named(context.machine.rack(), fields.at("name").get_ref<const std::string&>()));
+    return card_now(context.machine, *card);
 }
 
 /// Planned and actual path as JSON.
@@ -54,44 +54,46 @@ json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoin
 }
 
 /// Runs in the worker. `have`: number of the known plan; `since`: only later points of the actual path.
-void write_path(PanelContext& desk, const json& fields, Ready ready) {
+void write_path(PanelContext& context, const json& fields, Ready ready) {
     const Instant since = from_seconds(number_of(fields, "since", -1));
     std::vector<ActualPath::ActualPoint> driven;
-    for (const ActualPath::ActualPoint& point : desk.driven.points())
+    for (const ActualPath::ActualPoint& point : context.driven.points())
         if (point.at > since) driven.push_back(point);
-    const auto plan = desk.programs == static_cast<std::int64_t>(number_of(fields, "have", 0)) ? nullptr : desk.plan;
-    desk.run_async([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]()
-                       -> Result<json> { return path_json(plan.get(), driven, letters, number); },
-                   std::move(ready));
+    const auto plan =
+        context.programs == static_cast<std::int64_t>(number_of(fields, "have", 0)) ? nullptr : context.plan;
+    context.run_async(
+        [plan, driven = std::move(driven), letters = context.letters, number = context.plan ? context.programs : 0]()
+            -> Result<json> { return path_json(plan.get(), driven, letters, number); },
+        std::move(ready));
 }
 
 /// Waits until the worker has finished earlier work: the plan of a program that has just started.
-void path_of(PanelContext& desk, const json& fields, Ready ready) {
-    desk.run_async([]() -> Result<json> { return json(); },
-                   [&desk, fields, ready = std::move(ready)](Result<json> through) {
-                       if (!through) return ready(std::move(through));
-                       write_path(desk, fields, ready);
-                   });
+void path_of(PanelContext& context, const json& fields, Ready ready) {
+    context.run_async([]() -> Result<json> { return json(); },
+                      [&context, fields, ready = std::move(ready)](Result<json> through) {
+                          if (!through) return ready(std::move(through));
+                          write_path(context, fields, ready);
+                      });
 }
 
-Result<json> events_of(PanelContext& desk, const json& fields) {
+Result<json> events_of(PanelContext& context, const json& fields) {
     const auto since = static_cast<std::int64_t>(number_of(fields, "since", 0));
     const auto limit = static_cast<std::size_t>(number_of(fields, "limit", 200));
     json list = json::array();
     std::vector<const Event*> found;
-    for (const Event& event : desk.book.events())
+    for (const Event& event : context.book.events())
         if (event.number > since) found.push_back(&event);
     for (std::size_t i = found.size() - std::min(found.size(), limit); i < found.size(); ++i)
         list.push_back(to_json(*found[i]));
     return json{{"events", std::move(list)}};
 }
 
-void journal_of(PanelContext& desk, const json& fields, Ready ready) {
-    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
+void journal_of(PanelContext& context, const json& fields, Ready ready) {
+    if (context.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
     journal::JournalQuery question{static_cast<std::int64_t>(number_of(fields, "since", 0)), fields.value("kind", ""),
                                    static_cast<int>(number_of(fields, "limit", 100))};
-    desk.run_async(
-        [book = desk.settings.journal, question]() -> Result<json> {
+    context.run_async(
+        [book = context.settings.journal, question]() -> Result<json> {
             MOTIONRACK_TRY(const std::vector<journal::Entry> entries, book->read(question));
             json list = json::array();
             for (const journal::Entry& entry : entries)
@@ -107,65 +109,68 @@ void journal_of(PanelContext& desk, const json& fields, Ready ready) {
         std::move(ready));
 }
 
-void journal_check(PanelContext& desk, const Ready& ready) {
-    if (desk.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
-    desk.run_async(
-        [book = desk.settings.journal]() -> Result<json> {
+void journal_check(PanelContext& context, const Ready& ready) {
+    if (context.settings.journal == nullptr) return ready(fail(ErrorKind::refused, "The machine has no journal."));
+    context.run_async(
+        [book = context.settings.journal]() -> Result<json> {
             MOTIONRACK_TRY(const journal::ChainCheck check, book->check());
             return json{{"whole", check.problem.empty()}, {"entries", check.entries}, {"problem", check.problem}};
         },
         ready);
 }
 
-Result<json> control_of(PanelContext& desk) {
-    const auto holder = desk.lease.holder();
+Result<json> control_of(PanelContext& context) {
+    const auto holder = context.lease.holder();
     if (!holder) return json{{"holder", nullptr}};
     return json{{"holder", holder->user}, {"since", holder->since}, {"holder_session", session_mark(holder->session)}};
 }
 
-Result<json> homing_of(PanelContext& desk) {
-    const auto& homed = desk.machine.last_homing();
+Result<json> homing_of(PanelContext& context) {
+    const auto& homed = context.machine.last_homing();
     return json{{"homing", homed ? json::parse(rack::homing_json(*homed)) : json()}};
 }
 
 constexpr std::array looking = {
     OperationHandler{"status",
-                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
-                         const StatusWriter writer(desk.machine);
-                         return json{{"status", json::parse(writer.writer(desk)(desk.machine.status()))}};
+                     [](PanelContext& context, const Caller&, const json&) -> Result<json> {
+                         const StatusWriter writer(context.machine);
+                         return json{{"status", json::parse(writer.writer(context)(context.machine.status()))}};
                      }},
-    OperationHandler{"channels", [](PanelContext& desk, const Caller&, const json&) { return channels_of(desk); }},
-    OperationHandler{"rack", [](PanelContext& desk, const Caller&, const json&) { return rack_of(desk); }},
+    OperationHandler{"channels",
+                     [](PanelContext& context, const Caller&, const json&) { return channels_of(context); }},
+    OperationHandler{"rack", [](PanelContext& context, const Caller&, const json&) { return rack_of(context); }},
     OperationHandler{"card",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return card_of(desk, fields); }},
+                     [](PanelContext& context, const Caller&, const json& fields) { return card_of(context, fields); }},
     OperationHandler{"slopes",
-                     [](PanelContext& desk, const Caller&, const json& fields) {
-                         return slopes_now(desk.machine.rack(), fields.at("name").get<std::string>());
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return slopes_now(context.machine.rack(), fields.at("name").get<std::string>());
                      }},
-    OperationHandler{"frames", [](PanelContext& desk, const Caller&, const json&) { return frames_now(desk.machine); }},
+    OperationHandler{"frames",
+                     [](PanelContext& context, const Caller&, const json&) { return frames_now(context.machine); }},
     OperationHandler{"workpiece",
-                     [](PanelContext& desk, const Caller&, const json& fields) {
-                         return workpiece_now(desk.machine, fields.at("scanner").get<std::string>(),
+                     [](PanelContext& context, const Caller&, const json& fields) {
+                         return workpiece_now(context.machine, fields.at("scanner").get<std::string>(),
                                               static_cast<std::size_t>(number_of(fields, "points", 5000)));
                      }},
     OperationHandler{"path", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         path_of(desk, fields, std::move(ready));
+                     [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
+                         path_of(context, fields, std::move(ready));
                      }},
-    OperationHandler{"events",
-                     [](PanelContext& desk, const Caller&, const json& fields) { return events_of(desk, fields); }},
+    OperationHandler{
+        "events", [](PanelContext& context, const Caller&, const json& fields) { return events_of(context, fields); }},
     OperationHandler{"journal", nullptr,
-                     [](PanelContext& desk, const Caller&, const json& fields, Ready ready) {
-                         journal_of(desk, fields, std::move(ready));
+                     [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
+                         journal_of(context, fields, std::move(ready));
                      }},
-    OperationHandler{"journal_check", nullptr,
-                     [](PanelContext& desk, const Caller&, const json&, Ready ready) { journal_check(desk, ready); }},
+    OperationHandler{
+        "journal_check", nullptr,
+        [](PanelContext& context, const Caller&, const json&, Ready ready) { journal_check(context, ready); }},
     OperationHandler{"program",
-                     [](PanelContext& desk, const Caller&, const json&) -> Result<json> {
-                         return json{{"name", desk.machine.status().program}, {"text", desk.program}};
+                     [](PanelContext& context, const Caller&, const json&) -> Result<json> {
+                         return json{{"name", context.machine.status().program}, {"text", context.program}};
                      }},
-    OperationHandler{"homing", [](PanelContext& desk, const Caller&, const json&) { return homing_of(desk); }},
-    OperationHandler{"control", [](PanelContext& desk, const Caller&, const json&) { return control_of(desk); }},
+    OperationHandler{"homing", [](PanelContext& context, const Caller&, const json&) { return homing_of(context); }},
+    OperationHandler{"control", [](PanelContext& context, const Caller&, const json&) { return control_of(context); }},
 };
 
 }  // namespace

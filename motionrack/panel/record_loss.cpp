@@ -22,22 +22,22 @@ bool is_taken_without_record(const OperationSpec& row) {
 }  // namespace
 
 void RecordLoss::look() {
-    if (lost_ || desk_.settings.journal == nullptr) return;
-    const std::string failure = desk_.settings.journal->failure();
+    if (lost_ || context_.settings.journal == nullptr) return;
+    const std::string failure = context_.settings.journal->failure();
     if (failure.empty()) return;
     lost_ = true;
-    desk_.machine.forbid_starts(
+    context_.machine.forbid_starts(
         "journal", failure +
                        " The machine holds, and nothing is started. Stop it, remove the cause, and start the "
                        "program again; all positions are invalid then.");
-    rack::Rack& rack = desk_.machine.rack();
+    rack::Rack& rack = context_.machine.rack();
     for (const auto& card : rack.cards())
         if (rtc5::Card* marks = rack::rtc5_card_of(rack, card->name())) marks->engine().set_control_mode(0);
 }
 
 Result<void> RecordLoss::may(const OperationSpec& row) const {
     if (!lost_ || is_taken_without_record(row)) return {};
-    return desk_.machine.may_start(std::string(row.name).c_str());
+    return context_.machine.may_start(std::string(row.name).c_str());
 }
 
 Answer RecordLoss::answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept) {

@@ -7,7 +7,7 @@ namespace motionrack::panel {
 
 class RecordLoss {
   public:
-    explicit RecordLoss(PanelContext& desk) : desk_(desk) {}
+    explicit RecordLoss(PanelContext& context) : context_(context) {}
     /// Call every slice. On the first failure of the journal: holds the machine, raises its alarm, and prevents cards
     /// from starting lists by themselves.
     void look();
@@ -17,7 +17,7 @@ class RecordLoss {
     static Answer answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept);
 
   private:
-    PanelContext& desk_;
+    PanelContext& context_;
     bool lost_ = false;
 };
 

@@ -117,20 +117,20 @@ StatusWriter::StatusWriter(operate::Machine& machine) {
     facts_ = std::move(facts);
 }
 
-std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelContext& desk) const {
+std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelContext& context) const {
     auto noted = std::make_shared<Noted>();
     for (const Facts::Axis& axis : facts_->axes) {
         auto& leds = noted->leds.emplace_back();
         for (const Facts::Axis::Led& led : axis.leds)
-            leds.emplace_back(led.name, desk.machine.wires().get(led.wire).value_or(1 - led.lit) == led.lit);
+            leds.emplace_back(led.name, context.machine.wires().get(led.wire).value_or(1 - led.lit) == led.lit);
     }
-    noted->estop_pressed = desk.machine.wires().get("estop").value_or(1) == 0;
-    noted->holder = desk.lease.holder();
-    if (desk.settings.link) noted->link = desk.settings.link();
-    noted->clock = clock_of(desk.settings.pacer);
-    const operate::Status& now = desk.machine.status();
-    if (now.program_runs && desk.plan)
-        noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
+    noted->estop_pressed = context.machine.wires().get("estop").value_or(1) == 0;
+    noted->holder = context.lease.holder();
+    if (context.settings.link) noted->link = context.settings.link();
+    noted->clock = clock_of(context.settings.pacer);
+    const operate::Status& now = context.machine.status();
+    if (now.program_runs && context.plan)
+        noted->remaining_s = context.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
         const bool stands = operate::is_stationary(status.state);
         json axes = json::array();

@@ -14,7 +14,7 @@ class StatusWriter {
   public:
     explicit StatusWriter(operate::Machine& machine);
     /// Collects on the motion thread the data reserved to it; returns a function that creates the text in any thread.
-    std::function<std::string(const operate::Status&)> writer(PanelContext& desk) const;
+    std::function<std::string(const operate::Status&)> writer(PanelContext& context) const;
 
   private:
     struct Facts;

@@ -229,9 +229,9 @@ class WireResolver {
 
     /// Reports inputs wired to inputs, which nothing drives; a circle of inputs is reported once.
     void find_loops() {
-        std::set<std::string> told;
+        std::set<std::string> reported;
         for (const auto& [name, node] : inputs_) {
-            if (told.count(name) != 0) continue;
+            if (reported.count(name) != 0) continue;
             std::vector<std::string> way = {name};
             const TomlNode* at = node;
             while (at->text != name && way.size() < 16 && inputs_.count(at->text) != 0) {
@@ -239,7 +239,7 @@ class WireResolver {
                 at = inputs_.at(at->text);
             }
             if (at->text == name) {
-                told.insert(way.begin(), way.end());
+                reported.insert(way.begin(), way.end());
                 error(node->key_place, fmt::format("These wires form a loop: {} = {}; no output drives them.",
                                                    fmt::join(way, " = "), name));
             } else {

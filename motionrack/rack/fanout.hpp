@@ -19,20 +19,20 @@ class EdgeFanout final : public sim::EdgeListener {
     explicit EdgeFanout(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
 
     /// Call between runs. Removing a listener that was not added has no effect.
-    void add(sim::EdgeListener& ear) {
-        ears_.push_back(&ear);
-        if (ears_.size() == 1) attach_(this);
+    void add(sim::EdgeListener& listener) {
+        listeners_.push_back(&listener);
+        if (listeners_.size() == 1) attach_(this);
     }
-    void remove(sim::EdgeListener& ear) {
-        if (std::erase(ears_, &ear) > 0 && ears_.empty()) attach_(nullptr);
+    void remove(sim::EdgeListener& listener) {
+        if (std::erase(listeners_, &listener) > 0 && listeners_.empty()) attach_(nullptr);
     }
     void edges(const sim::EdgeBatch& batch) override {
-        for (sim::EdgeListener* ear : ears_) ear->edges(batch);
+        for (sim::EdgeListener* listener : listeners_) listener->edges(batch);
     }
 
   private:
     std::function<void(sim::EdgeListener*)> attach_;
-    std::vector<sim::EdgeListener*> ears_;
+    std::vector<sim::EdgeListener*> listeners_;
 };
 
 class WireFanout final : public sim::Kernel::WireObserver {

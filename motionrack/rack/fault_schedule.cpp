@@ -50,7 +50,7 @@ Result<std::unique_ptr<FaultSchedule>> FaultSchedule::create_timed(Rack& rack,
 Result<void> FaultSchedule::read_action(const std::string& text, std::string_view action, ScheduledFault& fault) {
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
-    if (desk_.knows(name)) {
+    if (context_.knows(name)) {
         const std::string_view value = equals == std::string_view::npos ? "1" : action.substr(equals + 1);
         fault.name = name;
         fault.value = number_of(value);
@@ -59,7 +59,7 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
                         fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
                                     "moved.",
                                     in_quotes(text), in_quotes(value)));
-        return desk_.check(name, fault.value);
+        return context_.check(name, fault.value);
     }
     const std::size_t dot = action.find('.');
     if (dot == std::string_view::npos)
@@ -71,8 +71,9 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
     fault.name = action.substr(dot + 1);
     const Result<void> known = check_fault(rack_, fault.name, fault.target);
     if (!known && known.error().kind == ErrorKind::invalid_input)
-        return fail(ErrorKind::invalid_input, fmt::format("The fault {}: {} {}", in_quotes(text),
-                                                          desk_.check(name, 1).error().message, known.error().message));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("The fault {}: {} {}", in_quotes(text), context_.check(name, 1).error().message,
+                                known.error().message));
     return known;
 }
 
@@ -90,8 +91,8 @@ void FaultSchedule::apply_due() {
     for (ScheduledFault& fault : faults_) {
         if (fault.done || fault.at > rack_.kernel().now()) continue;
         fault.done = true;
-        const Result<void> done =
-            fault.target.empty() ? desk_.force(fault.name, fault.value) : inject_fault(rack_, fault.name, fault.target);
+        const Result<void> done = fault.target.empty() ? context_.force(fault.name, fault.value)
+                                                       : inject_fault(rack_, fault.name, fault.target);
         if (!done) fault.refused = done.error().message;  // only the part itself knows its permitted values
     }
 }
@@ -107,7 +108,7 @@ std::vector<std::string> FaultSchedule::not_done() const {
 
 void FaultSchedule::copy_from(const FaultSchedule& other) {
     faults_ = other.faults_;
-    desk_.copy_from(other.desk_);
+    context_.copy_from(other.context_);
 }
 
 }  // namespace motionrack::rack

@@ -47,11 +47,11 @@ class FaultSchedule final : public sim::Device {
     void on_scheduled(Instant now) override;
 
   private:
-    explicit FaultSchedule(Rack& rack) : rack_(rack), desk_(rack) {}
+    explicit FaultSchedule(Rack& rack) : rack_(rack), context_(rack) {}
     Result<void> read_action(const std::string& text, std::string_view action, ScheduledFault& fault);
 
     Rack& rack_;
-    WireAccess desk_;
+    WireAccess context_;
     sim::DeviceId id_{};
     std::vector<ScheduledFault> faults_;  // by time
 };

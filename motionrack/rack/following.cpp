@@ -154,7 +154,7 @@ std::vector<FollowingWatch::Warning> FollowingWatch::take_warnings() {
     std::vector<Warning> out;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         ErrorState& own = state_.axes[i];
-        if (own.worst == 0 || own.excess != 0 || std::exchange(own.told, 1) != 0) continue;
+        if (own.worst == 0 || own.excess != 0 || std::exchange(own.reported, 1) != 0) continue;
         const RackAxis& axis = rack_.axes()[watched_[i].axis].config;
         out.push_back({watched_[i].axis, own.warned_at,
                        fmt::format("the following error of {} was {:.3f} {}, above the warning limit of {:g} {}; check "

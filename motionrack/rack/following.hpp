@@ -76,7 +76,7 @@ class FollowingWatch final : public sim::Device {
         double velocity = 0;       ///< model velocity of a servo
         double behind = 0;         ///< model following error of a servo
         Instant looked{}, warned_at{};
-        std::int64_t told = 0;
+        std::int64_t reported = 0;
     };
     struct State {
         std::int64_t on = 0;

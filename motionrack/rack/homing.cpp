@@ -46,7 +46,7 @@ class Homing {
         const bool armed = latch.armed();
         if (!armed) latch.arm();
         home_all();
-        tell_stop();
+        report_stop();
         if (!armed) latch.disarm();
         gather();
         return std::move(out_);
@@ -70,7 +70,7 @@ class Homing {
     }
 
     /// Adds the reason for a stop from the latch, since the axes know only of the stop request.
-    void tell_stop() {
+    void report_stop() {
         StopLatch& latch = rack_.stop_latch();
         latch.settle();
         if (!latch.latched() || latch.is_ordered()) return;

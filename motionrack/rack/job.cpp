@@ -200,7 +200,7 @@ JobOutcome Job::run() {
     const std::uint64_t events_before = rack_.kernel().events();
     rack_.stop_latch().arm();
     out.ended = drive(**axes, out);
-    tell_stop(out);
+    report_stop(out);
     if (!out.ended && out.ended.error().kind == ErrorKind::machine) {
         out.ended.error().file = settings_.program_name;
         rack_.axes().front().card->host().pass(shows_after);
@@ -272,7 +272,7 @@ HomingOutcome Job::home(const HomingSettings& settings) {
 }
 
 /// If the axes report only a stop request, adds the reason from the latch.
-void Job::tell_stop(JobOutcome& out) {
+void Job::report_stop(JobOutcome& out) {
     StopLatch& latch = rack_.stop_latch();
     const bool failed = !out.ended && out.ended.error().kind == ErrorKind::machine;
     latch.settle(failed);
@@ -337,13 +337,14 @@ void Job::collect_breaches(JobOutcome& out) {
 
 void Job::collect_conditions(JobOutcome& out) {
     const sim::Kernel& kernel = rack_.kernel();
-    for (const sim::Condition& condition : kernel.conditions(told_))
+    for (const sim::Condition& condition : kernel.conditions(reported_))
         if (condition.at >= given_) out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
     for (std::string& text : rack_.stop_latch().contacts().take_alarms())
         out.warnings.push_back({rack_.kernel().now(), 0, std::move(text)});
-    if (const std::uint64_t dropped = kernel.dropped_conditions(); dropped > told_)
-        out.warnings.push_back({kernel.now(), 0, fmt::format("{} earlier conditions were not kept", dropped - told_)});
-    told_ = kernel.dropped_conditions() + kernel.conditions().size();
+    if (const std::uint64_t dropped = kernel.dropped_conditions(); dropped > reported_)
+        out.warnings.push_back(
+            {kernel.now(), 0, fmt::format("{} earlier conditions were not kept", dropped - reported_)});
+    reported_ = kernel.dropped_conditions() + kernel.conditions().size();
     for (JobWarning& warning : out.warnings) {
         if (warning.line != 0) continue;
         for (const ExecutedMove& block : monitor_->blocks())

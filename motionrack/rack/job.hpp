@@ -110,7 +110,7 @@ class Job {
     /// Takes over the controller's axis positions from another job, whose rack was copied into this job's rack.
     void copy_from(const Job& other) {
         reference_.copy_from(other.reference_);
-        told_ = other.told_;
+        reported_ = other.reported_;
     }
     const Monitor& monitor() const { return *monitor_; }
     /// Planned moves as they were submitted, at most `max_planned`.
@@ -143,14 +143,14 @@ class Job {
     void tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const;
     void collect_breaches(JobOutcome& out);
     void collect_conditions(JobOutcome& out);
-    void tell_stop(JobOutcome& out);
+    void report_stop(JobOutcome& out);
 
     Rack& rack_;
     JobSettings settings_;
     PositionReference reference_;
     control::Point start_ = {};   ///< start of the program
     std::vector<Before> before_;  ///< one per axis
-    std::uint64_t told_ = 0;      ///< kernel conditions reported before this program
+    std::uint64_t reported_ = 0;  ///< kernel conditions reported before this program
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;
     Instant given_{};  ///< instant before the setup of its axes

@@ -87,13 +87,13 @@ void JobRecorder::add_axes() {
         const std::string folder = "axes/" + lower_letter(config.letter);
         if (!axis.servo) {
             const std::uint32_t steps = add({name + ".steps", folder + "/steps", trace::SignalKind::steps, "step", 0});
-            ears_.emplace_back(axis.pulse_ears.get(), std::make_unique<Observer>(*this, steps, false));
+            listeners_.emplace_back(axis.pulse_listeners.get(), std::make_unique<Observer>(*this, steps, false));
         }
         if (axis.machine->has_encoder()) {
             const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
             const std::uint32_t counts =
                 add({name + ".encoder", folder + "/encoder", trace::SignalKind::counts, "count", count});
-            ears_.emplace_back(axis.encoder_ears.get(), std::make_unique<Observer>(*this, counts, true));
+            listeners_.emplace_back(axis.encoder_listeners.get(), std::make_unique<Observer>(*this, counts, true));
         }
     }
     sampled_.resize(head_.axes.size());
@@ -123,16 +123,16 @@ void JobRecorder::add_counters() {
 // ---- recording
 
 void JobRecorder::listen() {
-    for (const auto& [fork, ear] : ears_) fork->add(*ear);
-    rack_.wire_ears().add(*this);
+    for (const auto& [fork, listener] : listeners_) fork->add(*listener);
+    rack_.wire_listeners().add(*this);
     listening_ = true;
 }
 
 void JobRecorder::stop_listening() {
     if (!listening_) return;
     listening_ = false;
-    for (const auto& [fork, ear] : ears_) fork->remove(*ear);
-    rack_.wire_ears().remove(*this);
+    for (const auto& [fork, listener] : listeners_) fork->remove(*listener);
+    rack_.wire_listeners().remove(*this);
     if (rack_.started()) rack_.kernel().schedule(id_, never);
 }
 

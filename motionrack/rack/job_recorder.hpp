@@ -67,7 +67,7 @@ class JobRecorder final : public sim::Device, public sim::Kernel::WireObserver {
     trace::RecordingHead head_;
     sim::DeviceId id_{};
     trace::RecordingWriter writer_;
-    std::vector<std::pair<EdgeFanout*, std::unique_ptr<Observer>>> ears_;
+    std::vector<std::pair<EdgeFanout*, std::unique_ptr<Observer>>> listeners_;
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<Counter> counters_;
     std::vector<JobEvent> buffer_;

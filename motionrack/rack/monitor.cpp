@@ -87,12 +87,12 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
       period_(period),
       max_samples_(max_samples),
       seen_(axes_, period, max_samples) {
-    ears_.reserve(axes_.size());  // listeners keep their addresses
+    listeners_.reserve(axes_.size());  // listeners keep their addresses
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        ears_.emplace_back(axes_[i].jump_hz, period);
-        ears_[i].full_step = axes_[i].full_step;
-        ears_[i].accel_hz = axes_[i].accel_hz;
-        axes_[i].commanded->add_listener(ears_[i]);
+        listeners_.emplace_back(axes_[i].jump_hz, period);
+        listeners_[i].full_step = axes_[i].full_step;
+        listeners_[i].accel_hz = axes_[i].accel_hz;
+        axes_[i].commanded->add_listener(listeners_[i]);
     }
 }
 
@@ -101,7 +101,7 @@ void Monitor::restart(std::vector<WatchedAxis> axes) {
     seen_ = Seen(axes_, period_, max_samples_);
     const Instant now = kernel_.now();
     for (std::size_t i = 0; i < axes_.size(); ++i)
-        ears_[i].restart(PeakVelocity(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
+        listeners_[i].restart(PeakVelocity(axes_[i].jump_hz, period_), axes_[i].commanded->rate(now), now);
 }
 
 // ---- in virtual time
@@ -119,18 +119,18 @@ void Monitor::finish() {
     drain();
     if (seen_.block_open) close_block(kernel_.now());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        ears_[i].settle();
+        listeners_[i].settle();
         AxisStatistics& out = seen_.statistics[static_cast<std::size_t>(axes_[i].index)];
-        ears_[i].velocity.finish();
-        out.peak_velocity = ears_[i].velocity.hz() / axes_[i].pulses_per_unit;
-        out.peak_velocity_step = ears_[i].jump / axes_[i].pulses_per_unit;
+        listeners_[i].velocity.finish();
+        out.peak_velocity = listeners_[i].velocity.hz() / axes_[i].pulses_per_unit;
+        out.peak_velocity_step = listeners_[i].jump / axes_[i].pulses_per_unit;
     }
 }
 
 void Monitor::on_scheduled(Instant now) {
     take(now);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-        ears_[i].velocity.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
+        listeners_[i].velocity.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
     if (running_) kernel_.schedule(id_, now + period_);
 }
 
@@ -146,7 +146,7 @@ void Monitor::take(Instant now) {
         raw.commanded[i] = axes_[i].commanded->count(now);
         raw.rate[i] = axes_[i].commanded->rate(now);
         if (axes_[i].servo != nullptr) raw.volts[i] = static_cast<float>(axes_[i].servo->volts());
-        raw.jumps[i] = ears_[i].jumps;
+        raw.jumps[i] = listeners_[i].jumps;
     }
 }
 

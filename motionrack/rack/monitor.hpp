@@ -200,7 +200,7 @@ class Monitor final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     std::vector<WatchedAxis> axes_;
-    std::vector<RateObserver> ears_;
+    std::vector<RateObserver> listeners_;
     Duration period_;
     std::size_t max_samples_;
     std::vector<RawSample> ring_;

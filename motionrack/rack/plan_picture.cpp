@@ -70,9 +70,9 @@ class Looks {
   private:
     void drive(std::span<const control::Move> moves, const control::Point& start,
                control::OfflineTrajectory::OnSection on_stretch) const {
-        control::OfflineTrajectory ride(limits_, start, std::move(on_stretch));
-        for (const control::Move& move : moves) ride.push(move);
-        ride.flush();
+        control::OfflineTrajectory offline_trajectory(limits_, start, std::move(on_stretch));
+        for (const control::Move& move : moves) offline_trajectory.push(move);
+        offline_trajectory.flush();
     }
 
     void look_at(const control::PathSection& stretch) {

@@ -10,8 +10,8 @@ void InvertedPosition::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int InvertedPosition::add_listener(sim::PositionListener& listener) {
-    ears_.push_back(std::make_unique<Observer>(listener));
-    return of_.add_listener(*ears_.back());
+    listeners_.push_back(std::make_unique<Observer>(listener));
+    return of_.add_listener(*listeners_.back());
 }
 
 void InvertedPosition::set_edge_listener(sim::EdgeListener* listener) {

@@ -50,7 +50,7 @@ class InvertedPosition final : public sim::PositionFunction, private sim::EdgeLi
     void edges(const sim::EdgeBatch& batch) override;
 
     sim::PositionFunction& of_;
-    std::vector<std::unique_ptr<Observer>> ears_;
+    std::vector<std::unique_ptr<Observer>> listeners_;
     sim::EdgeListener* edge_listener_ = nullptr;
     sim::EdgeBatch mirrored_{};
 };

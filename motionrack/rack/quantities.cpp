@@ -66,18 +66,18 @@ std::string said_of(const Part& part) {
 // ---- iteration over parts
 
 template <class Told>
-void each_part(Rack& rack, const Told& told) {
-    for (RunningAxis& axis : rack.axes()) told(axis);
-    for (RunningStage& stage : rack.stages()) told(stage);
-    for (RunningConveyor& track : rack.tracks()) told(track);
-    for (RunningScanner& scanner : rack.scanners()) told(scanner);
+void each_part(Rack& rack, const Told& reported) {
+    for (RunningAxis& axis : rack.axes()) reported(axis);
+    for (RunningStage& stage : rack.stages()) reported(stage);
+    for (RunningConveyor& track : rack.tracks()) reported(track);
+    for (RunningScanner& scanner : rack.scanners()) reported(scanner);
 }
 
 /// Lists the quantities of this part, with names in its own unit.
 template <class Part, class Told>
-void each_quantity(const Part& part, const Told& told) {
+void each_quantity(const Part& part, const Told& reported) {
     for (const QuantityRow<Part>& row : rows_of(part))
-        if (row.present == nullptr || row.present(part)) told(with_unit(row.name, unit_of(part)), row);
+        if (row.present == nullptr || row.present(part)) reported(with_unit(row.name, unit_of(part)), row);
 }
 
 template <class Part>

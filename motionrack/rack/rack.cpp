@@ -24,7 +24,7 @@ Rack::Rack(const RackConfig& config) : config_(config) {
 }
 
 Rack::~Rack() {
-    if (started_) tell_history(kernel_);
+    if (started_) report_history(kernel_);
 }
 
 Card* Rack::card(std::string_view name) {
@@ -118,10 +118,12 @@ void Rack::build_axis(const RackAxis& axis) {
         running.servo =
             std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
     running.machine = std::make_unique<parts::AxisMechanics>(kernel_, name, settings);
-    running.pulse_ears = std::make_unique<EdgeFanout>(
-        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
-    running.encoder_ears = std::make_unique<EdgeFanout>(
-        [machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().set_edge_listener(ear); });
+    running.pulse_listeners = std::make_unique<EdgeFanout>(
+        [machine = running.machine.get()](sim::EdgeListener* listener) { machine->listen_pulse_edges(listener); });
+    running.encoder_listeners =
+        std::make_unique<EdgeFanout>([machine = running.machine.get()](sim::EdgeListener* listener) {
+            machine->encoder().set_edge_listener(listener);
+        });
     axes_.push_back(std::move(running));
 }
 

@@ -45,8 +45,8 @@ struct RunningAxis {
     std::unique_ptr<parts::AxisMechanics> machine;
     std::unique_ptr<parts::ReferenceCam> cam;   ///< may be nullptr
     std::unique_ptr<parts::LineEncoder> lines;  ///< encoder tracks as wires, for cards that need them; may be nullptr
-    std::unique_ptr<EdgeFanout> pulse_ears,
-        encoder_ears;  ///< listeners to the edges of the card's pulses and of the encoder
+    std::unique_ptr<EdgeFanout> pulse_listeners,
+        encoder_listeners;  ///< listeners to the edges of the card's pulses and of the encoder
 
     /// Source of the machine's motion: the card's pulses or the servo.
     sim::PositionFunction& turned_by() const {
@@ -86,7 +86,7 @@ class Rack {
     StopLatch& stop_latch() { return *stop_latch_; }
     sim::InputLog& input_log() { return log_; }
     /// Listeners to wire changes.
-    WireFanout& wire_ears() { return wire_ears_; }
+    WireFanout& wire_listeners() { return wire_listeners_; }
     /// Copies the state of another rack of the same config. Both must be started and between runs.
     void copy_from(Rack& other);
 
@@ -125,7 +125,7 @@ class Rack {
 
     RackConfig config_;
     sim::Kernel kernel_;
-    WireFanout wire_ears_{kernel_};
+    WireFanout wire_listeners_{kernel_};
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;

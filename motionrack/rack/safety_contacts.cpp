@@ -39,7 +39,7 @@ void SafetyContacts::on_wire(int pin, int changed, Instant now) {
     }
     const bool alike = level(0) == level(1);
     drive();
-    if (alike) state_.differs = state_.told = 0;
+    if (alike) state_.differs = state_.reported = 0;
     kernel_.schedule(id_, alike ? never : later(now, from_seconds(settings_.estop_discrepancy_ms * 1e-3)));
 }
 
@@ -51,7 +51,7 @@ void SafetyContacts::on_scheduled(Instant now) {
 }
 
 std::vector<std::string> SafetyContacts::take_alarms() {
-    if (state_.differs == 0 || std::exchange(state_.told, 1) != 0) return {};
+    if (state_.differs == 0 || std::exchange(state_.reported, 1) != 0) return {};
     return {fmt::format(
         "The two channels of the emergency stop have differed for {:g} ms at {:.3f} s: estop{} is open, "
         "estop{} closed. No reset is accepted until both are equal; check both contacts and their wires.",

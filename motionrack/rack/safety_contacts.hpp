@@ -46,7 +46,7 @@ class SafetyContacts final : public sim::Device {
     static constexpr int door_pin = 2;
     struct State {
         Instant differs_at{}, door_opened{};
-        std::int32_t differs = 0, told = 0, pressed = 0, unused = 0;
+        std::int32_t differs = 0, reported = 0, pressed = 0, unused = 0;
     };
     bool has_channels() const { return channels_[0] != sim::WireId::none; }
     void drive();

@@ -14,7 +14,7 @@
 namespace motionrack::rack {
 
 Session::Session(const RackConfig& config, Programs programs)
-    : rack_(config), job_(make_job(programs)), tap_(std::make_unique<WireTap>(rack_.kernel())), desk_(rack_) {
+    : rack_(config), job_(make_job(programs)), tap_(std::make_unique<WireTap>(rack_.kernel())), context_(rack_) {
     rack_.input_log().keep_no_more();
     rack_.start();
 }
@@ -66,7 +66,7 @@ void Session::run_to(Instant until) {
         const sim::RunEnd end = rack_.kernel().run_until(
             std::min(until, next_look_), on_condition_ ? sim::RunBreak::conditions : sim::RunBreak::none);
         if (end == sim::RunEnd::broken && recorder_) recorder_->drain_settled();
-        tell_conditions();
+        report_conditions();
         if (end == sim::RunEnd::reached && now() >= until) break;
     }
     look();
@@ -85,7 +85,7 @@ void Session::look() {
 void Session::between() {
     look();
     if (recorder_) recorder_->drain_settled();
-    tell_conditions();
+    report_conditions();
 }
 
 // ---- the bus
@@ -96,7 +96,7 @@ Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
     look();
-    tell_conditions();
+    report_conditions();
     return value;
 }
 
@@ -106,7 +106,7 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     on->bus_write(bits, address, value);
     look();
-    tell_conditions();
+    report_conditions();
     return {};
 }
 
@@ -138,19 +138,19 @@ Result<double> Session::part(std::string_view part_dot_quantity) {
 
 Result<void> Session::set_part(std::string_view part_dot_quantity, double value) {
     Result<void> done = set_quantity(rack_, part_dot_quantity, value);
-    tell_conditions();
+    report_conditions();
     return done;
 }
 
 Result<void> Session::set_wire(std::string_view name, double value) {
-    Result<void> done = desk_.force(name, value);
-    tell_conditions();
+    Result<void> done = context_.force(name, value);
+    report_conditions();
     return done;
 }
 
 Result<void> Session::fault(std::string_view fault, std::string_view target) {
     Result<void> done = inject_fault(rack_, fault, target);
-    tell_conditions();
+    report_conditions();
     return done;
 }
 
@@ -158,7 +158,7 @@ Result<std::unique_ptr<Session>> Session::copy() {
     MOTIONRACK_CHECK(check_free());
     std::unique_ptr<Session> out(new Session(rack_.config(), job_ ? Programs::yes : Programs::no));
     out->rack_.copy_from(rack_);
-    out->desk_.copy_from(desk_);
+    out->context_.copy_from(context_);
     if (job_) out->job_->copy_from(*job_);
     out->trace_unit_ = trace_unit_;
     return out;
@@ -176,19 +176,19 @@ std::vector<ReportedCondition> Session::conditions(std::uint64_t since) {
 }
 
 void Session::on_condition(std::function<void(const ReportedCondition&)> call) {
-    if (!on_condition_) told_ = condition_count();
+    if (!on_condition_) reported_ = condition_count();
     on_condition_ = std::move(call);
 }
 
 /// The call-back may cause further conditions, which it receives afterwards.
-void Session::tell_conditions() {
+void Session::report_conditions() {
     if (!on_condition_ || telling_) return;
     const RaisedFlag telling(telling_);
     while (on_condition_) {
-        const std::vector<ReportedCondition> news = conditions(told_);
-        if (news.empty()) break;
-        for (const ReportedCondition& one : news) {
-            told_ = one.number;
+        const std::vector<ReportedCondition> changed = conditions(reported_);
+        if (changed.empty()) break;
+        for (const ReportedCondition& one : changed) {
+            reported_ = one.number;
             const auto call = on_condition_;  // it may replace or remove itself
             if (call) call(one);
         }

@@ -84,7 +84,7 @@ class Session {
 
     // ---- wires and parts
     /// See WireAccess.
-    Result<double> wire(std::string_view name) const { return desk_.get(name); }
+    Result<double> wire(std::string_view name) const { return context_.get(name); }
     Result<void> set_wire(std::string_view name, double value);
     /// See quantities.hpp.
     Result<double> part(std::string_view part_dot_quantity);
@@ -146,7 +146,7 @@ class Session {
     void run_to(Instant until);
     void look();
     void between();
-    void tell_conditions();
+    void report_conditions();
     std::uint64_t condition_count() const;
     Result<control::gcode::Settings> read_program(const ProgramRequest& request, std::string& name);
     Result<void> drive_program(const ProgramRequest& request, ProgramReport& report);
@@ -157,11 +157,11 @@ class Session {
     std::atomic<bool> stop_{false};
     std::function<bool(const JobProgress&)> progress_;
     std::function<void(const ReportedCondition&)> on_condition_;
-    std::uint64_t told_ = 0;  // conditions reported
-    bool telling_ = false;    // the call-back is running
-    bool driving_ = false;    // a program or homing is running
+    std::uint64_t reported_ = 0;  // conditions reported
+    bool telling_ = false;        // the call-back is running
+    bool driving_ = false;        // a program or homing is running
     std::unique_ptr<WireTap> tap_;
-    WireAccess desk_;
+    WireAccess context_;
     std::unique_ptr<WaveRecorder> recorder_;
     Duration trace_unit_{0};
     Instant next_look_ = never;  // next sampling of the registers by the recorder

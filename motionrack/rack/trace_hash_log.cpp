@@ -6,7 +6,7 @@
 
 namespace motionrack::rack {
 
-void tell_history(const sim::Kernel& kernel) noexcept {
+void report_history(const sim::Kernel& kernel) noexcept {
     const char* const path = std::getenv(trace_hash_variable);
     if (path == nullptr || *path == '\0') return;
     std::FILE* const file = std::fopen(path, "a");

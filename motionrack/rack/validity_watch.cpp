@@ -21,7 +21,7 @@ void ValidityWatch::begin(std::size_t axis, const Mark& from) {
     AxisWatch& one = watched_[axis];
     one.from = from;
     one.counted_wrongly = counted_wrongly(axis);
-    one.lost = one.told_counts = false;
+    one.lost = one.reported_counts = false;
     rack_.stop_latch().following().begin(axis);
     std::erase_if(early_, [&](const ValidityFinding& found) { return found.axis == axis; });
     for (const sim::Condition& condition : rack_.kernel().conditions()) look_for_lost(axis, condition, early_);
@@ -77,7 +77,7 @@ void ValidityWatch::compare(std::size_t axis, std::vector<ValidityFinding>& out)
         lose(axis, now,
              fmt::format("the motor of axis {} did not follow {} pulses; home it again", letter, std::abs(lost)), out);
     const auto off = static_cast<std::int32_t>(counted_wrongly(axis) - one.counted_wrongly);  // counters have 32 bits
-    if (std::abs(off) <= 1 || std::exchange(one.told_counts, true)) return;
+    if (std::abs(off) <= 1 || std::exchange(one.reported_counts, true)) return;
     out.push_back(
         {axis, now,
          fmt::format(

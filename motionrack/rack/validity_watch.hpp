@@ -54,7 +54,7 @@ class ValidityWatch {
         Mark from{Instant{-1}};
         std::int64_t counted_wrongly = 0;  ///< count error at the start
         bool counted = false;              ///< the card counts the encoder separately from the pulses
-        bool lost = false, told_counts = false;
+        bool lost = false, reported_counts = false;
     };
     bool is_counted(std::size_t axis) const;
     std::int64_t lost_pulses(std::size_t axis) const;

@@ -38,9 +38,9 @@ constexpr Duration direction_lead = nanoseconds(250);
 
 }  // namespace
 
-class WaveRecorder::StepEar final : public sim::EdgeListener {
+class WaveRecorder::StepListener final : public sim::EdgeListener {
   public:
-    StepEar(WaveRecorder& recorder, std::size_t step, std::size_t direction)
+    StepListener(WaveRecorder& recorder, std::size_t step, std::size_t direction)
         : recorder_(recorder), step_(step), direction_(direction) {}
 
     void edges(const sim::EdgeBatch& batch) override {
@@ -72,9 +72,9 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
     bool high_ = false;
 };
 
-class WaveRecorder::LineEar final : public sim::EdgeListener {
+class WaveRecorder::LineListener final : public sim::EdgeListener {
   public:
-    LineEar(WaveRecorder& recorder, std::size_t a, std::size_t b) : recorder_(recorder), a_(a), b_(b) {}
+    LineListener(WaveRecorder& recorder, std::size_t a, std::size_t b) : recorder_(recorder), a_(a), b_(b) {}
 
     void edges(const sim::EdgeBatch& batch) override {
         std::int64_t count = batch.first_count;
@@ -184,17 +184,17 @@ void WaveRecorder::choose_axes() {
         const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {
             const std::size_t step = add({name, "step"}), direction = add({name, "dir", false, 1, 1});
-            steps_.push_back(std::make_unique<StepEar>(*this, step, direction));
-            heard_.emplace_back(axis.pulse_ears.get(), steps_.back().get());
+            steps_.push_back(std::make_unique<StepListener>(*this, step, direction));
+            heard_.emplace_back(axis.pulse_listeners.get(), steps_.back().get());
         }
         if (lines) {
             const parts::QuadratureLevels now = machine.encoder_lines(rack_.kernel().now());
             const std::size_t a = add({name, "enc_a", false, 1, now.a != 0}),
                               b = add({name, "enc_b", false, 1, now.b != 0});
-            lines_.push_back(std::make_unique<LineEar>(*this, a, b));
+            lines_.push_back(std::make_unique<LineListener>(*this, a, b));
             const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
             lag_ = std::max(lag_, (counts + 1) * recorded_within);
-            heard_.emplace_back(axis.encoder_ears.get(), lines_.back().get());
+            heard_.emplace_back(axis.encoder_listeners.get(), lines_.back().get());
         }
     }
 }
@@ -274,7 +274,7 @@ void WaveRecorder::drain_settled() {
 
 void WaveRecorder::write_before(Instant end) {
     const Instant now = rack_.kernel().now();
-    for (const auto& ear : steps_) ear->settle(now);
+    for (const auto& listener : steps_) listener->settle(now);
     std::stable_sort(buffer_.begin(), buffer_.end(), [](const WaveEvent& a, const WaveEvent& b) {
         return a.at != b.at ? a.at < b.at : a.place < b.place;
     });
@@ -290,18 +290,18 @@ void WaveRecorder::write_before(Instant end) {
 
 /// Parts of the rack store their listeners, so this follows everything that can fail.
 void WaveRecorder::listen() {
-    for (const auto& [fork, ear] : heard_) fork->add(*ear);
+    for (const auto& [fork, listener] : heard_) fork->add(*listener);
     recording_ = true;
     for (const sim::WireId wire : followed_) tap_->follow(wire, true);
-    rack_.wire_ears().add(*this);
+    rack_.wire_listeners().add(*this);
 }
 
 void WaveRecorder::stop_listening() {
-    for (const auto& [fork, ear] : heard_) fork->remove(*ear);
+    for (const auto& [fork, listener] : heard_) fork->remove(*listener);
     heard_.clear();
     if (!recording_) return;
     recording_ = false;
-    rack_.wire_ears().remove(*this);
+    rack_.wire_listeners().remove(*this);
     if (is_device_) rack_.kernel().schedule(id_, never);
     for (const sim::WireId wire : followed_) tap_->follow(wire, false);
 }

@@ -93,9 +93,9 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
         return wires_begin_ <= signal && signal < wires_end_ ? 0 : static_cast<std::uint32_t>(signal + 1);
     }
     /// Listens to the pulses of one axis.
-    class StepEar;
+    class StepListener;
     /// Listens to the encoder of one axis.
-    class LineEar;
+    class LineListener;
     /// LP or EP of a channel.
     struct RecordedCounter {
         Card* card = nullptr;
@@ -136,8 +136,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::unique_ptr<WaveSink> sink_;
     std::size_t wires_begin_ = 0, wires_end_ = 0;  // range of the signals that are kernel wires
     std::vector<std::int64_t> wire_signals_;       // signal of each kernel wire, -1: not recorded
-    std::vector<std::unique_ptr<StepEar>> steps_;
-    std::vector<std::unique_ptr<LineEar>> lines_;
+    std::vector<std::unique_ptr<StepListener>> steps_;
+    std::vector<std::unique_ptr<LineListener>> lines_;
     std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
     std::vector<sim::WireId> followed_;
     std::vector<RecordedCounter> counters_;

@@ -149,7 +149,7 @@ class Preparation {
     }
 
     void tell(TextPosition place, const std::string& message) {
-        if (told_.insert({place.line, place.column, message}).second) problems_.error(place, message);
+        if (reported_.insert({place.line, place.column, message}).second) problems_.error(place, message);
     }
 
     // ---- programs
@@ -176,7 +176,7 @@ class Preparation {
     control::gcode::Settings reading_;
     std::vector<Error> others_, warnings_;             // of other files
     std::set<std::string> racks_, programs_, faults_;  // already checked
-    std::set<std::tuple<int, int, std::string>> told_;
+    std::set<std::tuple<int, int, std::string>> reported_;
 };
 
 SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files) {

@@ -161,13 +161,13 @@ void CsvWriter::write_out() {
 Result<void> CsvWriter::flush() {
     MOTIONRACK_ASSERT(fields_ == 0);
     write_out();
-    return file_.told("CSV");
+    return file_.reported("CSV");
 }
 
 Result<void> CsvWriter::close() {
     write_out();
     (void)file_.commit();
-    return file_.told("CSV");
+    return file_.reported("CSV");
 }
 
 Result<void> write_csv(const ReportData& data, const std::string& path) {

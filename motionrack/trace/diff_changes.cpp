@@ -70,7 +70,7 @@ class Comparison {
                 break;
             }
         }
-        tell_missing(diff);
+        report_missing(diff);
         return {};
     }
 
@@ -83,7 +83,7 @@ class Comparison {
     }
 
     /// Reports signals that only one file has; these are not signal differences.
-    void tell_missing(Diff& diff) {
+    void report_missing(Diff& diff) {
         for (const std::size_t signal : a_.source->declared()) a_.known[signal] = true;
         for (const std::size_t signal : b_.source->declared()) b_.known[signal] = true;
         std::vector<std::string> missing;

@@ -42,11 +42,12 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
     const auto& in_b = b.inputs();
     for (std::size_t i = 0; i < std::max(in_a.size(), in_b.size()); ++i) {
         if (i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]) continue;
-        const auto told = [i](const std::vector<RecordedInput>& all) {
+        const auto reported = [i](const std::vector<RecordedInput>& all) {
             return i < all.size() ? fmt::format("{} at {:.7f} s", all[i].text, to_seconds(all[i].at))
                                   : std::string("none");
         };
-        diff.made_of.push_back(fmt::format("input {} from outside differs: {} | {}", i + 1, told(in_a), told(in_b)));
+        diff.made_of.push_back(
+            fmt::format("input {} from outside differs: {} | {}", i + 1, reported(in_a), reported(in_b)));
         break;
     }
     if (x.version != y.version)

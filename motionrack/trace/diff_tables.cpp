@@ -70,8 +70,8 @@ void compare_rows(std::vector<Column>& columns, const std::vector<std::string>& 
 }
 
 /// Reports that the longer table continues with this row.
-void tell_rest(const std::vector<Column>& columns, const std::vector<std::string>& row, bool of_a, std::uint64_t rows,
-               Diff& diff) {
+void report_rest(const std::vector<Column>& columns, const std::vector<std::string>& row, bool of_a, std::uint64_t rows,
+                 Diff& diff) {
     std::vector<Column> own = columns;
     if (!of_a)
         for (Column& column : own) column.a = column.b;
@@ -93,7 +93,7 @@ Result<Diff> diff_tables(const std::string& path_a, const std::string& path_b, c
         MOTIONRACK_TRY(const bool more_a, a.next(row_a));
         MOTIONRACK_TRY(const bool more_b, b.next(row_b));
         if (more_a && more_b) compare_rows(columns, row_a, row_b, diff);
-        if (more_a != more_b) tell_rest(columns, more_a ? row_a : row_b, more_a, rows, diff);
+        if (more_a != more_b) report_rest(columns, more_a ? row_a : row_b, more_a, rows, diff);
         if (!more_a || !more_b) break;
         if (rows % rows_between_looks != 0) continue;
         if (settings.progress) settings.progress(a.part());

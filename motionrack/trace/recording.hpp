@@ -122,7 +122,7 @@ class RecordingWriter {
   private:
     struct Signal;
     struct Samples;
-    void tell_axes(const RecordingHead& head);
+    void write_axes(const RecordingHead& head);
     void make_signals(const RecordingHead& head);
     void make_samples(const RecordingHead& head);
 

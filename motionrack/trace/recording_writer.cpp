@@ -95,7 +95,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const R
     out.input_times_ = file.make_column("inputs/time", {hdf5::Type::int64, 0, 256, "s", tick_s});
     out.input_texts_ = file.make_column("inputs/text", {hdf5::Type::text, max_length, 64, "", 1});
     out.flushed_ = file.make_column("run/flushed", {hdf5::Type::int64, 0, 64, "s", tick_s});
-    out.tell_axes(head);
+    out.write_axes(head);
     out.make_signals(head);
     out.make_samples(head);
     file.begin_streaming();
@@ -107,7 +107,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const R
         fmt::format("The recording {}. Choose another place or make room; nothing was moved.", file.trouble()), path});
 }
 
-void RecordingWriter::tell_axes(const RecordingHead& head) {
+void RecordingWriter::write_axes(const RecordingHead& head) {
     for (const RecordedAxis& axis : head.axes) {
         const std::string group = "axes/" + axis_folder(axis.name);
         file_.make_group(group);

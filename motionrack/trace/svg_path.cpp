@@ -225,9 +225,9 @@ std::string planned_lines(const ReportData& data, const Projection& at) {
             out += line_through(flat, path.rapid[i - 1] ? "planned traverse" : "planned");
             flat.clear();
         } else if (i > 1 && path.rapid[i] != path.rapid[i - 1]) {
-            const Flat joint = flat.back();
+            const Flat junction = flat.back();
             out += line_through(flat, path.rapid[i - 1] ? "planned traverse" : "planned");
-            flat = {joint};
+            flat = {junction};
         }
         flat.push_back(at(path.points[i]));
     }

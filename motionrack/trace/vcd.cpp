@@ -246,7 +246,7 @@ Result<void> VcdWriter::close(Instant end) {
         write_out();
         (void)file_.commit();
     }
-    return file_.told("VCD");
+    return file_.reported("VCD");
 }
 
 void VcdWriter::put(std::string_view text) {

@@ -16,13 +16,13 @@ namespace gb = grating_bus;
 using Grating = BoundDriver<gb::GratingCard>;
 
 /// (sequence, ticks of simulated time, counts)
-std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> told(const gb::Reading& reading) {
+std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> reported(const gb::Reading& reading) {
     const auto counts = reading.counts();
     return {reading.frame.sequence, reading.frame.time,
             py::array_t<std::int64_t>(static_cast<py::ssize_t>(counts.size()), counts.data())};
 }
 
-py::dict told(const gb::CardInfo& info) {
+py::dict reported(const gb::CardInfo& info) {
     py::dict out;
     out["host"] = info.host;
     out["checks"] = info.checks;
@@ -34,7 +34,7 @@ py::dict told(const gb::CardInfo& info) {
     return out;
 }
 
-py::dict told(const gb::CardErrors& errors) {
+py::dict reported(const gb::CardErrors& errors) {
     py::dict out;
     out["broken"] = errors.broken;
     out["missed_words"] = errors.missed_words;
@@ -61,10 +61,12 @@ void bind_card(py::module_& m) {
              }),
              py::arg("world"), py::arg("card"))
         .def(
-            "open", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->open(); })); },
+            "open",
+            [](Grating& self) { return reported(run_exclusive(*self.world, [&] { return self.driver->open(); })); },
             "Checks for the card and returns its settings, with the addresses of its own list; period in s.")
         .def(
-            "read", [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->read(); })); },
+            "read",
+            [](Grating& self) { return reported(run_exclusive(*self.world, [&] { return self.driver->read(); })); },
             "The last published frame: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it "
             "is stale, or its CRC is wrong.")
         .def(
@@ -73,7 +75,7 @@ void bind_card(py::module_& m) {
                 const Duration time = duration(timeout);
                 const Instant began = self.world->now();
                 try {
-                    return told(run_exclusive(*self.world, [&] { return self.driver->wait(time); }));
+                    return reported(run_exclusive(*self.world, [&] { return self.driver->wait(time); }));
                 } catch (PythonError& raised) {
                     raised.timeout = raised.error.kind == ErrorKind::refused && self.world->now() - began >= time;
                     throw;
@@ -91,7 +93,7 @@ void bind_card(py::module_& m) {
              "Whether the last published frame is two periods old.")
         .def(
             "errors",
-            [](Grating& self) { return told(run_exclusive(*self.world, [&] { return self.driver->errors(); })); },
+            [](Grating& self) { return reported(run_exclusive(*self.world, [&] { return self.driver->errors(); })); },
             "Errors on the bus since the last clear_errors, each at most 65,535.")
         .def("clear_errors", call<gb::GratingCard>(&gb::GratingCard::clear_errors), "Clears those counters.")
         .def(

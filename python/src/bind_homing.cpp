@@ -10,7 +10,7 @@ namespace motionrack::python {
 namespace {
 
 /// (error or None, text, JSON, {axis: SVG})
-py::tuple told(const rack::HomingOutcome& outcome) {
+py::tuple reported(const rack::HomingOutcome& outcome) {
     py::object error = py::none();
     if (!outcome.ended) {
         const Error& why = outcome.ended.error();
@@ -38,7 +38,7 @@ void bind_homing(py::module_& m) {
             settings.axes = axes;
             settings.type = type;
             settings.timeout = ticks(timeout);
-            return told(run_exclusive(world, [&] { return world.home(settings); }));
+            return reported(run_exclusive(world, [&] { return world.home(settings); }));
         },
         py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));
 }

@@ -64,7 +64,7 @@ py::dict quantities_of(RackHandle& world) {
 
 py::dict wires_of(RackHandle& world) {
     py::dict out;
-    for (const rack::WireAccess::Named& wire : world.desk().names())
+    for (const rack::WireAccess::Named& wire : world.context().names())
         out[py::str(std::string(wire.name))] = py::bool_(wire.drivable);
     return out;
 }
@@ -114,7 +114,7 @@ void bind_looking(py::class_<RackHandle, Shared>& world) {
         .def(
             "wire",
             [](RackHandle& w, const std::string& name) {
-                return inspect_rack(w, [&] { return value_of(w.desk().get(name)); });
+                return inspect_rack(w, [&] { return value_of(w.context().get(name)); });
             },
             py::arg("name"))
         .def("wires", [](RackHandle& w) { return inspect_rack(w, [&] { return wires_of(w); }); })

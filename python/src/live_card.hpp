@@ -65,9 +65,9 @@ class LiveCard final : public Host {
 
   private:
     /// Real time for drivers; waits check for signals.
-    class Ears final : public Interrupt {
+    class RecordingListeners final : public Interrupt {
       public:
-        explicit Ears(LiveCard& card) : card_(card) {}
+        explicit RecordingListeners(LiveCard& card) : card_(card) {}
         bool wait(Duration timeout) override;
         void pass(Duration duration) override;
         Instant now() const override { return card_.device_->port().now(); }
@@ -84,7 +84,7 @@ class LiveCard final : public Host {
 
     std::string place_;
     const CardMap& map_;
-    Ears ears_{*this};
+    RecordingListeners listeners_{*this};
     std::unique_ptr<LiveDevice> device_;
     std::string driver_;
 };

@@ -19,9 +19,9 @@ RackHandle::RackHandle(const rack::RackConfig& config) : config_(config) {
 }
 
 void RackHandle::build() {
-    desk_.reset();
+    context_.reset();
     rack_ = std::make_unique<rack::Rack>(config_);
-    desk_ = std::make_unique<rack::WireAccess>(*rack_);
+    context_ = std::make_unique<rack::WireAccess>(*rack_);
 }
 
 RackHandle::~RackHandle() {
@@ -33,7 +33,7 @@ void RackHandle::close() {
     sampler_.reset();
     recorder_.reset();
     // The kernel keeps them until the rack is destroyed; the rack no longer calls them.
-    desk_.reset();
+    context_.reset();
     rack_.reset();
     tap_.reset();
     bell_.reset();
@@ -124,7 +124,7 @@ Result<void> RackHandle::advance(Duration time) {
 Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration timeout) {
     const sim::WireId wire = running().kernel().find_wire(name);
     if (wire == sim::WireId::none) {
-        MOTIONRACK_CHECK(desk_->get(name));
+        MOTIONRACK_CHECK(context_->get(name));
         return fail(
             ErrorKind::invalid_input,
             fmt::format(
@@ -147,7 +147,7 @@ Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration 
 
 Result<void> RackHandle::set_wire(const std::string& name, double value) {
     running();
-    return desk_->force(name, value);
+    return context_->force(name, value);
 }
 
 rack::HomingOutcome RackHandle::home(rack::HomingSettings settings) {

@@ -42,7 +42,7 @@ class RackHandle final : public Host {
     rack::Rack& rack();
     /// As above, after starting the rack.
     rack::Rack& running();
-    const rack::WireAccess& desk() { return running(), *desk_; }
+    const rack::WireAccess& context() { return running(), *context_; }
     bool started() const { return rack_ && rack_->started(); }
     bool closed() const { return rack_ == nullptr; }
     Instant now() override { return rack().kernel().now(); }
@@ -126,7 +126,7 @@ class RackHandle final : public Host {
     std::function<void(const rack::JobProgress&)> progress_;
 
     std::unique_ptr<rack::Rack> rack_;
-    std::unique_ptr<rack::WireAccess> desk_;
+    std::unique_ptr<rack::WireAccess> context_;
     std::unique_ptr<rack::FaultSchedule> plan_;
     std::unique_ptr<rack::Job> job_;
     std::unique_ptr<RunBreaker> bell_;

@@ -20,7 +20,7 @@ Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Du
         return fail(ErrorKind::refused,
                     fmt::format("At most {} samples are to be kept; it must be 2 to 100000000. Nothing was started.",
                                 max_samples));
-    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, max_samples));
+    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *context_, names, max_samples));
     sampler_ = std::move(sampler);
     bell_->break_every(period);
     if (bell_->take_break() != never) sampler_->take(now());
@@ -87,7 +87,7 @@ void RackHandle::copy_from(RackHandle& other) {
     if (!is_built_like(other)) refuse("The snapshot is of a rack of another kind; nothing was done.");
     if (sampler_ || recorder_) refuse("A recording runs, and time would jump in it; nothing was done. Stop it first.");
     rack_->copy_from(*other.rack_);
-    desk_->copy_from(*other.desk_);
+    context_->copy_from(*other.context_);
     plan_->copy_from(*other.plan_);
     bell_->ring_no_more();
     listen_again();

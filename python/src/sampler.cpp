@@ -7,13 +7,13 @@ namespace motionrack::python {
 
 namespace {
 
-Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& desk, const std::string& name) {
+Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& context, const std::string& name) {
     Channel out{name};
-    for (const rack::WireAccess::Named& wire : desk.names()) {
+    for (const rack::WireAccess::Named& wire : context.names()) {
         if (wire.name != name) continue;
         out.whole = !wire.volts;
-        out.look = [&desk, name] { return *desk.get(name); };
-        out.count = [&desk, name] { return static_cast<std::int64_t>(std::llround(*desk.get(name))); };
+        out.look = [&context, name] { return *context.get(name); };
+        out.count = [&context, name] { return static_cast<std::int64_t>(std::llround(*context.get(name))); };
         return out;
     }
     const std::size_t dot = std::min(name.find('.'), name.size());
@@ -43,12 +43,12 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& desk, const
 
 }  // namespace
 
-Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
-                                std::size_t max_samples) {
+Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireAccess& context,
+                                const std::vector<std::string>& names, std::size_t max_samples) {
     Sampler out;
     out.max_samples_ = max_samples;
     for (const std::string& name : names) {
-        MOTIONRACK_TRY(Channel channel, channel_of(rack, desk, name));
+        MOTIONRACK_TRY(Channel channel, channel_of(rack, context, name));
         out.channels_.push_back(std::move(channel));
     }
     return out;

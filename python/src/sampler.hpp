@@ -27,8 +27,8 @@ class Sampler {
   public:
     /// Errors: invalid_input, listing the valid names, if a name is not that of a wire, a card value or a part
     /// quantity.
-    static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& desk, const std::vector<std::string>& names,
-                                  std::size_t max_samples);
+    static Result<Sampler> create(rack::Rack& rack, const rack::WireAccess& context,
+                                  const std::vector<std::string>& names, std::size_t max_samples);
 
     /// Takes a sample between runs. Beyond `max_samples` samples, drops every second one and doubles the sample
     /// interval.

@@ -218,7 +218,7 @@ bool Child::wait_for(const Condition& condition) {
 }
 
 bool Child::wait_for_event(const std::string& kind) {
-    if (told(kind)) {
+    if (reported(kind)) {
         last_ = events_[kind];
         return true;
     }

@@ -40,7 +40,7 @@ class Child {
     int finish();
     void send(int signal);
     /// Whether an event of this kind was among the lines that were read.
-    bool told(const std::string& kind) const { return events_.count(kind) != 0; }
+    bool reported(const std::string& kind) const { return events_.count(kind) != 0; }
     /// The last lines that were read, for a message.
     std::string said() const;
     const nlohmann::json& last() const { return last_; }

@@ -159,8 +159,8 @@ TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndContinuesAfterIt) {
     subscriber.send(SIGINT);
     subscriber.finish();
     EXPECT_EQ(check_rows(rows("cut")), 0);
-    EXPECT_TRUE(subscriber.told("stale"));
-    EXPECT_TRUE(subscriber.told("fresh"));
+    EXPECT_TRUE(subscriber.reported("stale"));
+    EXPECT_TRUE(subscriber.reported("fresh"));
 }
 
 TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndRestarted) {
@@ -230,7 +230,7 @@ TEST_P(NetworkAt, CountsForeignSamplesAndUsesNone) {
     subscriber.send(SIGINT);
     subscriber.finish();
     EXPECT_EQ(check_rows(rows("foreign")), 0);
-    for (const char* kind : {"wrong_crc", "foreign", "malformed"}) EXPECT_TRUE(subscriber.told(kind)) << kind;
+    for (const char* kind : {"wrong_crc", "foreign", "malformed"}) EXPECT_TRUE(subscriber.reported(kind)) << kind;
 }
 
 TEST_P(NetworkAt, AFrozenSubscriberDelaysNoOther) {

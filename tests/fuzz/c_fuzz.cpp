@@ -124,9 +124,9 @@ class Caller {
     }
     static void happened(void* user, std::uint64_t number, std::int64_t, const char* card, int, const char* sentence) {
         auto& own = *static_cast<Caller*>(user);
-        require(number > own.told_, "conditions come in order, once");
+        require(number > own.reported_, "conditions come in order, once");
         require(std::strlen(card) > 0 && std::strlen(sentence) > 0, "a condition has a sentence");
-        own.told_ = number;
+        own.reported_ = number;
         own.refused();
     }
     void refused() {
@@ -320,7 +320,7 @@ class Caller {
     static constexpr int max_motions = 4;  ///< of an input: each may take seconds under a sanitizer
     int motions_ = 0;                      ///< homings and programs so far
     int stops_ = 0;                        ///< return value of progress
-    std::uint64_t told_ = 0;               ///< number of the last reported condition
+    std::uint64_t reported_ = 0;           ///< number of the last reported condition
     bool records_ = false;
 };
 

@@ -294,11 +294,11 @@ class Caller {
         // An operation that continues by itself may write at any time.
         by_itself_ = by_itself_ || function.kind == Kind::waits;
         const std::string before = by_itself_ ? "" : registers();
-        told_.clear();
+        reported_.clear();
         mcx314_clear_error();
         mcx314_on_error(
             [](const char* sentence, void* to) { static_cast<std::vector<std::string>*>(to)->push_back(sentence); },
-            &told_);
+            &reported_);
         const std::int64_t answer = function.call(arguments_);
         const std::string error = mcx314_last_error();
         mcx314_on_error(nullptr, nullptr);
@@ -313,11 +313,11 @@ class Caller {
     }
     void check(const Function& function, std::int64_t answer, const std::string& error) const {
         if (error.empty()) {
-            require(told_.empty(), "a call that is taken tells no error", function.name);
+            require(reported_.empty(), "a call that is taken tells no error", function.name);
             require(function.kind != Kind::own || answer >= 0, "a call that is taken answers no error", function.name);
             return;
         }
-        require(told_.size() == 1 && told_[0] == error, "an error is told to the handler once", error);
+        require(reported_.size() == 1 && reported_[0] == error, "an error is told to the handler once", error);
         require(error.starts_with(std::string(function.name) + ": ") && error.size() > 30,
                 "a sentence begins with the function's name", error);
         const bool is_own = std::string_view(function.name).starts_with("mcx314_");
@@ -327,7 +327,7 @@ class Caller {
 
     Arguments arguments_;
     std::array<int, 2> chips_{};
-    std::vector<std::string> told_;
+    std::vector<std::string> reported_;
     int waits_ = 0;
     bool by_itself_ = false;
 };

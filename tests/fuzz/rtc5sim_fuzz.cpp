@@ -183,18 +183,18 @@ class Caller {
         if (arguments_.below(24) == 0) select_rtc(arguments_.below(4));
         const auto& function = rtc5sim_functions<Arguments>[arguments_.below(rtc5sim_functions<Arguments>.size())];
         const UINT pointer = get_input_pointer(), space = get_list_space();
-        told_.clear();
+        reported_.clear();
         rtc5sim_clear_error();
         rtc5sim_on_error(
             [](const char* sentence, void* to) { static_cast<std::vector<std::string>*>(to)->push_back(sentence); },
-            &told_);
+            &reported_);
         function.call(arguments_);
         rtc5sim_on_error(nullptr, nullptr);
         const std::string error = rtc5sim_last_error();
         const UINT bits = get_last_error();
         if (error.empty())
-            return require(told_.empty() && bits == 0, "a call that is taken tells no error", function.name);
-        require(told_.size() == 1 && told_[0] == error, "an error is told to the handler once", error);
+            return require(reported_.empty() && bits == 0, "a call that is taken tells no error", function.name);
+        require(reported_.size() == 1 && reported_[0] == error, "an error is told to the handler once", error);
         require(error.starts_with(std::string(function.name) + ": ") && error.size() > 20,
                 "a sentence begins with the function's name", error);
         require(bits != 0 && (get_error() & bits) == bits, "an error has its bits", error);
@@ -217,7 +217,7 @@ class Caller {
 
   private:
     Arguments arguments_;
-    std::vector<std::string> told_;
+    std::vector<std::string> reported_;
 };
 
 }  // namespace

@@ -30,7 +30,7 @@ namespace motionrack::fuzz {
 class ServedConnection {
   public:
     /// Timeout for work of another thread.
-    static constexpr std::chrono::seconds patience{8};
+    static constexpr std::chrono::seconds max_wait{8};
 
     ServedConnection() {
         operate::MachineSettings settings;
@@ -68,7 +68,7 @@ class ServedConnection {
     /// Lets all take turns until `step` returns false; returns false on a timeout.
     bool run(std::function<bool()> step) {
         step_ = std::move(step);
-        until_ = std::chrono::steady_clock::now() + patience;
+        until_ = std::chrono::steady_clock::now() + max_wait;
         is_over_ = false;
         machine_->run();
         return !is_over_;

@@ -54,7 +54,7 @@ Invariants::Invariants(std::vector<AxisFacts> axes, const Settings& settings, Re
     : facts_(std::move(axes)), settings_(settings), report_(std::move(report)), own_(facts_.size()) {}
 
 void Invariants::found(Rule rule, Instant at, std::string text) {
-    if (!told_.insert(rule).second) return;
+    if (!reported_.insert(rule).second) return;
     findings_.push_back({rule, at, std::move(text)});
     if (report_) report_(findings_.back());
 }

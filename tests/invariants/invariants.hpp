@@ -130,7 +130,7 @@ class Invariants {
     Settings settings_;
     Report report_;
     std::vector<Finding> findings_;
-    std::set<Rule> told_;
+    std::set<Rule> reported_;
     bool first_ = true;
     bool search_disturbed_ = false;             ///< in the search that runs, or since the last snapshot
     bool searches_ = false, searched_ = false;  ///< homing, or stopping during homing; in the previous snapshot

@@ -32,7 +32,7 @@ Doorbell* served_bell = nullptr;
 void ask_before(const Touch& access) {
     if (!access.writes) ask(*served_bell, Question::read, 0, access.offset % 16);
 }
-void tell_after(const Touch& access) {
+void report_after(const Touch& access) {
     if (access.writes) ask(*served_bell, Question::write, 0, access.offset % 16);
 }
 
@@ -49,7 +49,7 @@ class LiveContractPort final : public ContractPort {
         port_ = std::move(*opened);
         if (!bell_ || spec.reach != live::AddressSpace::memory) return;
         served_bell = &bell_->as<Doorbell>();
-        trap_.emplace(Trap::mapping_of(spec.path), page, ask_before, tell_after);
+        trap_.emplace(Trap::mapping_of(spec.path), page, ask_before, report_after);
     }
     ~LiveContractPort() override {
         if (port_ && port_->trouble()) ADD_FAILURE() << port_->trouble()->message;

@@ -55,16 +55,16 @@ void CanonPrinter::line(Interpreter& interpreter) {
     const Block& block = interpreter.block();
     n_word_ = block.has('N') ? static_cast<std::int64_t>(block['N']) : -1;
     bool fed = false;
-    bool told = false;
+    bool reported = false;
     const auto before = [&](CanonCallKind kind, bool dwell) {
         if (kind == CanonCallKind::comment || kind == CanonCallKind::message) return;
         if (!fed) print_restored_modes(interpreter), feed(interpreter);
         fed = true;
         const bool late = kind == CanonCallKind::pause || kind == CanonCallKind::optional_pause ||
                           kind == CanonCallKind::end || (kind == CanonCallKind::move && !dwell);
-        if (late && !told) {
+        if (late && !reported) {
             modes(interpreter);
-            told = true;
+            reported = true;
         }
     };
     std::size_t comments = 0;

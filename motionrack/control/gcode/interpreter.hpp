@@ -247,7 +247,7 @@ class Interpreter {
     bool leaves_straight(std::int16_t code);
     void commit_cutter();
     void hold_steps();
-    void settle_joint();
+    void settle_junction();
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool spindle_turns(std::int16_t code);

@@ -52,11 +52,11 @@ std::string round_corner(ContourSegment& before, ContourSegment& after, ContourS
     const double side = sine > 0 ? before.corner : -before.corner;
     CutterPath left = path_of(before, side, fits_before), right = path_of(after, side, fits_after);
     if (!fits_before || !fits_after) return too_large;
-    const CornerJoinPoint joint = join_corner(left, right, before.to, side);
-    if (joint.kind != CornerJoin::meeting) return too_large;
+    const CornerJoinPoint junction = join_corner(left, right, before.to, side);
+    if (junction.kind != CornerJoin::meeting) return too_large;
     const auto foot = [&](const CutterPath& path, const CutterPath& plain) {
-        if (path.arc) return path.centre + (joint.at - path.centre) * (plain.radius_in / path.radius_in);
-        return joint.at - left_of(path.direction_in) * side;
+        if (path.arc) return path.centre + (junction.at - path.centre) * (plain.radius_in / path.radius_in);
+        return junction.at - left_of(path.direction_in) * side;
     };
     const PlanePoint from = foot(left, plain_before), to = foot(right, plain_after);
     CutterPath shorter_before = plain_before, shorter_after = plain_after;
@@ -66,7 +66,7 @@ std::string round_corner(ContourSegment& before, ContourSegment& after, ContourS
     fillet.to = to;
     fillet.line = before.line;
     if (!before.chamfer) {
-        fillet.centre = joint.at;
+        fillet.centre = junction.at;
         fillet.turns = sine > 0 ? 1 : -1;
     }
     before.to = from;
@@ -153,14 +153,14 @@ std::string offset_contour(const std::vector<ContourSegment>& contour, double di
     PlanePoint from = paths.front().start;
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const bool last = i + 1 == paths.size();
-        const CornerJoinPoint joint = last ? CornerJoinPoint{CornerJoin::straight_on, paths[i].end}
-                                           : join_corner(paths[i], paths[i + 1], contour[i].to, distance);
-        if (joint.kind == CornerJoin::none) return no_room(contour[i]);
-        const PlanePoint to = joint.kind == CornerJoin::around ? paths[i].end : joint.at;
+        const CornerJoinPoint junction = last ? CornerJoinPoint{CornerJoin::straight_on, paths[i].end}
+                                              : join_corner(paths[i], paths[i + 1], contour[i].to, distance);
+        if (junction.kind == CornerJoin::none) return no_room(contour[i]);
+        const PlanePoint to = junction.kind == CornerJoin::around ? paths[i].end : junction.at;
         if (!trim(paths[i], from, to)) return no_room(contour[i]);
         beside.push_back(piece_of(paths[i], contour[i].line));
         from = to;
-        if (joint.kind != CornerJoin::around) continue;
+        if (junction.kind != CornerJoin::around) continue;
         ContourSegment around;
         around.from = to;
         around.to = from = paths[i + 1].start;

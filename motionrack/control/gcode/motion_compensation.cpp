@@ -210,8 +210,8 @@ bool Interpreter::join(PlanePoint corner) {
     const auto& axes = plane_axes[next_.plane];
     const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
     const CutterPath& path = cutter_plan_.path;
-    const CornerJoinPoint joint = join_corner(cutter_path_, path, corner, offset);
-    if (joint.kind == CornerJoin::none) {
+    const CornerJoinPoint junction = join_corner(cutter_path_, path, corner, offset);
+    if (junction.kind == CornerJoin::none) {
         return fail_at(
             error_column(), GrblStatus::bad_target,
             fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
@@ -220,11 +220,11 @@ bool Interpreter::join(PlanePoint corner) {
     }
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
-    if (!trim(cutter_plan_.last, cutter_from_, joint.at)) return gouges(cutter_line_);
-    if (!reach(axes[0], joint.at.first, error_column()) || !reach(axes[1], joint.at.second, error_column()))
+    if (!trim(cutter_plan_.last, cutter_from_, junction.at)) return gouges(cutter_line_);
+    if (!reach(axes[0], junction.at.first, error_column()) || !reach(axes[1], junction.at.second, error_column()))
         return off_limits();
-    cutter_plan_.around = joint.kind == CornerJoin::around;
-    cutter_plan_.from = cutter_plan_.around ? path.start : joint.at;
+    cutter_plan_.around = junction.kind == CornerJoin::around;
+    cutter_plan_.from = cutter_plan_.around ? path.start : junction.at;
     if (!cutter_plan_.around) return true;
     // Before a rapid the corner is connected straight, above the workpiece.
     Move& arc = cutter_plan_.arc;
@@ -297,7 +297,7 @@ void Interpreter::commit_cutter() {
 }
 
 /// Completes the waiting calls up to the start of this line's move.
-void Interpreter::settle_joint() {
+void Interpreter::settle_junction() {
     const auto& axes = plane_axes[modes_.plane];
     if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (cutter_plan_.around) {
@@ -314,7 +314,7 @@ void Interpreter::hold_steps() {
     const std::uint32_t kept = todo_ & (todo_comments | (end_pending_ ? todo_stop : 0u));
     todo_ &= ~kept;
     while (todo_ != 0) {
-        if ((todo_ & (0 - todo_)) == todo_motion && cutter_plan_.begins) settle_joint();
+        if ((todo_ & (0 - todo_)) == todo_motion && cutter_plan_.begins) settle_junction();
         held_.push(*pull_next());
     }
     todo_ = kept;

@@ -28,10 +28,10 @@ double inner_step(const ArcCurve& arc, double tolerance) {
     return std::min(widest_angle / rate, std::sqrt(square));
 }
 
-ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double step_out, double inner) : bow_(arc) {
+ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double step_out, double inner) : arc_(arc) {
     const double length = arc.length();
     double in = std::min(step_in, inner), out = std::min(step_out, inner);
-    constexpr double beside = 1 + step_after_joint;
+    constexpr double beside = 1 + step_after_junction;
     if (in == 0 || out == 0) {
         in = std::min(in, length / beside);
         out = std::min(out, length / beside);
@@ -40,8 +40,8 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
     while ((in + out) * beside > length && out > 2 * in) out *= 0.5;
     if ((in + out) * beside > length * (1 + 1e-12)) {
         step_ = std::min(in, out);
-        const double steps = std::max(1.0, std::ceil(length / step_ - 2 * step_after_joint - 1e-9));
-        step_ = step_in_ = step_out_ = length / (steps + 2 * step_after_joint);
+        const double steps = std::max(1.0, std::ceil(length / step_ - 2 * step_after_junction - 1e-9));
+        step_ = step_in_ = step_out_ = length / (steps + 2 * step_after_junction);
         corners_ = static_cast<std::int64_t>(steps) + 1;
     } else {
         rising_ = in > 0, falling_ = out > 0;
@@ -63,8 +63,8 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
         step_ *= scale, step_in_ = in * scale, step_out_ = out * scale;
         corners_ = rising_ + falling_ + static_cast<std::int64_t>(steps) + 1;
     }
-    first_ = step_after_joint * step_in_;
-    last_ = length - step_after_joint * step_out_;
+    first_ = step_after_junction * step_in_;
+    last_ = length - step_after_junction * step_out_;
 
     // The first and the last corner are on the tangents, at the ends of their edges.
     const auto along = [](const Point& way, const Point& tangent) {
@@ -74,7 +74,7 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
     const auto more = [&](std::int64_t i, double end) {
         const double knots[3] = {knot(i - 1), knot(i), knot(i + 1)};
         const double u = (knots[0] + knots[1] + knots[2]) / 3;
-        const ArcCurvePoint from = bow_.at(end);
+        const ArcCurvePoint from = arc_.at(end);
         Point way = control(u, knots);
         for (int axis = 0; axis < axis_count; ++axis) way[axis] -= from.at[axis];
         return std::fabs(along(way, from.tangent)) - std::fabs(u - end);
@@ -84,8 +84,8 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
 }
 
 double ArcControlPolygon::knot(std::int64_t i) const {
-    if (i < 0) return -step_before_joint * step_in_;
-    if (i >= corners_) return bow_.length() + step_before_joint * step_out_;
+    if (i < 0) return -step_before_junction * step_in_;
+    if (i >= corners_) return arc_.length() + step_before_junction * step_out_;
     const std::int64_t from_end = corners_ - 1 - i;
     if (i <= rising_) return first_ + step_in_ * doubled(i);
     if (from_end <= falling_) return last_ - step_out_ * doubled(from_end);
@@ -97,7 +97,7 @@ Point ArcControlPolygon::control(double u, const double (&knots)[3]) const {
     const double a = knots[0] - u, b = knots[1] - u, c = knots[2] - u;
     const double second = -(a * a + b * b + c * c) / 12;
     const double third = a * b * c / 6;
-    const ArcCurvePoint on = bow_.at(u);
+    const ArcCurvePoint on = arc_.at(u);
     Point out;
     for (int i = 0; i < axis_count; ++i) out[i] = on.at[i] + second * on.curvature[i] + third * on.curvature_rate[i];
     return out;
@@ -113,7 +113,7 @@ ArcControlPoint ArcControlPolygon::next() {
         out.at = control(u, knots);
         return out;
     }
-    const ArcCurvePoint end = bow_.at(i == 0 ? 0 : bow_.length());
+    const ArcCurvePoint end = arc_.at(i == 0 ? 0 : arc_.length());
     const double way = i == 0 ? out.u : out.u - length();
     for (int axis = 0; axis < axis_count; ++axis) out.at[axis] = end.at[axis] + end.tangent[axis] * way;
     return out;

@@ -19,12 +19,12 @@ namespace motionrack::control {
 
 /// Position of the first hat of an arc after the junction, as a share of its knot interval. The corner is then on the
 /// tangent. As all others it lies a sixth of an interval squared times the curvature outside the arc.
-inline constexpr double step_after_joint = 0.57735026918962576451;
-inline constexpr double step_before_joint = 1 - step_after_joint;
+inline constexpr double step_after_junction = 0.57735026918962576451;
+inline constexpr double step_before_junction = 1 - step_after_junction;
 
 /// Deviation from the arc (or from the line before) near a junction, relative to curvature times first interval
 /// squared; measured.
-inline constexpr double joint_error = 0.0232;
+inline constexpr double junction_error = 0.0232;
 
 /// Returns the longest knot interval inside an arc whose curve stays within `tolerance` (mm) of the arc.
 double inner_step(const ArcCurve& arc, double tolerance);
@@ -47,13 +47,13 @@ class ArcControlPolygon {
     ArcControlPoint next();
 
     /// Returns the length in u: that of the arc plus the detour over the corners at its junctions.
-    double length() const { return bow_.length() + more_in_ + more_out_; }
+    double length() const { return arc_.length() + more_in_ + more_out_; }
 
   private:
     double knot(std::int64_t i) const;
     Point control(double u, const double (&knots)[3]) const;
 
-    ArcCurve bow_;
+    ArcCurve arc_;
     double step_in_ = 0, step_out_ = 0, step_ = 0;
     int rising_ = 0, falling_ = 0;  ///< number of intervals that double, and that halve
     std::int64_t corners_ = 0, next_ = 0;

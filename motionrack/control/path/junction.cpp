@@ -27,9 +27,10 @@ double find_max_velocity(double min, double max, double length, Distance distanc
 struct Side {
     double velocity = 0, half_blend_length = 0;
 };
-Side side_at(const Junction& joint, bool stops, const LegLimits& leg) {
+Side side_at(const Junction& junction, bool stops, const LegLimits& leg) {
     if (stops) return {};
-    return {std::min(joint.velocity, leg.velocity), joint.velocity < leg.velocity ? joint.half_blend_length : 0};
+    return {std::min(junction.velocity, leg.velocity),
+            junction.velocity < leg.velocity ? junction.half_blend_length : 0};
 }
 
 /// Returns the minimum of limit / |tangent| over the axes, and of `min_limit`.
@@ -67,12 +68,12 @@ Junction junction_between(const LegLimits& before, const LegLimits& after, const
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = out[i] - in[i];
     const double by_accel = std::sqrt(0.5 * max_curvature_share * width * max_accel_along(change, limits));
     const double by_jerk = cube_root(0.25 * max_curvature_share * width * width * max_jerk_along(change, limits));
-    Junction joint;
-    joint.can_pass = true;
-    joint.velocity = std::min(by_accel, by_jerk);
-    joint.can_stop = joint.velocity < std::max(before.velocity, after.velocity);
-    joint.half_blend_length = 0.5 * width;
-    return joint;
+    Junction junction;
+    junction.can_pass = true;
+    junction.velocity = std::min(by_accel, by_jerk);
+    junction.can_stop = junction.velocity < std::max(before.velocity, after.velocity);
+    junction.half_blend_length = 0.5 * width;
+    return junction;
 }
 
 double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at_begin, const Junction& end,

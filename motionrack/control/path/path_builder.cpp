@@ -201,15 +201,15 @@ void PathBuilder::add_corner(const MergedSegment& segment) {
 
 /// Returns the first knot interval of an arc at a junction: as long as its share of the tolerance allows, so that the
 /// curvature rises slowly.
-double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
+double PathBuilder::junction_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
     if (neighbour.kind == MergedSegmentKind::rest) return 0;
     const double share = tangent ? arc_tangent_share : arc_corner_share;
     const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
     const auto by_room = [room](const ArcCurve& curve) {
-        return std::sqrt(room / (joint_error * curve.max_curvature()));
+        return std::sqrt(room / (junction_error * curve.max_curvature()));
     };
     // The first hat reaches over the junction, but not over the other end of the neighbour or many of its corners.
-    double step = std::min(by_room(arc.arc), neighbour.length / step_before_joint);
+    double step = std::min(by_room(arc.arc), neighbour.length / step_before_junction);
     if (neighbour.kind == MergedSegmentKind::arc) {
         const double other =
             std::min(by_room(neighbour.arc), inner_step(neighbour.arc, inner_share * neighbour.tolerance.linear));
@@ -218,14 +218,14 @@ double PathBuilder::joint_step(const MergedSegment& arc, const MergedSegment& ne
     // The distance over the first corner exceeds the arc by this; the rotary axes move with it.
     const double rotary_room = share * std::min(arc.tolerance.rotary, neighbour.tolerance.rotary);
     const double square = arc.arc.max_curvature() * arc.arc.max_curvature();
-    while (step_after_joint / 9 * step * step * step * square * arc.arc.rotary_rate() > rotary_room) step *= 0.5;
+    while (step_after_junction / 9 * step * step * step * square * arc.arc.rotary_rate() > rotary_room) step *= 0.5;
     return step;
 }
 
 void PathBuilder::begin_arc(const MergedSegment& arc, const MergedSegment& next) {
     const bool at_rest = turns_.size() == 1;
-    const double in = at_rest ? 0 : joint_step(arc, last_, arc.tangent);
-    const double out = joint_step(arc, next, next.tangent);
+    const double in = at_rest ? 0 : junction_step(arc, last_, arc.tangent);
+    const double out = junction_step(arc, next, next.tangent);
     arc_ = ArcControlPolygon(arc.arc, in, out, inner_step(arc.arc, inner_share * arc.tolerance.linear));
     arc_begin_ = u_end_;
     u_end_ += arc_.length();

@@ -100,7 +100,7 @@ class PathBuilder {
     void begin_arc(const MergedSegment& arc, const MergedSegment& next);
     void add_arc_corner();
     CornerBlend& add_turn(double u, const Point& at, const Point& tangent);
-    double joint_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const;
+    double junction_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const;
 
     bool next_piece(CubicSegment& piece);
     void place_turns();

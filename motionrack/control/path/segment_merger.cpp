@@ -205,23 +205,23 @@ double SegmentMerger::width_between(const MergedSegment& before, const MergedSeg
     return width;
 }
 
-Junction SegmentMerger::joint_between(PendingSegment& before, const MergedSegment& after) const {
-    Junction joint;
+Junction SegmentMerger::junction_joining(PendingSegment& before, const MergedSegment& after) const {
+    Junction junction;
     if (!after.tangent) {
         const LegLimits leg_in = leg_of(before.segment), leg_out = leg_of(after);
         const Point &in = before.segment.tangent_out, &out = after.tangent_in;
-        joint = junction_between(leg_in, leg_out, in, out, width_between(before.segment, after), limits_);
-        if (!joint.can_stop || before.segment.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
-            return joint;
+        junction = junction_between(leg_in, leg_out, in, out, width_between(before.segment, after), limits_);
+        if (!junction.can_stop || before.segment.kind == MergedSegmentKind::arc || after.kind == MergedSegmentKind::arc)
+            return junction;
         before.corner_tolerance_mm = corner_tolerance(before.segment, after);
         before.stop = corner_stop_between(leg_in, leg_out, in, out, before.corner_tolerance_mm, limits_);
-        joint.gain = before.stop.gain;
-        return joint;
+        junction.gain = before.stop.gain;
+        return junction;
     }
-    joint.can_stop = false;
-    joint.can_pass = true;
-    joint.velocity = std::numeric_limits<double>::infinity();
-    return joint;
+    junction.can_stop = false;
+    junction.can_pass = true;
+    junction.velocity = std::numeric_limits<double>::infinity();
+    return junction;
 }
 
 LegLimits SegmentMerger::leg_of(const MergedSegment& segment) const {
@@ -353,7 +353,7 @@ void SegmentMerger::close() {
         choice_.begin();
     } else {
         PendingSegment& before = waiting(waiting_past_ - 1);
-        choice_.add(leg_of(before.segment), joint_between(before, last_));
+        choice_.add(leg_of(before.segment), junction_joining(before, last_));
     }
     waiting(waiting_past_++) = {last_, last_move_.line, 0, {}};
     make_decided();

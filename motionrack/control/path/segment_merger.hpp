@@ -105,7 +105,7 @@ class SegmentMerger {
         double corner_tolerance_mm = 0;  ///< at its end
         CornerStop stop;                 ///< stop at its end, if chosen
     };
-    Junction joint_between(PendingSegment& before, const MergedSegment& after) const;
+    Junction junction_joining(PendingSegment& before, const MergedSegment& after) const;
     static constexpr std::size_t max_waiting = JunctionPlanner::max_junctions + 2;
     PendingSegment& waiting(std::size_t i) { return pending_[i % max_waiting]; }
 

@@ -13,7 +13,7 @@ using testing::expect_refused;
 using testing::Refused;
 
 /// Returns the calls of a program in order, as "X1", "out P0 1 moving", "wait 2", "in P1 -1".
-std::vector<std::string> told(const std::string& program) {
+std::vector<std::string> reported(const std::string& program) {
     const auto read = testing::read("G21 G90 F600\n" + program);
     for (const Problem& problem : read.problems) ADD_FAILURE() << problem.text();
     std::vector<std::string> out;
@@ -37,24 +37,24 @@ std::vector<std::string> told(const std::string& program) {
 }  // namespace
 
 TEST(GcodePorts, OutputsKeepTheirPlaceBetweenTheMoves) {
-    EXPECT_THAT(told("M62 P0\nG1 X1\nM63 P63 G1 X2\nM64 P2\nM65 P3 G0 X3\nM67 E0 Q-1.5\nM68 E1 Q2.25\nG1 X4"),
+    EXPECT_THAT(reported("M62 P0\nG1 X1\nM63 P63 G1 X2\nM64 P2\nM65 P3 G0 X3\nM67 E0 Q-1.5\nM68 E1 Q2.25\nG1 X4"),
                 ElementsAre("out P0 1 moving", "X1", "out P63 0 moving", "X2", "out P2 1", "out P3 0", "X3",
                             "out E0 -1.5 moving", "out E1 2.25", "X4"));
-    EXPECT_THAT(told("#1 = 5\nM64 P[#1 + 1]\nM68 E#1 Q[-#1 / 4]\nG0 X1"),
+    EXPECT_THAT(reported("#1 = 5\nM64 P[#1 + 1]\nM68 E#1 Q[-#1 / 4]\nG0 X1"),
                 ElementsAre("out P6 1", "out E5 -1.25", "X1"));
 }
 
 TEST(GcodePorts, OutputsKeepTheirPlaceBesideAContour) {
-    EXPECT_THAT(told("G41.1 D2\nG1 X10\nM62 P1\nX20\nM65 P1 X30\nG40 G1 X40"),
+    EXPECT_THAT(reported("G41.1 D2\nG1 X10\nM62 P1\nX20\nM65 P1 X30\nG40 G1 X40"),
                 ElementsAre("X10", "out P1 1 moving", "X20", "out P1 0", "X30", "X40"));
 }
 
 TEST(GcodePorts, AnInputThatNothingIsConnectedToIsOff) {
-    EXPECT_THAT(told("M66 P1\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10"));
-    EXPECT_THAT(told("#5399 = 7\nM66 E3 L0 Q9\nG0 X[#5399 + 10]"), ElementsAre("in E3 0", "X10"));
-    EXPECT_THAT(told("M66 P1 L4 Q9\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10")) << "it is off already";
+    EXPECT_THAT(reported("M66 P1\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10"));
+    EXPECT_THAT(reported("#5399 = 7\nM66 E3 L0 Q9\nG0 X[#5399 + 10]"), ElementsAre("in E3 0", "X10"));
+    EXPECT_THAT(reported("M66 P1 L4 Q9\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10")) << "it is off already";
     for (const char* wait : {"L1", "L2", "L3"})
-        EXPECT_THAT(told(std::string("M66 P1 Q2.5 ") + wait + "\nG0 X[#5399 + 10]"),
+        EXPECT_THAT(reported(std::string("M66 P1 Q2.5 ") + wait + "\nG0 X[#5399 + 10]"),
                     ElementsAre("wait 2.5", "in P1 -1", "X9"))
             << wait;
 }
@@ -104,21 +104,21 @@ TEST(GcodePorts, ALineThatIsRefusedLeavesTheResultOfM66) {
 }
 
 TEST(GcodeOverrides, CountForTheMovesThatAreNotWithoutThem) {
-    EXPECT_THAT(told("G1 X1\nM49\nX2\nG4 P1\nG0 X3\nM48\nX4\nM50 P0 X5\nM50\nX6\nM51 P0\nX7\nM53 P0 M8\nX8"),
+    EXPECT_THAT(reported("G1 X1\nM49\nX2\nG4 P1\nG0 X3\nM48\nX4\nM50 P0 X5\nM50\nX6\nM51 P0\nX7\nM53 P0 M8\nX8"),
                 ElementsAre("X1", "X2 as written", "wait 1", "X3 as written", "X4", "X5 as written", "X6", "X7", "X8"));
-    EXPECT_THAT(told("M49\nG1 X1\nM2\nG1 X2"), ElementsAre("X1 as written")) << "the end gives them back";
-    EXPECT_THAT(told("M70 M49\nG1 X1\nM72\nG1 X2"), ElementsAre("X1 as written", "X2"));
-    EXPECT_THAT(told("o1 sub\nM73 M49\nG1 X1\no1 endsub\no1 call\nX2"), ElementsAre("X1 as written", "X2"));
-    EXPECT_THAT(told("M49\nG41.1 D2\nG1 X10\nM48\nX20\nG40 G1 X30"), ElementsAre("X10 as written", "X20", "X30"))
+    EXPECT_THAT(reported("M49\nG1 X1\nM2\nG1 X2"), ElementsAre("X1 as written")) << "the end gives them back";
+    EXPECT_THAT(reported("M70 M49\nG1 X1\nM72\nG1 X2"), ElementsAre("X1 as written", "X2"));
+    EXPECT_THAT(reported("o1 sub\nM73 M49\nG1 X1\no1 endsub\no1 call\nX2"), ElementsAre("X1 as written", "X2"));
+    EXPECT_THAT(reported("M49\nG41.1 D2\nG1 X10\nM48\nX20\nG40 G1 X30"), ElementsAre("X10 as written", "X20", "X30"))
         << "moves that waited are those of their lines";
-    EXPECT_THAT(told("M49 G81 X1 Z-1 R1"),
+    EXPECT_THAT(reported("M49 G81 X1 Z-1 R1"),
                 ElementsAre("X0 as written", "X1 as written", "X1 as written", "X1 as written"));
 }
 
 TEST(GcodeOverrides, CanBeReadByTheProgram) {
     const std::string read =
         "\nG0 X[#<_feed_override> + 2 * #<_speed_override> + 4 * #<_feed_hold> + 8 * #<_adaptive_feed>]";
-    const auto value = [&](const std::string& line) { return told(line + read).back(); };
+    const auto value = [&](const std::string& line) { return reported(line + read).back(); };
     EXPECT_EQ(value(""), "X7");
     EXPECT_EQ(value("M49"), "X4 as written");
     EXPECT_EQ(value("M51 P0"), "X5");

@@ -105,7 +105,7 @@ PathMotion SectionPlanner::max_found(double end, std::size_t& k) const {
 /// Limits each segment to a little above the velocity found, and gives curves that the jerk limits a larger share of
 /// it. Returns false if no limit changed.
 bool SectionPlanner::tighten_limits(double slack) {
-    bool news = false;
+    bool changed = false;
     std::size_t k = 0;
     double end = 0;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -114,15 +114,15 @@ bool SectionPlanner::tighten_limits(double slack) {
         if (pieces_[i].straight) continue;
         if (peak.velocity * slack < spans_[i].velocity) {
             use_[i].velocity = peak.velocity * slack;
-            news = true;
+            changed = true;
         } else if (peak.velocity * nearly > max_velocities_[i]) {
             const double share = pieces_[i].jerk_share_beside(peak.velocity, reserve * peak.accel, reserve * peak.jerk);
             if (pieces_[i].max_velocity_for(share) < nearly * max_velocities_[i]) continue;
             use_[i].jerk_share = share;
-            news = true;
+            changed = true;
         }
     }
-    return news;
+    return changed;
 }
 
 }  // namespace motionrack::control

@@ -13,7 +13,7 @@ namespace {
 /// s before deceleration starts at which a plan is extended: more than a caller advances at once.
 constexpr double margin = 0.15;
 /// Delay before planning is retried, s.
-constexpr double patience = 0.008;
+constexpr double max_wait = 0.008;
 /// Passed segments are removed in batches of this size.
 constexpr std::size_t min_drop = 1'024;
 /// Segments carry a move number modulo this instead of a line.
@@ -72,7 +72,7 @@ std::int64_t TrajectoryGenerator::first_pending_move() const {
     if (left_ > 0 || place_ < now_.known()) return move_of(now_.curve[piece_].line);
     if (now_.whole && dwell_seconds() > 0) return move_of_rest();
     if (now_.whole && !then_.curve.empty()) return move_of(then_.curve.front().line);
-    return pushed_ == flushed_ ? pushed_ : std::max(flushed_, told_);
+    return pushed_ == flushed_ ? pushed_ : std::max(flushed_, reported_);
 }
 
 void TrajectoryGenerator::fetch_segments(std::size_t max_segments) {
@@ -81,7 +81,7 @@ void TrajectoryGenerator::fetch_segments(std::size_t max_segments) {
         if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= max_segments) return;
         PathElement item;
         if (!builder_.pull(item)) return;
-        told_ = move_of(item.rest ? item.line : item.piece.line);
+        reported_ = move_of(item.rest ? item.line : item.piece.line);
         if (item.rest) {
             part.whole = true;
             part.rest = item;
@@ -201,7 +201,7 @@ void TrajectoryGenerator::update_plan(bool early) {
             found = extend_plan();
         else
             tried = false;
-        if (tried && !found) retry_delay_s_ = patience;
+        if (tried && !found) retry_delay_s_ = max_wait;
     }
     plan_overlap(early);
 }

@@ -168,7 +168,7 @@ class TrajectoryGenerator {
     std::deque<TrajectoryMove> moves_;
     std::int64_t pushed_ = 0, first_move_ = 0;  ///< first_move_: number of the first of moves_
     std::int64_t flushed_ = 0;                  ///< all moves before this one are known to their end
-    std::int64_t told_ = 0;                     ///< move of the last element that the builder has returned
+    std::int64_t reported_ = 0;                 ///< move of the last element that the builder has returned
 };
 
 }  // namespace motionrack::control

@@ -25,7 +25,7 @@ class FrameValidatorTest : public testing::Test {
         return out;
     }
     /// The sentence of the only event of this kind.
-    std::string told(EventKind kind) {
+    std::string reported(EventKind kind) {
         std::string out;
         for (const BusEvent& event : events())
             if (event.kind == kind) {
@@ -45,14 +45,14 @@ TEST_F(FrameValidatorTest, UsesFramesThatFollowEachOther) {
     EXPECT_EQ(judge.counts().used, 10u);
     EXPECT_EQ(judge.counts().lost, 0u);
     EXPECT_FALSE(judge.stale());
-    EXPECT_THAT(told(EventKind::joined), HasSubstr("wafer1, process 101, id 0101010101010101"));
+    EXPECT_THAT(reported(EventKind::joined), HasSubstr("wafer1, process 101, id 0101010101010101"));
 }
 
 TEST_F(FrameValidatorTest, CountsTheFramesThatAreMissing) {
     hear(10);
     EXPECT_EQ(hear(14), Validation::used);
     EXPECT_EQ(judge.counts().lost, 3u);
-    EXPECT_EQ(told(EventKind::lost),
+    EXPECT_EQ(reported(EventKind::lost),
               "3 frames after number 10 did not come, 3 so far. The next one is used; the lost ones are not replaced.");
 }
 
@@ -89,7 +89,7 @@ TEST_F(FrameValidatorTest, RefusesASequenceThatJumpsAgainstItsTime) {
     seal(jumped);
     EXPECT_EQ(hear(jumped), Validation::jump);
     EXPECT_EQ(judge.frame().sequence, 10u);
-    EXPECT_THAT(told(EventKind::jump), HasSubstr("Frame 5000 does not follow frame 10"));
+    EXPECT_THAT(reported(EventKind::jump), HasSubstr("Frame 5000 does not follow frame 10"));
     EXPECT_EQ(hear(12), Validation::used);
     EXPECT_EQ(judge.counts().lost, 1u);
 }
@@ -107,7 +107,7 @@ TEST_F(FrameValidatorTest, FollowsACardThatWasReset) {
     EXPECT_EQ(hear(after_reset(1)), Validation::used);
     EXPECT_EQ(judge.counts().anew, 1u);
     EXPECT_EQ(judge.counts().lost, 0u);
-    EXPECT_THAT(told(EventKind::anew), HasSubstr("restarted: frame 1 follows frame 101"));
+    EXPECT_THAT(reported(EventKind::anew), HasSubstr("restarted: frame 1 follows frame 101"));
     EXPECT_EQ(hear(after_reset(2)), Validation::used);
 }
 
@@ -118,13 +118,13 @@ TEST_F(FrameValidatorTest, ReportsStaleFramesOnceAfterTwoPeriods) {
     judge.look(now + 2 * period + Duration{1});
     EXPECT_TRUE(judge.stale());
     judge.look(now + 3 * period);
-    EXPECT_THAT(told(EventKind::stale), HasSubstr("positions of frame 10 are stale"));
+    EXPECT_THAT(reported(EventKind::stale), HasSubstr("positions of frame 10 are stale"));
     now += whole_seconds(3);
     EXPECT_EQ(hear(10 + 15'001), Validation::used);
     EXPECT_FALSE(judge.stale());
     EXPECT_EQ(judge.counts().stale, 1u);
     EXPECT_EQ(judge.counts().lost, 15'000u);
-    EXPECT_EQ(told(EventKind::fresh), "Frames are received again, from number 15011 on.");
+    EXPECT_EQ(reported(EventKind::fresh), "Frames are received again, from number 15011 on.");
 }
 
 TEST_F(FrameValidatorTest, CountsASilenceThatEndedBeforeAnyoneLooked) {
@@ -143,7 +143,7 @@ TEST_F(FrameValidatorTest, NeverUsesASecondPublisherWhileTheFirstIsThere) {
     EXPECT_TRUE(judge.in_conflict());
     hear(sample_of(second, 701));
     hear(12);
-    const std::string conflict = told(EventKind::conflict);
+    const std::string conflict = reported(EventKind::conflict);
     EXPECT_THAT(conflict, HasSubstr("[wafer1, process 101, id " + first.id_text() + "] has it"));
     EXPECT_THAT(conflict, HasSubstr("[wafer2, process 102, id " + second.id_text() + "] publishes too"));
     EXPECT_EQ(conflict.find('\n'), std::string::npos) << "told once";
@@ -157,7 +157,7 @@ TEST_F(FrameValidatorTest, EndsAConflictWhenTheSecondIsSilent) {
     hear(10);
     hear(sample_of(second, 700));
     for (std::uint32_t i = 11; judge.in_conflict() || i < 13; ++i) ASSERT_EQ(hear(i), Validation::used);
-    EXPECT_THAT(told(EventKind::conflict_over), HasSubstr("wafer2, process 102"));
+    EXPECT_THAT(reported(EventKind::conflict_over), HasSubstr("wafer2, process 102"));
     EXPECT_TRUE(judge.others().empty());
 }
 
@@ -170,7 +170,7 @@ TEST_F(FrameValidatorTest, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
     EXPECT_EQ(judge.counts().takeovers, 1u);
     EXPECT_EQ(judge.counts().lost, 0u);
     EXPECT_EQ(judge.counts().conflicts, 0u);
-    EXPECT_THAT(told(EventKind::takeover), HasSubstr("[wafer2, process 102"));
+    EXPECT_THAT(reported(EventKind::takeover), HasSubstr("[wafer2, process 102"));
     EXPECT_EQ(hear(11), Validation::other_source) << "the first comes back too late";
 }
 
@@ -181,7 +181,7 @@ TEST_F(FrameValidatorTest, RecognisesAPublisherThatWasRestarted) {
     EXPECT_EQ(hear(sample_of(again, 0)), Validation::used);
     EXPECT_EQ(judge.counts().restarts, 1u);
     EXPECT_EQ(judge.counts().takeovers, 0u);
-    EXPECT_THAT(told(EventKind::restart), HasSubstr("restarted"));
+    EXPECT_THAT(reported(EventKind::restart), HasSubstr("restarted"));
 }
 
 TEST_F(FrameValidatorTest, NeverUsesDamagedFrames) {
@@ -228,7 +228,7 @@ TEST_F(FrameValidatorTest, LetsNobodyInWhoseNIsNotTheExpectedOne) {
     judge = FrameValidator({.words = 8});
     EXPECT_EQ(hear(10), Validation::wrong_words);
     EXPECT_FALSE(judge.joined());
-    EXPECT_THAT(told(EventKind::wrong_words), HasSubstr("has 6 positions, but 8 are expected"));
+    EXPECT_THAT(reported(EventKind::wrong_words), HasSubstr("has 6 positions, but 8 are expected"));
     EXPECT_EQ(hear(sample_of(second, 3, 8)), Validation::used);
 }
 
@@ -236,7 +236,7 @@ TEST_F(FrameValidatorTest, ReportsOnlyPrintableText) {
     Sample rude = sample_of(first, 1);
     rude.source.host[2] = '\033';
     hear(rude);
-    EXPECT_THAT(told(EventKind::wrong_crc), HasSubstr("wa?er1"));
+    EXPECT_THAT(reported(EventKind::wrong_crc), HasSubstr("wa?er1"));
 }
 
 TEST_F(FrameValidatorTest, KeepsAFewOthersInMindAndCountsTheRest) {

@@ -158,12 +158,12 @@ int mr_on_condition(mr_rack* rack,
                                  const char* sentence),
                     void* user) {
     return guarded({{rack, no_rack}}, [&]() -> Result<void> {
-        std::function<void(const ReportedCondition&)> told;
+        std::function<void(const ReportedCondition&)> reported;
         if (call != nullptr)
-            told = [call, user](const ReportedCondition& one) {
+            reported = [call, user](const ReportedCondition& one) {
                 call(user, one.number, one.at.count(), one.source.c_str(), one.code, one.sentence.c_str());
             };
-        rack->session->on_condition(std::move(told));
+        rack->session->on_condition(std::move(reported));
         return {};
     });
 }

@@ -55,12 +55,12 @@ class Process {
 
     /// Makes "WHO: SENTENCE" the last error of the thread. Calls the handler if `told` is set. Requires the lock to be
     /// free.
-    void failed(std::string& last, std::string_view who, std::string_view sentence, bool told = true) noexcept {
+    void failed(std::string& last, std::string_view who, std::string_view sentence, bool reported = true) noexcept {
         try {
             const std::string start = std::string(who) + ": ";
             last = sentence;
             if (last.rfind(start, 0) != 0) last.insert(0, start);
-            if (!told) return;
+            if (!reported) return;
             const auto [handler, user] = [&] {
                 const std::lock_guard<std::mutex> alone(lock_);
                 return std::pair(handler_, user_);

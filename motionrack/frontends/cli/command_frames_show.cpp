@@ -133,13 +133,13 @@ int finish(Show& show, const rack::FrameMonitor& watch, const ShowOptions& optio
     if (!options.json) {
         fmt::print("{}", conflicts_text(watch.bus(), 12));
         std::fflush(stdout);
-        static constexpr std::size_t max_told = 12;
+        static constexpr std::size_t max_reported = 12;
         const auto conditions = show.rack.kernel().conditions();
-        for (std::size_t i = 0; i < std::min(max_told, conditions.size()); ++i)
+        for (std::size_t i = 0; i < std::min(max_reported, conditions.size()); ++i)
             print_warning(show.rack.describe(conditions[i]));
         for (const std::string& fault : show.faults.not_done()) print_warning(fault);
-        if (conditions.size() > max_told)
-            print_warning(fmt::format("{} more conditions were reported", conditions.size() - max_told));
+        if (conditions.size() > max_reported)
+            print_warning(fmt::format("{} more conditions were reported", conditions.size() - max_reported));
     }
     if (show.recorder) wrote(show.recorder->finish(), options.vcd);
     if (!options.picture.empty()) {

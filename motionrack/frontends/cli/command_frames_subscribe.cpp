@@ -83,9 +83,9 @@ class Display {
                 continue;
             }
             wipe();
-            const bool news = event.kind == dds::EventKind::joined || event.kind == dds::EventKind::fresh ||
-                              event.kind == dds::EventKind::conflict_over;
-            if (!news)
+            const bool changed = event.kind == dds::EventKind::joined || event.kind == dds::EventKind::fresh ||
+                                 event.kind == dds::EventKind::conflict_over;
+            if (!changed)
                 print_warning(dds::sentence(event));
             else if (!options_.quiet)
                 fmt::print(stderr, "{}\n", dds::sentence(event));

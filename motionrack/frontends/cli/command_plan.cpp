@@ -67,7 +67,7 @@ constexpr double look_every_s = 0.001;
 Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,
                      bool quiet) {
     Planned out;
-    control::OfflineTrajectory ride(limits, start, [&](const control::PathSection& stretch) {
+    control::OfflineTrajectory offline_trajectory(limits, start, [&](const control::PathSection& stretch) {
         out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
         out.bound += stretch.rest_seconds;
         if (stretch.curve.empty()) return;
@@ -87,17 +87,17 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
     });
     ProgressLine progress(quiet);
     for (std::size_t i = 0; i < moves.size() && !stop_asked; ++i) {
-        ride.push(moves[i]);
+        offline_trajectory.push(moves[i]);
         progress.show(static_cast<double>(i) / static_cast<double>(moves.size()), "planning");
     }
-    ride.flush();
+    offline_trajectory.flush();
     return out;
 }
 
 struct Plans {
     std::string name;
     std::size_t moves = 0;
-    Planned stopping, trapezoids, ride;
+    Planned stopping, trapezoids, jerk_limited;
 };
 
 double part_of(double value, double limit) {
@@ -112,11 +112,11 @@ void print_plans(const Plans& plans, const rack::RackConfig& config) {
     };
     row("stopping at each move", plans.stopping);
     row("trapezoids", plans.trapezoids);
-    row("jerk-limited", plans.ride);
-    fmt::print("  {:<37} {:>9.3f} s\n", "bound (acceleration only, same curve)", plans.ride.bound);
+    row("jerk-limited", plans.jerk_limited);
+    fmt::print("  {:<37} {:>9.3f} s\n", "bound (acceleration only, same curve)", plans.jerk_limited.bound);
     fmt::print("Peak of the jerk-limited plan, and its share of the axis' limit:\n");
     for (const rack::RackAxis& axis : config.axes) {
-        const AxisPeaks& peaks = plans.ride.axes[static_cast<std::size_t>(axis.index())];
+        const AxisPeaks& peaks = plans.jerk_limited.axes[static_cast<std::size_t>(axis.index())];
         if (peaks.velocity == 0) continue;
         const auto value = [&](double peak, const char* unit, double limit) {
             return limit > 0 ? fmt::format("{:>11.5g} {}/{:<3} {:>5.1f} %", peak, axis.unit(), unit,
@@ -137,11 +137,11 @@ void print_json(const Plans& plans, const rack::RackConfig& config) {
                           {"moves", plans.moves},
                           {"stopping", planned(plans.stopping)},
                           {"trapezoids", planned(plans.trapezoids)},
-                          {"jerk_limited", planned(plans.ride)},
-                          {"bound", {{"duration_s", plans.ride.bound}}},
+                          {"jerk_limited", planned(plans.jerk_limited)},
+                          {"bound", {{"duration_s", plans.jerk_limited.bound}}},
                           {"axes", nlohmann::json::object()}};
     for (const rack::RackAxis& axis : config.axes) {
-        const AxisPeaks& peaks = plans.ride.axes[static_cast<std::size_t>(axis.index())];
+        const AxisPeaks& peaks = plans.jerk_limited.axes[static_cast<std::size_t>(axis.index())];
         out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()},
                                                     {"velocity", peaks.velocity},
                                                     {"accel", peaks.accel},
@@ -186,8 +186,8 @@ int plan(const PlanOptions& options) {
     if (stop_asked) return report({ErrorKind::stopped, "Stopped before the plan was complete; nothing was reported."});
     options.json ? print_json(plans, *config) : print_plans(plans, *config);
     if (options.picture.empty()) return exit_done;
-    const std::string title =
-        fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.ride.seconds, plans.trapezoids.seconds);
+    const std::string title = fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.jerk_limited.seconds,
+                                          plans.trapezoids.seconds);
     if (const Result<void> done =
             write_text(options.picture, rack::plan_picture(title, moves, *config, settings.start));
         !done)

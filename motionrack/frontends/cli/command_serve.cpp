@@ -57,7 +57,7 @@ class Serving {
         stop_on_signals();
         if (const Result<void> begun = begin(*config); !begun) return report(begun.error());
         greet(*config);
-        tell_service_manager("READY=1");
+        notify_service_manager("READY=1");
         served_->run();
         return end();
     }
@@ -154,7 +154,7 @@ class Serving {
         if (!stop_asked || stopping_) return;
         stopping_ = true;
         say("Stopping the axes.");
-        tell_service_manager("STOPPING=1");
+        notify_service_manager("STOPPING=1");
         // A stopped clock would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
         if (pacer.mode() != operate::ClockMode::unthrottled)

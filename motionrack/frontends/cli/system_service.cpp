@@ -14,7 +14,7 @@
 
 namespace motionrack::cli {
 
-void tell_service_manager(std::string_view state) {
+void notify_service_manager(std::string_view state) {
     const char* path = std::getenv("NOTIFY_SOCKET");
     if (path == nullptr || (path[0] != '/' && path[0] != '@')) return;
     sockaddr_un address = {};

@@ -7,7 +7,7 @@
 namespace motionrack::cli {
 
 /// Sends "READY=1" or "STOPPING=1" to the service manager, if one runs.
-void tell_service_manager(std::string_view state);
+void notify_service_manager(std::string_view state);
 
 /// Returns the folder for persistent state: systemd's state directory, else ~/.local/state/motionrack, which is created
 /// if missing. Empty if neither exists.

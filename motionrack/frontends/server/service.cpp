@@ -67,7 +67,7 @@ PanelService::PanelService(ServerSettings settings, panel::Panel& panel, auth::A
       guard_(settings_.hosts, settings_.origins),
       post_(std::move(post)),
       requests_(settings_.limits.requests_at_once, settings_.limits.requests_per_second),
-      told_(1, 1),
+      reported_(1, 1),
       unknown_senders_([this](const AuditEntry& entry) {
           if (settings_.audit) settings_.audit(entry);
       }),
@@ -277,7 +277,7 @@ void PanelService::audit(const std::string& user, const std::string& address, st
                          const panel::Answer& answer, bool is_known) {
     if (!settings_.audit) return;
     const auto at = now().steady;
-    if (is_known && !told_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), at)) return;
+    if (is_known && !reported_.take(fmt::format("{} {} {} {}", address, what, answer.status, user), at)) return;
     AuditEntry entry{user, address, std::move(what), answer.status, "done"};
     if (answer.status != 200 && answer.body.contains("error"))
         entry.outcome = answer.body["error"].value("message", "");

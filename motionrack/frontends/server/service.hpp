@@ -105,7 +105,7 @@ class PanelService {
     Page page_;
     OriginPolicy guard_;
     std::shared_ptr<NetworkExecutor> post_;
-    auth::RateLimit requests_, told_;
+    auth::RateLimit requests_, reported_;
     UnknownSenderLog unknown_senders_;
     std::string openapi_;
 };

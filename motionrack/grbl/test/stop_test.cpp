@@ -56,7 +56,7 @@ class Careless {
 
 struct Source {
     const char* name;
-    const char* told;  ///< message to the sender
+    const char* reported;  ///< message to the sender
     void (*stop)(operate::Machine& machine);
 };
 const std::array<Source, 5> sources = {{
@@ -148,7 +148,7 @@ class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::si
         source.stop(*b.machine);
         const std::string heard = sender.stream(0.7);
         const std::string alarm = doing.homes ? "ALARM:" : "ALARM:3\r\n[MSG:";
-        ASSERT_THAT(heard, AllOf(HasSubstr(alarm), HasSubstr(source.told)));
+        ASSERT_THAT(heard, AllOf(HasSubstr(alarm), HasSubstr(source.reported)));
         ASSERT_TRUE(operate::idle(b.machine->state())) << operate::name_of(b.machine->state());
         const std::vector<operate::AxisStatus> stood = b.machine->status().axes;
         const std::string later = sender.stream(1) + sender.say("~G1X2F600\n", 0.2);

@@ -112,11 +112,11 @@ TEST_F(DamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
         {"UPDATE chain SET link = 'abc' WHERE name = 'head'", "entry 3 is not the last written one"},
         {"DELETE FROM chain", "entry 3 is not the last written one"},
     };
-    for (const auto& [sql, told] : changes) {
+    for (const auto& [sql, reported] : changes) {
         make();
         change(sql);
-        EXPECT_THAT(next().damage, HasSubstr(told)) << sql;
-        EXPECT_THAT(next().damage, HasSubstr(told)) << sql << ": it stays noticed";
+        EXPECT_THAT(next().damage, HasSubstr(reported)) << sql;
+        EXPECT_THAT(next().damage, HasSubstr(reported)) << sql << ": it stays noticed";
         const auto journal = open();
         EXPECT_EQ(write(*journal, "job", "goes on"), 4) << sql << ": numbers are not used twice";
         const Result<ChainCheck> check = journal->check();

@@ -67,14 +67,14 @@ TEST_F(JournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
         {[&] { fs::remove(path_ + ".lock"); }, "was deleted"}, {[&] { copy_over(""); }, "was replaced"},
         {[&] { copy_over("-wal"); }, "was replaced"},          {[&] { fs::resize_file(path_, 0); }, "was cut"},
     };
-    for (const auto& [change_it, told] : changes) {
+    for (const auto& [change_it, reported] : changes) {
         remove();
         auto journal = open();
         EXPECT_EQ(write(*journal, "state", "there"), 1);
         change_it();
-        EXPECT_THAT(failure_of(*journal), HasSubstr(told));
-        EXPECT_EQ(write(*journal, "state", "not there"), -1) << told << ": nothing is acknowledged that is lost";
-        EXPECT_FALSE(journal->close()) << told;
+        EXPECT_THAT(failure_of(*journal), HasSubstr(reported));
+        EXPECT_EQ(write(*journal, "state", "not there"), -1) << reported << ": nothing is acknowledged that is lost";
+        EXPECT_FALSE(journal->close()) << reported;
     }
 }
 

@@ -162,8 +162,8 @@ TEST_F(JournalFile, TakesEntriesOfManyThreads) {
         (*journal)->write(Instant{i}, "command", "order " + std::to_string(i), {},
                           [pipe_in, i](const Result<std::int64_t>& number) {
                               if (!number) return;  // queue full: refused, not acknowledged
-                              const std::int64_t told[2] = {*number, i};
-                              if (::write(pipe_in, told, sizeof told) != sizeof told) ::_exit(2);
+                              const std::int64_t reported[2] = {*number, i};
+                              if (::write(pipe_in, reported, sizeof reported) != sizeof reported) ::_exit(2);
                           });
         (*journal)->keep("line", std::to_string(i));
         if (i % 16 == 15) std::this_thread::yield();
@@ -175,7 +175,7 @@ TEST_F(JournalFile, LosesNothingThatWasAcknowledgedInAHundredKills) {
     const auto seed = static_cast<std::uint32_t>(seed_from_environment());
     SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed));
     std::mt19937 random(seed);
-    std::vector<std::pair<std::int64_t, std::int64_t>> told;
+    std::vector<std::pair<std::int64_t, std::int64_t>> reported;
     for (int kill_count = 0; kill_count < 100; ++kill_count) {
         int ends[2];
         ASSERT_EQ(::pipe(ends), 0);
@@ -185,9 +185,9 @@ TEST_F(JournalFile, LosesNothingThatWasAcknowledgedInAHundredKills) {
         const auto wanted = std::uniform_int_distribution<int>(0, 400)(random);
         std::int64_t one[2];
         for (int i = 0; i < wanted && ::read(ends[0], one, sizeof one) == sizeof one; ++i)
-            told.emplace_back(one[0], one[1]);
+            reported.emplace_back(one[0], one[1]);
         ::kill(child, SIGKILL);
-        while (::read(ends[0], one, sizeof one) == sizeof one) told.emplace_back(one[0], one[1]);
+        while (::read(ends[0], one, sizeof one) == sizeof one) reported.emplace_back(one[0], one[1]);
         ::close(ends[0]);
         int status = 0;
         ::waitpid(child, &status, 0);
@@ -197,8 +197,8 @@ TEST_F(JournalFile, LosesNothingThatWasAcknowledgedInAHundredKills) {
     ASSERT_TRUE(journal->before());
     EXPECT_FALSE(journal->before()->clean);
     const std::map<std::int64_t, std::string> kept = all_entries();
-    EXPECT_GT(told.size(), 1000u);
-    for (const auto& [number, order] : told) {
+    EXPECT_GT(reported.size(), 1000u);
+    for (const auto& [number, order] : reported) {
         ASSERT_TRUE(kept.count(number) == 1) << "entry " << number << " was acknowledged";
         ASSERT_EQ(kept.at(number), "order " + std::to_string(order));
     }

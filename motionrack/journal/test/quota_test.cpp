@@ -12,18 +12,18 @@ namespace {
 using testing::HasSubstr;
 
 TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     std::mutex lock;
     JournalSettings settings;
     settings.max_bytes = 400'000;
     settings.on_quota = [&](const std::string& sentence) {
         const std::lock_guard<std::mutex> alone(lock);
-        told.push_back(sentence);
+        reported.push_back(sentence);
     };
     auto journal = *Journal::open(path_, settings);
     const auto count = [&] {
         const std::lock_guard<std::mutex> alone(lock);
-        return told.size();
+        return reported.size();
     };
     const std::string text(200, 'x');
     std::int64_t last = 0;
@@ -37,8 +37,8 @@ TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
         }
     }
     ASSERT_GT(count(), 2u);
-    EXPECT_THAT(told[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file first")));
-    EXPECT_THAT(told[1], HasSubstr("has reached its quota of 0.4 MB: entries before number"));
+    EXPECT_THAT(reported[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file first")));
+    EXPECT_THAT(reported[1], HasSubstr("has reached its quota of 0.4 MB: entries before number"));
     const auto entries = journal->read({0, "", 10000});
     EXPECT_LT(entries->size(), 2000u);
     EXPECT_GT(entries->size(), 500u);

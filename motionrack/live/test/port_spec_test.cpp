@@ -72,8 +72,8 @@ TEST(LivePortSpec, SaysWhatIsWrongAndTheForm) {
 RC_GTEST_PROP(LivePortSpec, AnyTextGivesASpecOrASentence, (const std::string& tail)) {
     for (const char* start : {"", "uio:", "memory:/x,", "port:/x,offset="}) {
         const auto spec = read_port_spec(start + tail);
-        const bool told = spec ? !spec->path.empty() : !spec.error().message.empty();
-        RC_ASSERT(told);
+        const bool reported = spec ? !spec->path.empty() : !spec.error().message.empty();
+        RC_ASSERT(reported);
     }
 }
 

@@ -74,7 +74,7 @@ struct Real : Operated {
     }
     void end(double seconds) {
         at(seconds, [this](Machine& m) {
-            EXPECT_TRUE(m.service().end([this](const Result<std::string>& told) { said.push_back(*told); }));
+            EXPECT_TRUE(m.service().end([this](const Result<std::string>& reported) { said.push_back(*reported); }));
         });
     }
     const std::vector<Alarm>& alarms() const { return machine->status().alarms; }
@@ -278,8 +278,8 @@ TEST(RealCard, ThatCannotBeOpenedRefusesTheService) {
         file.points_to(bad.name);
         Real o(file);
         o.at(0.05, [&](Machine& m) {
-            EXPECT_TRUE(m.service().begin("bench", dora, "w1", [&](const Result<std::string>& told) {
-                o.said.push_back(told ? *told : told.error().message);
+            EXPECT_TRUE(m.service().begin("bench", dora, "w1", [&](const Result<std::string>& reported) {
+                o.said.push_back(reported ? *reported : reported.error().message);
             }));
         });
         o.at(0.2, [&](Machine& m) {

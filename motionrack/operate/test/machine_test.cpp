@@ -353,13 +353,13 @@ TEST(Machine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
     Operated o(two_axes());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 50)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });
-    double told = 0;
+    double reported = 0;
     o.at(0.5, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::jogging);
-        told = m.status().axes[1].commanded;
+        reported = m.status().axes[1].commanded;
     });
     o.run(3);
-    EXPECT_EQ(told, 50);
+    EXPECT_EQ(reported, 50);
     EXPECT_EQ(o.y(), 50);
 }
 

@@ -19,8 +19,8 @@ struct Served : Operated {
     explicit Served(const rack::RackConfig& config) : Operated(config) {}
     void begin(double seconds, const std::string& card = "m") {
         at(seconds, [this, card](Machine& m) {
-            const Result<void> begun = m.service().begin(card, anna, "w1", [this](const Result<std::string>& told) {
-                said.push_back(told ? *told : told.error().message);
+            const Result<void> begun = m.service().begin(card, anna, "w1", [this](const Result<std::string>& reported) {
+                said.push_back(reported ? *reported : reported.error().message);
             });
             EXPECT_TRUE(begun) << begun.error().message;
         });
@@ -56,7 +56,7 @@ TEST(Service, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
         EXPECT_EQ(m.status().service, "m");
         EXPECT_FALSE(m.status().axes[0].position_valid || m.status().axes[1].position_valid);
         EXPECT_NEAR(m.status().axes[1].true_position, 1, 1e-9) << "640 pulses are a millimetre";
-        EXPECT_TRUE(m.service().end([&](const Result<std::string>& told) { o.said.push_back(*told); }));
+        EXPECT_TRUE(m.service().end([&](const Result<std::string>& reported) { o.said.push_back(*reported); }));
     });
     o.at(0.7, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);

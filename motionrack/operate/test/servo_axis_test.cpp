@@ -136,14 +136,14 @@ TEST(OperatedServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefus
 TEST(OperatedServoAxis, IsToldWhereItWasDeclaredToStand) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
-    double told = 0;
+    double reported = 0;
     o.at(0.2, [&](Machine& m) {
-        told = m.status().axes[0].commanded;
+        reported = m.status().axes[0].commanded;
         EXPECT_NEAR(m.status().axes[0].actual, 100, 0.011);
         EXPECT_TRUE(m.jog_by('X', 20, 50));
     });
     o.run(3);
-    EXPECT_NEAR(told, 100, 0.011);
+    EXPECT_NEAR(reported, 100, 0.011);
     EXPECT_NEAR(o.x(), 120, 0.3);
 }
 

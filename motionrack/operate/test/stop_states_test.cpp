@@ -301,10 +301,10 @@ TEST(TableOfReactions, HasOneAnswerOfEachPartToEachSource) {
 }
 
 TEST(SafetyPage, NamesTheStatesThatAreTested) {
-    std::vector<std::string_view> tested, told;
+    std::vector<std::string_view> tested, reported;
     for (const State& state : states) tested.push_back(state.name);
-    for (const rack::StopState& state : rack::stop_states()) told.push_back(state.name);
-    EXPECT_EQ(told, tested);
+    for (const rack::StopState& state : rack::stop_states()) reported.push_back(state.name);
+    EXPECT_EQ(reported, tested);
 }
 
 }  // namespace

@@ -113,16 +113,16 @@ TEST(JournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
 
 TEST(Event, TellsWhatThePartsOfTheMachineReport) {
     Asked a(two_axes());
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     a.panel->on_event([&](const Event& event) {
-        if (event.kind == "condition") told.push_back(event.text);
+        if (event.kind == "condition") reported.push_back(event.text);
     });
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
     a.good(0.3, "mdi", {{"text", "G1 X50 F3000"}});
     a.good(0.5, "inject_fault", {{"target", "X"}, {"fault", "motor.lose_steps=640"}});
     a.run(4);
-    EXPECT_FALSE(told.empty());
+    EXPECT_FALSE(reported.empty());
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void pass_in_pieces(Session& session, std::uint64_t ns, Random& random) {
     }
 }
 
-std::vector<std::string> told(Session& session, std::uint64_t after) {
+std::vector<std::string> reported(Session& session, std::uint64_t after) {
     std::vector<std::string> out;
     for (const sim::Condition& one : session.rack().kernel().conditions(after))
         out.push_back(
@@ -167,9 +167,9 @@ void expect_the_same_however_it_is_cut(const Bench& bench, std::uint64_t seed) {
         }
         ASSERT_TRUE(whole.session->advance(step.ns));
         pass_in_pieces(*cut.session, step.ns, knife);
-        const std::vector<std::string> news = told(*whole.session, heard);
-        ASSERT_EQ(news, told(*cut.session, heard)) << "step " << i;
-        heard += news.size();
+        const std::vector<std::string> changed = reported(*whole.session, heard);
+        ASSERT_EQ(changed, reported(*cut.session, heard)) << "step " << i;
+        heard += changed.size();
         ASSERT_EQ(whole.session->rack().kernel().trace_hash(), cut.session->rack().kernel().trace_hash())
             << "step " << i;
         ASSERT_EQ(whole.session->state_hash(), cut.session->state_hash())

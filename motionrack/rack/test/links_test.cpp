@@ -184,7 +184,7 @@ TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
 
 /// A comparison of the crossed encoder stops the drive at count -2000.
 TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
-    struct Ear final : sim::PositionListener {
+    struct RecordingListener final : sim::PositionListener {
         void crossed(Instant) override { ++times; }
         void rate_changed(double, double rate, Instant) override { last_rate = rate; }
         int times = 0;
@@ -193,23 +193,23 @@ TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
     const RackConfig config = good(rack_with(""));
     Rack rack(config);
     InvertedPosition mirrored(rack.axes()[0].machine->encoder());
-    Ear ear;
-    const int slot = mirrored.add_listener(ear);
+    RecordingListener listener;
+    const int slot = mirrored.add_listener(listener);
     JobSettings settings;
     settings.program = "G21 G90\nG1 X10 F600\nM2\n";
     Job job(rack, settings);
     rack.start();
     mirrored.watch(slot, -2000, sim::unwatched_above);
     EXPECT_TRUE(job.run().ended);
-    EXPECT_EQ(ear.times, 1);
+    EXPECT_EQ(listener.times, 1);
     EXPECT_EQ(mirrored.count(rack.kernel().now()), -8000);
     mirrored.watch(slot, sim::unwatched_below, -7000);
     EXPECT_TRUE(rack.kernel().run_until(rack.kernel().now() + milliseconds(1)) == sim::RunEnd::reached);
-    EXPECT_EQ(ear.times, 1);
+    EXPECT_EQ(listener.times, 1);
     mirrored.watch(slot, sim::unwatched_below, -8000);
     rack.kernel().run_until(rack.kernel().now() + milliseconds(1));
-    EXPECT_EQ(ear.times, 2);
-    EXPECT_EQ(ear.last_rate, 0);
+    EXPECT_EQ(listener.times, 2);
+    EXPECT_EQ(listener.last_rate, 0);
 }
 
 }  // namespace

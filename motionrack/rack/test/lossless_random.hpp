@@ -220,11 +220,11 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     Disturbed disturbed = wishes_of(random, program.seconds + 2);
     Chance stops(seed + 0x5eed);
     ask_stop(disturbed, stops, program.seconds + 2);
-    std::string told;
-    for (const auto& [at, what] : disturbed.wishes) told += fmt::format(" {}@{:.4f}s", what, at);
+    std::string reported;
+    for (const auto& [at, what] : disturbed.wishes) reported += fmt::format(" {}@{:.4f}s", what, at);
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} microsteps {}, latency {} us, access {} ns, wishes{}", seed,
                              profile, config.axes[0].microsteps, config.cards[0].mcx314.host_latency_us,
-                             config.cards[0].mcx314.bus_access_ns, told));
+                             config.cards[0].mcx314.bus_access_ns, reported));
     const Driven driven =
         drive_with(config, program.text, disturbed.wishes, {}, seed % 2 == 0 ? accel_of_trapezoids : 1);
     expect_lossless(driven, 1.3);
@@ -250,10 +250,10 @@ inline void drive_late(std::uint64_t seed) {
         waited += length + 0.3;
     }
     std::sort(waits.begin(), waits.end());
-    std::string told;
-    for (const auto& [at, length] : waits) told += fmt::format(" {:.4f} s at {:.4f} s", length, at);
+    std::string reported;
+    for (const auto& [at, length] : waits) reported += fmt::format(" {:.4f} s at {:.4f} s", length, at);
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} latency {} us, access {} ns, late{}", seed, profile,
-                             config.cards[0].mcx314.host_latency_us, config.cards[0].mcx314.bus_access_ns, told));
+                             config.cards[0].mcx314.host_latency_us, config.cards[0].mcx314.bus_access_ns, reported));
     std::size_t next = 0;
     const Driven driven = drive_with(config, program.text, {}, [&](Rack& rack) {
         if (next == waits.size() || to_seconds(rack.kernel().now()) < waits[next].first) return;

@@ -237,16 +237,16 @@ TEST(Host, ThatComesTooLateIsToldWhereAndHowLate) {
     });
     ASSERT_TRUE(driven.outcome.ended);
     EXPECT_FALSE(driven.outcome.good());
-    bool told = false;
+    bool reported = false;
     for (const Breach& breach : driven.outcome.breaches.all()) {
         if (breach.kind != BreachKind::late) continue;
-        told = true;
+        reported = true;
         EXPECT_NEAR(breach.value, 0.017, 0.003) << "of the two milliseconds that each chord takes";
         EXPECT_NEAR(to_seconds(breach.at), 2.503, 0.003);
         EXPECT_GT(breach.line, 3);
         EXPECT_NE(sentence_of(breach).find("host_latency_us"), std::string::npos);
     }
-    EXPECT_TRUE(told);
+    EXPECT_TRUE(reported);
     EXPECT_GT(driven.worst.parts, 5) << "the referee sees that the pulses stopped at once";
     EXPECT_EQ(driven.outcome.breaches.all().back().kind, BreachKind::jump) << "and so does the monitor";
     expect_end(driven, path.x, path.y);

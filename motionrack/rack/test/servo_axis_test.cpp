@@ -17,7 +17,7 @@ using control::AxisState;
 using ::testing::HasSubstr;
 
 struct Machine {
-    explicit Machine(const std::string& text = carriage()) : rack(good(text)), desk(rack) {
+    explicit Machine(const std::string& text = carriage()) : rack(good(text)), context(rack) {
         rack.start();
         axis = *rack.axes()[0].card->axis(rack.config(), 'X');
     }
@@ -32,7 +32,7 @@ struct Machine {
     void here_is(double mm) { ASSERT_TRUE(axis->set_position(mm)); }
 
     Rack rack;
-    WireAccess desk;
+    WireAccess context;
     control::Axis* axis = nullptr;
 };
 
@@ -163,14 +163,14 @@ TEST(ServoAxis, TheEmergencyStopEndsAMoveAndItStaysWhenReleased) {
     m.here_is(100);
     ASSERT_TRUE(m.axis->move_to(2'500, 500));
     m.run(whole_seconds(1));
-    ASSERT_TRUE(m.desk.force("estop", 0));
+    ASSERT_TRUE(m.context.force("estop", 0));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);
     EXPECT_THAT(moved.error().message, HasSubstr("the emergency stop is active"));
-    EXPECT_EQ(*m.desk.get("board.relay"), 0);
+    EXPECT_EQ(*m.context.get("board.relay"), 0);
     EXPECT_EQ(m.velocity(), 0);
     EXPECT_THAT(m.axis->move_to(0, 100).error().message, HasSubstr("release it"));
-    ASSERT_TRUE(m.desk.force("estop", std::nan("")));
+    ASSERT_TRUE(m.context.force("estop", std::nan("")));
     const double there = m.mm();
     m.run(whole_seconds(1));
     EXPECT_EQ(m.mm(), there);
@@ -232,11 +232,11 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     m.run(milliseconds(250));
     EXPECT_NEAR(*get_quantity(m.rack, "X.drive_v"), 0.5, 0.01);
     EXPECT_EQ(*get_quantity(m.rack, "X.cam"), 0);
-    EXPECT_EQ(*m.desk.get("board.vout"), *get_quantity(m.rack, "X.drive_v"));
+    EXPECT_EQ(*m.context.get("board.vout"), *get_quantity(m.rack, "X.drive_v"));
     ASSERT_TRUE(m.axis->wait(whole_seconds(30)));
     EXPECT_EQ(*get_quantity(m.rack, "X.cam"), 1);
-    EXPECT_EQ(*m.desk.get("X.cam"), 0) << "the contact is open on the cam";
-    EXPECT_EQ(*m.desk.get("board.ref"), 1);
+    EXPECT_EQ(*m.context.get("X.cam"), 0) << "the contact is open on the cam";
+    EXPECT_EQ(*m.context.get("board.ref"), 1);
     ASSERT_TRUE(inject_fault(m.rack, "motor.stall", "X"));
     ASSERT_TRUE(m.axis->move_to(200, 50));
     m.run(whole_seconds(1));
@@ -248,10 +248,10 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     // Forces a voltage manually.
     m.axis->stop_now();
     ASSERT_TRUE(inject_fault(m.rack, "motor.stall=0", "X"));
-    ASSERT_TRUE(m.desk.force("X.drive", -2));
+    ASSERT_TRUE(m.context.force("X.drive", -2));
     m.host().pass(milliseconds(500));
     EXPECT_NEAR(m.velocity(), -200, 2);
-    EXPECT_THAT(m.desk.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
+    EXPECT_THAT(m.context.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
 }
 
 TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
@@ -314,7 +314,7 @@ TEST(ServoAxis, AnEmergencyStopEndsAHoming) {
     order.towards_plus = false;
     ASSERT_TRUE(m.axis->home(order, m.now()));
     m.run(milliseconds(200));
-    ASSERT_TRUE(m.desk.force("estop", 0));
+    ASSERT_TRUE(m.context.force("estop", 0));
     const auto homed = m.axis->wait(whole_seconds(10));
     ASSERT_FALSE(homed);
     EXPECT_THAT(homed.error().message, HasSubstr("the emergency stop is active"));

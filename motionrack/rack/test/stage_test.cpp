@@ -194,9 +194,9 @@ TEST(RunningStages, NoFramesForTwoPeriodsOpenTheLoops) {
     r.run(0.001);
     EXPECT_EQ(r.get("mask.closed"), 0);
     EXPECT_EQ(r.rack.stage("mask")->loop()->state(), grating_bus::LoopState::stale);
-    std::string told;
-    for (const sim::Condition& condition : r.rack.kernel().conditions()) told += r.rack.describe(condition) + "\n";
-    EXPECT_THAT(told, HasSubstr("card second had no frame for two periods and opened its loop"));
+    std::string reported;
+    for (const sim::Condition& condition : r.rack.kernel().conditions()) reported += r.rack.describe(condition) + "\n";
+    EXPECT_THAT(reported, HasSubstr("card second had no frame for two periods and opened its loop"));
     EXPECT_EQ(r.get("mask.drive_v"), 0);
 }
 

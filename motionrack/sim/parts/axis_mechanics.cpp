@@ -102,7 +102,7 @@ void AxisMechanics::feel(Instant now) {
 /// Starts a strain: the motor cannot follow `rate`; computes the time until step loss.
 void AxisMechanics::strain(double rate, Instant now) {
     Strain& s = state_.strain;
-    const double told = state_.motor.rate_hz;
+    const double reported = state_.motor.rate_hz;
     if (s.deadline == never) {
         s.rate_hz = s.steady_hz;
         s.since = now;
@@ -120,7 +120,7 @@ void AxisMechanics::strain(double rate, Instant now) {
     }
     motor_.note_rate(rate);
     put_off();
-    notify_rate(told, now);
+    notify_rate(reported, now);
 }
 
 /// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
@@ -174,8 +174,8 @@ void AxisMechanics::change_motor(Instant now, Change change) {
         state_.edges_until = rotor;
     }
     check(now);
-    const double told = before.hold == RotorHold::in_step ? before.rate_hz : 0;
-    if (motor_.rotor_rate(state_.motor.rate_hz) != told) notify_rate(told, now);
+    const double reported = before.hold == RotorHold::in_step ? before.rate_hz : 0;
+    if (motor_.rotor_rate(state_.motor.rate_hz) != reported) notify_rate(reported, now);
 }
 
 void AxisMechanics::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {

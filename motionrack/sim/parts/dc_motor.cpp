@@ -136,8 +136,8 @@ void DcMotor::change(Instant now) {
 
 void DcMotor::tell(double before, Instant now) {
     const double after = rate(now);
-    if (after == state_.told && before == after) return;
-    state_.told = after;
+    if (after == state_.reported && before == after) return;
+    state_.reported = after;
     listeners_.notify_rate(before, after, now);
 }
 

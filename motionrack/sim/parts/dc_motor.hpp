@@ -95,7 +95,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
         DcMotorModel law;
         double volts = 0;
         double load = 0;
-        double told = 0;  ///< the rate last sent to listeners
+        double reported = 0;  ///< the rate last sent to listeners
         Instant handed{};
         sim::Listeners::Watches watches{};
         std::int32_t blocked = 0;

@@ -65,13 +65,13 @@ double GalvoPair::lag_us() const {
     return static_cast<double>(dead_) * 10 + 1e6 * 2 * settings_.damping / (2 * pi * settings_.natural_hz);
 }
 
-double GalvoPair::step(Mirror& m, double told) const {
+double GalvoPair::step(Mirror& m, double reported) const {
     if (dead_ > 0) {
-        std::swap(told, m.late[static_cast<std::size_t>(m.head)]);
+        std::swap(reported, m.late[static_cast<std::size_t>(m.head)]);
         m.head = m.head + 1 == dead_ ? 0 : m.head + 1;
     }
-    const double off = m.position - told;
-    const double position = told + (over_tick_[0] * off + over_tick_[1] * m.velocity);
+    const double off = m.position - reported;
+    const double position = reported + (over_tick_[0] * off + over_tick_[1] * m.velocity);
     const double velocity = over_tick_[2] * off + over_tick_[3] * m.velocity;
     m.position += std::clamp(position - m.position, -limit_, limit_);
     m.velocity = std::clamp(velocity, -limit_, limit_);

@@ -47,7 +47,7 @@ class GalvoPair {
         std::int64_t head = 0;
         std::array<double, max_dead_us / 10> late{};  ///< commanded values during the dead time
     };
-    double step(Mirror& mirror, double told) const;
+    double step(Mirror& mirror, double reported) const;
 
     GalvoSettings settings_;
     std::array<double, 4> over_tick_{};  ///< (position, velocity) relative to the target, one tick later

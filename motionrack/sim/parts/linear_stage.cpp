@@ -183,8 +183,8 @@ void LinearStage::change(Instant now) {
 
 void LinearStage::tell(double before, Instant now) {
     const double after = rate(now);
-    if (after == state_.told && before == after) return;
-    state_.told = after;
+    if (after == state_.reported && before == after) return;
+    state_.reported = after;
     listeners_.notify_rate(before, after, now);
 }
 

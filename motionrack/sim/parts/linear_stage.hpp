@@ -87,7 +87,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
         Instant since{};
         std::int64_t length = 0;  ///< ticks for which the parabola is valid; `endless`
         Instant handed{};
-        double told = 0;  ///< the rate last sent to listeners
+        double reported = 0;  ///< the rate last sent to listeners
         double load = 0;
         double rubbing = 0;  ///< m/s2, by the fault
         sim::Listeners::Watches watches{};

@@ -119,9 +119,9 @@ TEST(DcMotor, ALoadMakesItSlower) {
     EXPECT_NEAR(times[1] / times[0], 5, 0.1);
 }
 
-struct MotorEar final : sim::PositionListener, sim::EdgeListener {
+struct MotorListener final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at.push_back(now); }
-    void rate_changed(double, double after, Instant) override { top = std::max(top, std::fabs(after)), ++told; }
+    void rate_changed(double, double after, Instant) override { top = std::max(top, std::fabs(after)), ++reported; }
     void edges(const sim::EdgeBatch& batch) override {
         for (std::uint32_t i = 0; i < batch.size; ++i) {
             edge_at.push_back(batch.origin + batch.tick * batch.at[i]);
@@ -131,36 +131,36 @@ struct MotorEar final : sim::PositionListener, sim::EdgeListener {
     std::vector<Instant> at, edge_at;
     std::vector<std::int64_t> counts;
     double top = 0;
-    int told = 0;
+    int reported = 0;
 };
 
 TEST(DcMotor, TellsAWatchAtTheVeryInstantAndHandsOverEveryEdge) {
     MotorRig rig;
-    MotorEar ear;
-    const int slot = rig.motor.add_listener(ear);
+    MotorListener listener;
+    const int slot = rig.motor.add_listener(listener);
     rig.kernel.start();
-    rig.motor.set_edge_listener(&ear);
+    rig.motor.set_edge_listener(&listener);
     rig.volts(6);
     for (const std::int64_t above : {1, 700, 2'000, 9'000}) {
         rig.motor.watch(slot, sim::unwatched_below, above);
-        ear.at.clear();
-        while (ear.at.empty()) rig.run(1e-3);
-        EXPECT_EQ(rig.motor.count(ear.at[0]), above);
-        EXPECT_EQ(rig.motor.count(ear.at[0] - microseconds(1)), above - 1);
+        listener.at.clear();
+        while (listener.at.empty()) rig.run(1e-3);
+        EXPECT_EQ(rig.motor.count(listener.at[0]), above);
+        EXPECT_EQ(rig.motor.count(listener.at[0] - microseconds(1)), above - 1);
     }
     rig.volts(-3);
     rig.run(0.5);
     std::int64_t count = 0;
-    for (std::size_t i = 0; i < ear.counts.size(); ++i) {
-        EXPECT_EQ(std::abs(ear.counts[i] - count), 1);
-        count = ear.counts[i];
+    for (std::size_t i = 0; i < listener.counts.size(); ++i) {
+        EXPECT_EQ(std::abs(listener.counts[i] - count), 1);
+        count = listener.counts[i];
         if (i > 0) {
-            EXPECT_LE(ear.edge_at[i - 1], ear.edge_at[i]);
+            EXPECT_LE(listener.edge_at[i - 1], listener.edge_at[i]);
         }
     }
     EXPECT_EQ(count, rig.motor.count(rig.kernel.now()));
-    EXPECT_GT(ear.top, 55'000);
-    EXPECT_LT(ear.told, 100);
+    EXPECT_GT(listener.top, 55'000);
+    EXPECT_LT(listener.reported, 100);
 }
 
 TEST(DcMotor, RunsIntoItsEndsOfTravelAndComesBack) {

@@ -15,7 +15,7 @@ using sim::FakePulses;
 using sim::Kernel;
 using sim::PulseLaw;
 
-class EdgeEar final : public sim::EdgeListener {
+class EdgeRecorder final : public sim::EdgeListener {
   public:
     void edges(const sim::EdgeBatch& batch) override {
         for (std::uint32_t i = 0; i < batch.size; ++i) {
@@ -35,9 +35,9 @@ class EdgeEar final : public sim::EdgeListener {
     bool joined = true;
 };
 
-class CrossingEar final : public sim::PositionListener {
+class CrossingListener final : public sim::PositionListener {
   public:
-    explicit CrossingEar(sim::PositionFunction& motion) : motion_(motion), slot_(motion.add_listener(*this)) {}
+    explicit CrossingListener(sim::PositionFunction& motion) : motion_(motion), slot_(motion.add_listener(*this)) {}
     void crossed(Instant now) override {
         at.push_back(now);
         counts.push_back(motion_.count(now));
@@ -53,9 +53,9 @@ class CrossingEar final : public sim::PositionListener {
     int slot_;
 };
 
-class WireEar final : public sim::Device {
+class WireListener final : public sim::Device {
   public:
-    explicit WireEar(Kernel& kernel) : id(kernel.add(*this, sim::Phase::cards, "ear")) {}
+    explicit WireListener(Kernel& kernel) : id(kernel.add(*this, sim::Phase::cards, "ear")) {}
     void on_scheduled(Instant) override {}
     void on_wire(int, int level, Instant now) override { heard.emplace_back(level, now); }
     sim::DeviceId id;
@@ -84,16 +84,16 @@ std::vector<PulseLaw> some_laws(int size, int min_period_us = 2) {
 
 struct EncoderWorld {
     EncoderWorld(const AxisMechanicsSettings& settings, std::vector<PulseLaw> laws)
-        : pulses(kernel, std::move(laws)), machine(kernel, "X", settings), ear(kernel) {
+        : pulses(kernel, std::move(laws)), machine(kernel, "X", settings), listener(kernel) {
         machine.connect(pulses);
-        kernel.listen(machine.index_wire(), ear.id, 0);
+        kernel.listen(machine.index_wire(), listener.id, 0);
     }
     std::int64_t encoder() { return machine.encoder().count(kernel.now()); }
     std::int64_t rotor() { return machine.rotor().count(kernel.now()); }
     Kernel kernel;
     FakePulses pulses;
     AxisMechanics machine;
-    WireEar ear;
+    WireListener listener;
 };
 
 // ---- Counts and watches
@@ -116,45 +116,46 @@ RC_GTEST_PROP(Encoder, ShowsTheFloorOfTheRatioInBothDirections, ()) {
 RC_GTEST_PROP(Encoder, AWatchIsReportedAtTheVeryPulse, ()) {
     const std::int64_t direction = *rc::gen::element<std::int64_t>(-1, 1);
     EncoderWorld w(with_counts(*some_counts()), {{Instant{0}, microseconds(10), direction}});
-    CrossingEar ear(w.machine.encoder());
+    CrossingListener listener(w.machine.encoder());
     w.kernel.start();
     const std::int64_t bound = direction * *rc::gen::inRange(1, 500);
-    ear.watch(direction < 0 ? bound : -1'000'000, direction > 0 ? bound : 1'000'000);
+    listener.watch(direction < 0 ? bound : -1'000'000, direction > 0 ? bound : 1'000'000);
     w.kernel.run_until(milliseconds(50));
-    if (ear.at.empty()) {
+    if (listener.at.empty()) {
         RC_ASSERT(w.encoder() * direction < bound * direction);
         return;
     }
-    RC_ASSERT(ear.at.size() == 1u);
-    RC_ASSERT(ear.at[0] % microseconds(10) == Duration{0});
-    RC_ASSERT(ear.counts[0] * direction >= bound * direction);
-    const std::int64_t pulse = ear.at[0] / microseconds(10) * direction;
+    RC_ASSERT(listener.at.size() == 1u);
+    RC_ASSERT(listener.at[0] % microseconds(10) == Duration{0});
+    RC_ASSERT(listener.counts[0] * direction >= bound * direction);
+    const std::int64_t pulse = listener.at[0] / microseconds(10) * direction;
     const std::int64_t counts = w.machine.settings().encoder.counts_per_rev;
     RC_ASSERT(floor_div((pulse - direction) * counts, 3200) * direction < bound * direction);
 }
 
 TEST(Encoder, AWatchThatIsLeftAlreadyIsReportedAtTheNextInstantEvenAtStandstill) {
     EncoderWorld w(with_counts(4000), {});
-    CrossingEar ear(w.machine.encoder());
+    CrossingListener listener(w.machine.encoder());
     w.kernel.start();
     w.kernel.run_until(Instant{100});
-    ear.watch(0, 10);
+    listener.watch(0, 10);
     w.kernel.run_until(Instant{200});
-    EXPECT_EQ(ear.at, std::vector<Instant>{Instant{101}});
+    EXPECT_EQ(listener.at, std::vector<Instant>{Instant{101}});
 }
 
 TEST(Encoder, ManyListenersShareOneSlotOfThePulses) {
     EncoderWorld w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
-    std::vector<std::unique_ptr<CrossingEar>> ears;
+    std::vector<std::unique_ptr<CrossingListener>> listeners;
     for (int i = 0; i < 12; ++i)
-        ears.push_back(std::make_unique<CrossingEar>(i % 2 ? w.machine.encoder() : w.machine.rotor()));
+        listeners.push_back(std::make_unique<CrossingListener>(i % 2 ? w.machine.encoder() : w.machine.rotor()));
     w.kernel.start();
-    for (int i = 0; i < 12; ++i) ears[static_cast<std::size_t>(i)]->watch(-5, i % 2 ? 125 * (i + 1) : 100 * (i + 1));
+    for (int i = 0; i < 12; ++i)
+        listeners[static_cast<std::size_t>(i)]->watch(-5, i % 2 ? 125 * (i + 1) : 100 * (i + 1));
     w.kernel.run_until(milliseconds(100));
     for (int i = 0; i < 12; ++i)
-        EXPECT_EQ(ears[static_cast<std::size_t>(i)]->at, std::vector<Instant>{milliseconds(i + 1)});
-    EXPECT_EQ(ears[1]->rate, 125'000);
-    EXPECT_EQ(ears[0]->rate, 100'000);
+        EXPECT_EQ(listeners[static_cast<std::size_t>(i)]->at, std::vector<Instant>{milliseconds(i + 1)});
+    EXPECT_EQ(listeners[1]->rate, 125'000);
+    EXPECT_EQ(listeners[0]->rate, 100'000);
 }
 
 // ---- Index
@@ -163,15 +164,15 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
     EncoderWorld w(with_counts(3200),
                    {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
     w.kernel.start();
-    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
+    w.kernel.subscribe(w.machine.index_wire(), w.listener.id, true);
     EXPECT_EQ(w.kernel.level(w.machine.index_wire()), 1);
     w.kernel.run_until(milliseconds(5000));
-    EXPECT_EQ(w.ear.heard, (std::vector<std::pair<int, Instant>>{{0, milliseconds(1)},
-                                                                 {1, milliseconds(3200)},
-                                                                 {0, milliseconds(3201)},
-                                                                 {1, milliseconds(4800)},
-                                                                 {0, milliseconds(4801)}}));
-    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, false);
+    EXPECT_EQ(w.listener.heard, (std::vector<std::pair<int, Instant>>{{0, milliseconds(1)},
+                                                                      {1, milliseconds(3200)},
+                                                                      {0, milliseconds(3201)},
+                                                                      {1, milliseconds(4800)},
+                                                                      {0, milliseconds(4801)}}));
+    w.kernel.subscribe(w.machine.index_wire(), w.listener.id, false);
     const std::uint64_t events = w.kernel.events();
     w.kernel.run_until(milliseconds(20'000));
     EXPECT_EQ(w.kernel.events(), events);
@@ -182,12 +183,12 @@ TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
     s.motor.microsteps = 1;                       // 20 counts a pulse
     EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
     w.kernel.start();
-    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
+    w.kernel.subscribe(w.machine.index_wire(), w.listener.id, true);
     w.kernel.run_until(milliseconds(2010));
     int rises = 0;
-    for (const auto& [level, at] : w.ear.heard) rises += level;
+    for (const auto& [level, at] : w.listener.heard) rises += level;
     EXPECT_EQ(rises, 10);
-    EXPECT_EQ(w.ear.heard[1], (std::pair{1, milliseconds(200)}));
+    EXPECT_EQ(w.listener.heard[1], (std::pair{1, milliseconds(200)}));
 }
 
 // ---- Edges
@@ -196,19 +197,19 @@ RC_GTEST_PROP(Encoder, EdgesOneByOneComeToTheSameCountAsTheClosedForm, ()) {
     AxisMechanicsSettings s = with_counts(*some_counts());
     s.motor.start_stop_hz = *rc::gen::element(20'000.0, 1e6);
     EncoderWorld w(s, some_laws(6));
-    EdgeEar ear, rotor;
+    EdgeRecorder listener, rotor;
     w.kernel.start();
-    w.machine.encoder().set_edge_listener(&ear);
+    w.machine.encoder().set_edge_listener(&listener);
     w.machine.rotor().set_edge_listener(&rotor);
     for (int i = 1; i <= 10; ++i) {
         w.kernel.run_until(milliseconds(7 * i));
         if (i == 4) w.machine.fault("push", *rc::gen::inRange(-300, 300), w.kernel.now());
         if (i == 6) w.machine.fault("stall", 1, w.kernel.now());
         if (i == 7) w.machine.fault("stall", 0, w.kernel.now());
-        RC_ASSERT(ear.count == w.encoder());
+        RC_ASSERT(listener.count == w.encoder());
         RC_ASSERT(rotor.count == w.rotor());
-        RC_ASSERT(ear.joined && rotor.joined);
-        RC_ASSERT(ear.ordered && rotor.ordered);
+        RC_ASSERT(listener.joined && rotor.joined);
+        RC_ASSERT(listener.ordered && rotor.ordered);
     }
 }
 
@@ -216,23 +217,23 @@ TEST(Encoder, EdgesStopAtTheEndOfTravel) {
     AxisMechanicsSettings s = with_counts(4000);
     s.axle.end_plus = 1.0;
     EncoderWorld w(s, {{Instant{0}, microseconds(10), 1}, {milliseconds(20), microseconds(10), -1}});
-    EdgeEar ear, rotor;
+    EdgeRecorder listener, rotor;
     w.kernel.start();
-    w.machine.encoder().set_edge_listener(&ear);
+    w.machine.encoder().set_edge_listener(&listener);
     w.machine.rotor().set_edge_listener(&rotor);
     w.kernel.run_until(milliseconds(15));
     EXPECT_EQ(rotor.count, 640);
-    EXPECT_EQ(ear.count, 800);
+    EXPECT_EQ(listener.count, 800);
     w.kernel.run_until(milliseconds(25));
     EXPECT_EQ(rotor.count, w.rotor());
-    EXPECT_EQ(ear.count, w.encoder());
-    EXPECT_TRUE(ear.joined && rotor.joined && ear.ordered && rotor.ordered);
+    EXPECT_EQ(listener.count, w.encoder());
+    EXPECT_TRUE(listener.joined && rotor.joined && listener.ordered && rotor.ordered);
     EXPECT_LT(rotor.count, 640);
 }
 
 TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
     EncoderWorld w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
-    EdgeEar pulses, encoder;
+    EdgeRecorder pulses, encoder;
     w.kernel.start();
     w.machine.listen_pulse_edges(&pulses);
     w.kernel.run_until(milliseconds(1));
@@ -256,7 +257,7 @@ TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
 RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts, ()) {
     const std::string name = *rc::gen::element<std::string>("broken_a", "encoder.broken_b", "swapped");
     EncoderWorld w(with_counts(800), some_laws(8, 20));  // sampled often enough to see every edge
-    EdgeEar edges;
+    EdgeRecorder edges;
     w.kernel.start();
     w.machine.encoder().set_edge_listener(&edges);
     sim::QuadratureDecoder decoder;
@@ -285,18 +286,18 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
 
 TEST(Encoder, ABrokenLineMakesTheCountGoToAndFroWithinTheWatchedRange) {
     EncoderWorld w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
-    CrossingEar ear(w.machine.encoder());
+    CrossingListener listener(w.machine.encoder());
     w.kernel.start();
     EXPECT_TRUE(w.machine.fault("broken_a", 1, w.kernel.now()));
     EXPECT_EQ(w.machine.encoder().rate(w.kernel.now()), 0);
-    ear.watch(-2, 1);
+    listener.watch(-2, 1);
     w.kernel.run_until(milliseconds(100));
-    EXPECT_TRUE(ear.at.empty());
+    EXPECT_TRUE(listener.at.empty());
     EXPECT_LE(w.kernel.events(), 2u);
     EXPECT_EQ(w.encoder(), 0);
-    ear.watch(-1, 1);
+    listener.watch(-1, 1);
     w.kernel.run_until(milliseconds(200));
-    EXPECT_EQ(ear.at, std::vector<Instant>{milliseconds(100) + microseconds(20)});
+    EXPECT_EQ(listener.at, std::vector<Instant>{milliseconds(100) + microseconds(20)});
     EXPECT_TRUE(w.machine.fault("broken_a", 0, w.kernel.now()));
     const std::int64_t before = w.encoder();
     w.kernel.run_until(milliseconds(201));
@@ -305,14 +306,14 @@ TEST(Encoder, ABrokenLineMakesTheCountGoToAndFroWithinTheWatchedRange) {
 
 TEST(Encoder, SwappedLinesCountBackwards) {
     EncoderWorld w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
-    CrossingEar ear(w.machine.encoder());
+    CrossingListener listener(w.machine.encoder());
     w.kernel.start();
     EXPECT_TRUE(w.machine.fault("swapped", 1, w.kernel.now()));
-    ear.watch(-100, 100);
+    listener.watch(-100, 100);
     w.kernel.run_until(milliseconds(2));
     EXPECT_EQ(w.encoder(), -200);
-    EXPECT_EQ(ear.at, std::vector<Instant>{milliseconds(1)});
-    EXPECT_EQ(ear.rate, -100'000);
+    EXPECT_EQ(listener.at, std::vector<Instant>{milliseconds(1)});
+    EXPECT_EQ(listener.rate, -100'000);
 }
 
 TEST(AxisMechanics, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
@@ -323,16 +324,16 @@ TEST(AxisMechanics, AMoveWithEdgesSwitchesAndIndexAllocatesNothing) {
     EncoderWorld w(s, {{Instant{0}, microseconds(10), 1},
                        {milliseconds(100), microseconds(10), -1},
                        {milliseconds(150), microseconds(10), 0}});
-    EdgeEar ear;
+    EdgeRecorder listener;
     w.kernel.start();
-    w.machine.encoder().set_edge_listener(&ear);
-    w.kernel.subscribe(w.machine.index_wire(), w.ear.id, true);
-    w.ear.heard.reserve(1000);
+    w.machine.encoder().set_edge_listener(&listener);
+    w.kernel.subscribe(w.machine.index_wire(), w.listener.id, true);
+    w.listener.heard.reserve(1000);
     const std::uint64_t before = sim::allocations();
     w.kernel.run_until(milliseconds(200));
     EXPECT_EQ(sim::allocations(), before);
-    EXPECT_GT(ear.edge_count, 12'000);
-    EXPECT_FALSE(w.ear.heard.empty());
+    EXPECT_GT(listener.edge_count, 12'000);
+    EXPECT_FALSE(w.listener.heard.empty());
     EXPECT_NE(w.machine.lost_steps(), 0);
 }
 

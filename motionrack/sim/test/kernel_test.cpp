@@ -163,17 +163,17 @@ TEST(Kernel, AForcedWireKeepsItsLevelUntilItIsReleasedToWhatItsDriverSays) {
 struct LazyWorld {
     LazyWorld() {
         owner_id = kernel.add(owner, Phase::parts, "owner");
-        ear_id = kernel.add(ear, Phase::cards, "ear");
+        listener_id = kernel.add(listener, Phase::cards, "ear");
         wire = kernel.add_wire("z", 0);
-        kernel.listen(wire, ear_id, 0);
+        kernel.listen(wire, listener_id, 0);
         kernel.drive_lazily(wire, owner_id, 0);
         owner.on_level = [](Instant now) { return static_cast<int>(now.count() / 10 % 2); };
-        ear.on_wire_ = [this](int, int level, Instant) { heard.push_back(level); };
+        listener.on_wire_ = [this](int, int level, Instant) { heard.push_back(level); };
         kernel.start();
     }
     Kernel kernel;
-    Puppet owner, ear;
-    DeviceId owner_id{}, ear_id{};
+    Puppet owner, listener;
+    DeviceId owner_id{}, listener_id{};
     WireId wire{};
     std::vector<int> heard;
 };
@@ -188,13 +188,13 @@ TEST(Kernel, ALazyWireIsAskedOfItsOwnerWhileNobodyWantsItsChanges) {
     EXPECT_EQ(w.kernel.level(w.wire), 0);
     EXPECT_EQ(w.kernel.events(), 0u);
     w.kernel.run_until(Instant{35});
-    w.kernel.subscribe(w.wire, w.ear_id, true);
+    w.kernel.subscribe(w.wire, w.listener_id, true);
     EXPECT_EQ(w.kernel.level(w.wire), 1);
-    w.kernel.subscribe(w.wire, w.ear_id, true);
+    w.kernel.subscribe(w.wire, w.listener_id, true);
     w.kernel.set_wire(w.wire, 0);
     w.kernel.settle();
     EXPECT_EQ(w.heard, std::vector<int>{0});
-    w.kernel.subscribe(w.wire, w.ear_id, false);
+    w.kernel.subscribe(w.wire, w.listener_id, false);
     EXPECT_EQ(w.owner.wants, (std::vector<bool>{true, false}));
 }
 
@@ -204,13 +204,13 @@ TEST(Kernel, ALazyWireThatWasForcedGoesBackToWhatItsOwnerSays) {
     w.kernel.force(w.wire, 0);
     w.kernel.settle();
     EXPECT_EQ(w.kernel.level(w.wire), 0);
-    w.kernel.subscribe(w.wire, w.ear_id, true);  // while it is forced
+    w.kernel.subscribe(w.wire, w.listener_id, true);  // while it is forced
     EXPECT_EQ(w.kernel.level(w.wire), 0);
     w.kernel.release(w.wire);
     w.kernel.settle();
     EXPECT_EQ(w.kernel.level(w.wire), 1);
     EXPECT_EQ(w.heard, std::vector<int>{1});
-    w.kernel.subscribe(w.wire, w.ear_id, false);
+    w.kernel.subscribe(w.wire, w.listener_id, false);
     w.kernel.force(w.wire, 0);
     w.kernel.run_until(Instant{25});
     w.kernel.release(w.wire);
@@ -339,12 +339,12 @@ TEST(Kernel, ASnapshotRestoredOverAWireChangeThatWasNotYetHeardForgetsIt) {
 TEST(Kernel, ASnapshotHasTheWireChangesThatHaveNotReachedTheirListeners) {
     struct World {
         World() {
-            kernel.listen(a, kernel.add(ear, Phase::cards, "ear"), 0);
-            ear.on_wire_ = [this](int, int level, Instant) { ear.value = 10 * ear.value + level + 1; };
+            kernel.listen(a, kernel.add(listener, Phase::cards, "ear"), 0);
+            listener.on_wire_ = [this](int, int level, Instant) { listener.value = 10 * listener.value + level + 1; };
             kernel.start();
         }
         Kernel kernel;
-        Puppet ear;
+        Puppet listener;
         WireId a = kernel.add_wire("a", 0);
     } first, copy;
     first.kernel.set_wire(first.a, 1);
@@ -354,8 +354,8 @@ TEST(Kernel, ASnapshotHasTheWireChangesThatHaveNotReachedTheirListeners) {
     EXPECT_EQ(copy.kernel.state_hash(), before);
     EXPECT_EQ(first.kernel.state_hash(), before) << "a snapshot only looks";
     for (World* one : {&first, &copy}) one->kernel.run_until(Instant{5});
-    EXPECT_EQ(first.ear.value, 21);
-    EXPECT_EQ(copy.ear.value, 21);
+    EXPECT_EQ(first.listener.value, 21);
+    EXPECT_EQ(copy.listener.value, 21);
     EXPECT_EQ(copy.kernel.state_hash(), first.kernel.state_hash());
 }
 

@@ -40,7 +40,7 @@ struct Head final : sim::Device {
     sim::QuadratureDecoder decoder;
 };
 
-struct ScaleEar final : sim::PositionListener, sim::EdgeListener {
+struct ScaleListener final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at = now, ++crossings; }
     void rate_changed(double, double after, Instant) override { rate = after; }
     void edges(const sim::EdgeBatch& batch) override {
@@ -64,7 +64,7 @@ struct ScaleRig {
         : stage(kernel, "x", stage_settings),
           scale(kernel, "s", stage, scale_settings),
           head(kernel, scale),
-          slot(scale.add_listener(ear)) {}
+          slot(scale.add_listener(listener)) {}
     void volts(double v) {
         kernel.set_wire(stage.drive_wire(), static_cast<int>(std::lround(v * 1e6)));
         kernel.settle();
@@ -77,7 +77,7 @@ struct ScaleRig {
     LinearStage stage;
     LinearScale scale;
     Head head;
-    ScaleEar ear;
+    ScaleListener listener;
     int slot;
 };
 
@@ -153,20 +153,20 @@ TEST(LinearScale, TellsAWatchAtTheInstantOfTheEdge) {
         rig.volts(0.1);
         const std::int64_t there = reversed ? -1'000'000 : 1'000'000;
         rig.scale.watch(rig.slot, reversed ? there : sim::unwatched_below, reversed ? sim::unwatched_above : there);
-        while (rig.ear.crossings == 0) rig.run(1e-3);
+        while (rig.listener.crossings == 0) rig.run(1e-3);
         ScaleRig again(s);
         again.kernel.start();
         again.volts(0.1);
-        again.kernel.run_until(rig.ear.at - Duration{1});
+        again.kernel.run_until(rig.listener.at - Duration{1});
         EXPECT_EQ(again.count(), there + (reversed ? 1 : -1));
-        again.kernel.run_until(rig.ear.at);
+        again.kernel.run_until(rig.listener.at);
         EXPECT_EQ(again.count(), there);
         // A range that is already left is reported at once, and only once.
         again.scale.watch(again.slot, sim::unwatched_below, -2'000'000);
         again.kernel.settle();
-        EXPECT_EQ(again.ear.crossings, 1);
+        EXPECT_EQ(again.listener.crossings, 1);
         again.run(1e-3);
-        EXPECT_EQ(again.ear.crossings, 1);
+        EXPECT_EQ(again.listener.crossings, 1);
     }
 }
 
@@ -201,16 +201,16 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
     rig.volts(10);
     rig.run(0.1);
     rig.head.want(true, rig.count());
-    rig.ear.count = rig.count();
-    rig.scale.set_edge_listener(&rig.ear);
+    rig.listener.count = rig.count();
+    rig.scale.set_edge_listener(&rig.listener);
     const std::uint64_t before = sim::allocations();
     for (int i = 0; i < 1'000; ++i) {
         rig.kernel.run_until(rig.kernel.now() + Duration{10'007});
         ASSERT_EQ(rig.head.decoder.count(), rig.count());
     }
     EXPECT_EQ(sim::allocations(), before);
-    EXPECT_NEAR(rig.ear.total, 20'014, 1);
-    EXPECT_EQ(rig.ear.count, rig.count());
+    EXPECT_NEAR(rig.listener.total, 20'014, 1);
+    EXPECT_EQ(rig.listener.count, rig.count());
     EXPECT_EQ(rig.head.decoder.illegal(), 0u);
     EXPECT_EQ(rig.scale.lost(), 0);
 }
@@ -285,9 +285,9 @@ TEST(LinearScale, TheReferenceMarkIsOneCountWide) {
     rig.kernel.start();
     rig.volts(0.1);
     for (const std::int64_t there : {204'799, 204'800, 204'801}) {
-        rig.ear.crossings = 0;
+        rig.listener.crossings = 0;
         rig.scale.watch(rig.slot, sim::unwatched_below, there);
-        while (rig.ear.crossings == 0) rig.kernel.run_until(rig.kernel.now() + Duration{100});
+        while (rig.listener.crossings == 0) rig.kernel.run_until(rig.kernel.now() + Duration{100});
         EXPECT_EQ(rig.kernel.level(rig.scale.z()), there == 204'800) << there;
     }
 }

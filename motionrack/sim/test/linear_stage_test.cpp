@@ -148,12 +148,12 @@ TEST(LinearStage, SaturationVelocityAndCurrentLimitAreKept) {
     EXPECT_NEAR(static_cast<double>(rig.count() - there), 2e8 * 1024, 1);
 }
 
-struct Ear final : sim::PositionListener, sim::EdgeListener {
+struct RecordingListener final : sim::PositionListener, sim::EdgeListener {
     void crossed(Instant now) override { at.push_back(now); }
     void rate_changed(double before, double, Instant now) override {
         if (!rates.empty() && rates.back() == before) return;
         rates.push_back(before);
-        told.push_back(now);
+        reported.push_back(now);
     }
     void edges(const sim::EdgeBatch& batch) override {
         for (std::uint32_t i = 0; i < batch.size; ++i) {
@@ -161,7 +161,7 @@ struct Ear final : sim::PositionListener, sim::EdgeListener {
             counts.push_back(batch.first_count + batch.step * static_cast<std::int64_t>(i));
         }
     }
-    std::vector<Instant> at, told, edge_at;
+    std::vector<Instant> at, reported, edge_at;
     std::vector<double> rates;
     std::vector<std::int64_t> counts;
 };
@@ -170,8 +170,8 @@ RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
     LinearStageSettings s;
     s.viscous = *rc::gen::element(0.0, 30.0);
     Rig rig(s);
-    Ear ear;
-    const int slot = rig.stage.add_listener(ear);
+    RecordingListener listener;
+    const int slot = rig.stage.add_listener(listener);
     rig.kernel.start();
     const int way = *rc::gen::element(1, -1);
     rig.volts(way * *rc::gen::element(10.0, 0.1, 0.001));
@@ -180,16 +180,16 @@ RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
         there += *rc::gen::element<std::int64_t>(1, 3, 1'000'003, 2'000'000'011);
         const std::int64_t count = way * there;
         rig.stage.watch(slot, way > 0 ? sim::unwatched_below : count, way > 0 ? count : sim::unwatched_above);
-        ear.at.clear();
-        for (int k = 0; k < 100'000 && ear.at.empty(); ++k) rig.run(1e-3);
-        RC_ASSERT(ear.at.size() == 1u);
+        listener.at.clear();
+        for (int k = 0; k < 100'000 && listener.at.empty(); ++k) rig.run(1e-3);
+        RC_ASSERT(listener.at.size() == 1u);
         // The rig has run on; a second one is stopped one tick before and at the instant.
         Rig again(s);
         again.kernel.start();
         again.volts(rig.stage.volts());
-        again.kernel.run_until(ear.at[0] - Duration{1});
+        again.kernel.run_until(listener.at[0] - Duration{1});
         const std::int64_t before = again.count();
-        again.kernel.run_until(ear.at[0]);
+        again.kernel.run_until(listener.at[0]);
         RC_ASSERT(before * way < there);
         RC_ASSERT(again.count() * way >= there);
         there = std::max(there, way * rig.count());
@@ -198,30 +198,30 @@ RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
 
 TEST(LinearStage, HandsOverEveryEdgeInItsOrderAndAtItsTick) {
     Rig rig;
-    Ear ear;
+    RecordingListener listener;
     rig.kernel.start();
-    rig.stage.set_edge_listener(&ear);
+    rig.stage.set_edge_listener(&listener);
     for (const double volts : {0.001, -0.002, 0.003}) {
         rig.volts(volts);
         rig.run(2e-4);
     }
     std::int64_t count = 0;
-    for (std::size_t i = 0; i < ear.counts.size(); ++i) {
-        EXPECT_EQ(std::abs(ear.counts[i] - count), 1);
-        count = ear.counts[i];
+    for (std::size_t i = 0; i < listener.counts.size(); ++i) {
+        EXPECT_EQ(std::abs(listener.counts[i] - count), 1);
+        count = listener.counts[i];
         if (i > 0) {
-            EXPECT_LE(ear.edge_at[i - 1], ear.edge_at[i]);
+            EXPECT_LE(listener.edge_at[i - 1], listener.edge_at[i]);
         }
     }
     EXPECT_EQ(count, rig.count());
-    EXPECT_GT(ear.counts.size(), 100u);
+    EXPECT_GT(listener.counts.size(), 100u);
     Rig again;
     again.kernel.start();
     again.volts(0.001);
-    again.kernel.run_until(ear.edge_at[20] - Duration{1});
-    EXPECT_EQ(again.count(), ear.counts[20] - 1);
-    again.kernel.run_until(ear.edge_at[20]);
-    EXPECT_EQ(again.count(), ear.counts[20]);
+    again.kernel.run_until(listener.edge_at[20] - Duration{1});
+    EXPECT_EQ(again.count(), listener.counts[20] - 1);
+    again.kernel.run_until(listener.edge_at[20]);
+    EXPECT_EQ(again.count(), listener.counts[20]);
 }
 
 TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
@@ -247,17 +247,17 @@ TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
 
 TEST(LinearStage, MarkedRatesAreReportedAtTheirTick) {
     Rig rig;
-    Ear ear;
-    rig.stage.add_listener(ear);
+    RecordingListener listener;
+    rig.stage.add_listener(listener);
     rig.stage.watch_rate(0.1e9 * 1024);
     rig.kernel.start();
     rig.volts(1);
     rig.run(0.1);
     rig.volts(-1);
     rig.run(0.1);
-    ASSERT_GE(ear.told.size(), 3u);
-    EXPECT_NEAR(to_seconds(ear.told[0]), 0.02, 2e-10) << "0.1 m/s at 5 m/s2";
-    EXPECT_NEAR(to_seconds(ear.told[2]), 0.18, 2e-10);
+    ASSERT_GE(listener.reported.size(), 3u);
+    EXPECT_NEAR(to_seconds(listener.reported[0]), 0.02, 2e-10) << "0.1 m/s at 5 m/s2";
+    EXPECT_NEAR(to_seconds(listener.reported[2]), 0.18, 2e-10);
 }
 
 TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
@@ -321,9 +321,9 @@ TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
     s.viscous = 3;
     s.coulomb = 0.1;
     Rig rig(s);
-    Ear ear;
-    ear.at.reserve(100);
-    const int slot = rig.stage.add_listener(ear);
+    RecordingListener listener;
+    listener.at.reserve(100);
+    const int slot = rig.stage.add_listener(listener);
     rig.kernel.start();
     rig.volts(0.5);
     rig.run(0.0123);
@@ -333,9 +333,9 @@ TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
     std::uint64_t hashes[2] = {};
     for (int i = 0; i < 2; ++i) {
         rig.kernel.restore(snapshot);
-        ear.rates.clear();
-        ear.rates.reserve(100'000);
-        ear.told.reserve(100'000);
+        listener.rates.clear();
+        listener.rates.reserve(100'000);
+        listener.reported.reserve(100'000);
         const std::uint64_t before = sim::allocations();
         rig.run(0.1);
         rig.volts(-0.7);

@@ -41,7 +41,7 @@ class Divider final : public DeferringDevice, private PulseTrain::Owner {
     DeviceId id;
 };
 
-struct Ear final : PositionListener, EdgeListener {
+struct RecordingListener final : PositionListener, EdgeListener {
     void crossed(Instant now) override { crossings.push_back(now); }
     void rate_changed(double, double after, Instant) override { rate = after; }
     void edges(const EdgeBatch& batch) override {
@@ -56,9 +56,9 @@ struct Ear final : PositionListener, EdgeListener {
 RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, ()) {
     Kernel kernel;
     Divider divider(kernel);
-    Ear ear;
-    const int slot = divider.train.add_listener(ear);
-    divider.train.set_edge_listener(&ear);
+    RecordingListener listener;
+    const int slot = divider.train.add_listener(listener);
+    divider.train.set_edge_listener(&listener);
     kernel.start();
     std::int64_t count = 0, left = 0, reload = 0, high_left = 0, above = unwatched_above;
     int direction = 1;
@@ -101,26 +101,26 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
             high = high_left > 0;
         }
     }
-    RC_ASSERT(ear.edge_at == edges);
+    RC_ASSERT(listener.edge_at == edges);
     RC_ASSERT(rises == edges.size());
-    RC_ASSERT(ear.crossings == crossings);
-    RC_ASSERT(edges.empty() || ear.last == count);
+    RC_ASSERT(listener.crossings == crossings);
+    RC_ASSERT(edges.empty() || listener.last == count);
 }
 
 TEST(PulseTrain, TellsItsRateAndTheNextEdgeOfItsLine) {
     Kernel kernel;
     Divider divider(kernel);
-    Ear ear;
-    divider.train.add_listener(ear);
+    RecordingListener listener;
+    divider.train.add_listener(listener);
     kernel.start();
     EXPECT_EQ(divider.train.next_edge(Instant{0}), never);
     divider.set(10, -1);
-    EXPECT_DOUBLE_EQ(ear.rate, -1e10 / 60);
+    EXPECT_DOUBLE_EQ(listener.rate, -1e10 / 60);
     EXPECT_EQ(divider.train.next_edge(Instant{0}), Instant{60});
     EXPECT_EQ(divider.train.next_edge(Instant{60}), Instant{90});
     EXPECT_EQ(divider.train.next_edge(Instant{90}), Instant{120});
     divider.set(0, 1);
-    EXPECT_EQ(ear.rate, 0);
+    EXPECT_EQ(listener.rate, 0);
 }
 
 TEST(PulseTrain, ThatStopsInAPulseEndsIt) {

@@ -99,7 +99,7 @@ TEST(ConveyorPosition, MakesEveryEdgeAtItsInstantThereAndBack) {
 }
 
 TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsChanged) {
-    struct RatesEar final : sim::PositionListener {
+    struct RatesListener final : sim::PositionListener {
         void crossed(Instant) override {}
         void rate_changed(double from, double to, Instant) override { before = from, after = to; }
         double before = 0, after = 0;
@@ -109,7 +109,7 @@ TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsCha
     ConveyorPosition fine(kernel, "fine", drive.track(), 1000), turned(kernel, "turned", drive.track(), -10);
     drive.add(fine);
     drive.add(turned);
-    RatesEar of_fine, of_turned;
+    RatesListener of_fine, of_turned;
     fine.add_listener(of_fine);
     turned.add_listener(of_turned);
     kernel.start();

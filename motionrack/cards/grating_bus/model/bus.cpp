@@ -110,8 +110,8 @@ void Bus::settle(Instant now) {
     state_.lines.settle();
     const unsigned begun = state_.lines.note_conflicts(now);
     for (std::size_t i = 0; i < line_count; ++i) {
-        if ((begun >> i & 1) == 0 || (state_.told >> i & 1) != 0) continue;
-        state_.told |= 1u << i;
+        if ((begun >> i & 1) == 0 || (state_.reported >> i & 1) != 0) continue;
+        state_.reported |= 1u << i;
         const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
         const int high = std::countr_zero(conflict.high);
         const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one driver may do both, bit by bit

@@ -74,7 +74,7 @@ class Bus final : public sim::Device {
         Instant done = never;         // S12 of the span
         std::uint32_t wanted = 0;     // watched wires of the bus and its cards
         std::uint32_t clk_was = 0;
-        std::uint32_t told = 0;  // reported conflicts, one bit per line
+        std::uint32_t reported = 0;  // reported conflicts, one bit per line
         std::uint32_t begun = 0;
     };
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");

@@ -133,7 +133,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         // counters
         std::uint32_t frames = 0;
         std::array<std::uint16_t, counter_count> counters{};
-        std::uint32_t told_overrun = 0;
+        std::uint32_t reported_overrun = 0;
         std::uint32_t fresh = 0;  // STATUS.FRAME
         // faults
         std::uint32_t miss = 0;  // number of edges to miss
@@ -154,7 +154,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void begin(Instant now);
     void drive(Lines& lines, int driver) const;
 
-    void tell_begin(Instant now) {
+    void report_begin(Instant now) {
         for (FrameListener* listener : listeners_) listener->began(*this, now);
     }
     /// Updates the sequence number and the missed edges at a pulse or an edge.

@@ -44,7 +44,7 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
     if (again) list_[open_[i] % slots].end = never;
     if (begins) {
         open_[i] = count_++;
-        ++told_[i];
+        ++reported_[i];
         list_[open_[i] % slots] = {now, never, 0, 0, i};
     }
     if (!listed(open_[i])) return 0;
@@ -59,7 +59,7 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
 }
 
 bool Lines::ended_now(std::size_t i, Instant now) const {
-    if (told_[i] == 0 || open_[i] >= count_ || !listed(open_[i])) return false;
+    if (reported_[i] == 0 || open_[i] >= count_ || !listed(open_[i])) return false;
     const Conflict& last = list_[open_[i] % slots];
     return last.line == i && last.end == now;
 }
@@ -77,7 +77,7 @@ void Lines::end_conflict(std::size_t i, Instant now) {
         open_[list_[n % slots].line] = n - 1;
     }
     --count_;
-    --told_[i];
+    --reported_[i];
 }
 
 }  // namespace motionrack::grating_bus

@@ -74,7 +74,7 @@ class Lines {
     unsigned note_conflicts(Instant now);
     bool conflict() const { return in_conflict_ != 0; }
     /// Conflicts on this line since the start.
-    std::uint64_t conflicts(Line line) const { return told_[at(line)]; }
+    std::uint64_t conflicts(Line line) const { return reported_[at(line)]; }
     std::uint64_t all_conflicts() const { return count_; }
     /// Conflict number `n` (all_conflicts() - kept .. all_conflicts() - 1).
     const Conflict& conflict(std::uint64_t n) const { return list_[n % slots]; }
@@ -99,7 +99,7 @@ class Lines {
     std::uint32_t in_conflict_ = 0;  // one bit per line
     std::array<std::uint64_t, line_count> driving_{};
     std::array<std::array<std::uint32_t, max_drivers>, line_count> value_{};
-    std::array<std::uint64_t, line_count> told_{};
+    std::array<std::uint64_t, line_count> reported_{};
     std::array<std::uint64_t, line_count> open_{};  // number of the present conflict
     std::uint64_t count_ = 0;
     std::array<Conflict, slots> list_{};

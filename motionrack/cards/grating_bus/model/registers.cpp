@@ -148,7 +148,7 @@ void Card::write(std::uint32_t at, std::uint16_t value) {
         set_fresh(false);
     }
     if (RELEASE.test(value)) state_.buffers.release();
-    if (CLEAR.test(value)) state_.counters = {}, state_.told_overrun = 0;
+    if (CLEAR.test(value)) state_.counters = {}, state_.reported_overrun = 0;
     if (!RESET.test(value) || off()) return;
     bus_.interrupt_span(kernel_.now());
     reset();

@@ -120,14 +120,14 @@ void Card::note_edge(Instant now) {
 
 void Card::overrun_edge() {
     count(overrun);
-    if (state_.told_overrun == 0) report(BusCondition::overrun, state_.sequence);
-    state_.told_overrun = 1;
+    if (state_.reported_overrun == 0) report(BusCondition::overrun, state_.sequence);
+    state_.reported_overrun = 1;
 }
 
 void Card::begin(Instant now) {
     state_.starts = never;
     begin_frame(now);
-    tell_begin(now);
+    report_begin(now);
     enter(State::S1, now);
 }
 

@@ -31,7 +31,7 @@ void Bus::begin_span(Instant now) {
         card->state_.quiet = 0;
         card->note_edge(now);
         if (card->is_host()) card->next_pulse();
-        card->tell_begin(now);
+        card->report_begin(now);
     }
 }
 

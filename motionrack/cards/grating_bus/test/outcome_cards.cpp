@@ -70,8 +70,8 @@ struct World {
         for (std::size_t i = 0; i < program.cards.size(); ++i) {
             const std::string name = std::string("c").append(std::to_string(i));
             cards.push_back(std::make_unique<Card>(kernel, name, bus, settings_of(program.cards[i], program.seeds[i])));
-            ears.push_back(std::make_unique<Ear>());
-            cards.back()->add_listener(*ears.back());
+            listeners.push_back(std::make_unique<RecordingListener>());
+            cards.back()->add_listener(*listeners.back());
         }
         grating_bus::DecoderSettings settings;
         settings.scales = program.decoder.scales;
@@ -110,7 +110,7 @@ struct World {
     Watcher watcher{kernel};
     std::unique_ptr<Decoder> decoder;
     std::vector<std::unique_ptr<StepMotion>> motions;
-    std::vector<std::unique_ptr<Ear>> ears;
+    std::vector<std::unique_ptr<RecordingListener>> listeners;
     std::vector<std::unique_ptr<Card>> cards;
     std::vector<sim::WireId> wires;
 };
@@ -212,17 +212,17 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
         world.look(out, op.at);
         if (i != snapshot_at) continue;
         std::vector<std::vector<Heard>> heard;
-        for (const auto& ear : world.ears) heard.push_back(ear->heard);
+        for (const auto& listener : world.listeners) heard.push_back(listener->heard);
         const Changes changed = changes;
         const sim::Snapshot saved = world.kernel.snapshot();
         world.carry_out({op.at, Op::force, 0, 1, hold, -1});
         world.run_to(world.kernel.now() + microseconds(3));
         world.kernel.restore(saved);
         changes = changed;
-        for (std::size_t card = 0; card < heard.size(); ++card) world.ears[card]->heard = heard[card];
+        for (std::size_t card = 0; card < heard.size(); ++card) world.listeners[card]->heard = heard[card];
     }
     for (std::size_t i = 0; i < world.cards.size(); ++i)
-        for (const Heard& heard : world.ears[i]->heard)
+        for (const Heard& heard : world.listeners[i]->heard)
             out.frames.push_back(
                 row({static_cast<std::int64_t>(i), heard.at.count()}).append(text_of_cards(heard.frame)));
     for (const sim::Condition& c : world.kernel.conditions())

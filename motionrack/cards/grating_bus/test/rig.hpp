@@ -34,7 +34,7 @@ struct Heard {
     Frame frame;
 };
 
-class Ear final : public FrameListener {
+class RecordingListener final : public FrameListener {
   public:
     void published(const Card&, const Frame& frame, Instant now) override { heard.push_back({now, frame}); }
     std::vector<Heard> heard;
@@ -75,10 +75,10 @@ struct Crate {
             decoder->connect(static_cast<int>(motions.size()) - 1, motions.back().get());
         }
         for (const CardSettings& s : settings) {
-            ears.push_back(std::make_unique<Ear>());
+            listeners.push_back(std::make_unique<RecordingListener>());
             cards.push_back(
                 std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, s));
-            if (hear) cards.back()->add_listener(*ears.back());
+            if (hear) cards.back()->add_listener(*listeners.back());
         }
         watcher.connect();
         kernel.start();
@@ -91,7 +91,7 @@ struct Crate {
     /// Starts or stops watching all wires.
     void watch_wires(bool on = true) { watcher.watch(on); }
     std::uint16_t status(std::size_t card) const { return cards[card]->peek(offset("STATUS")); }
-    const std::vector<Heard>& heard(std::size_t card) const { return ears[card]->heard; }
+    const std::vector<Heard>& heard(std::size_t card) const { return listeners[card]->heard; }
     std::int64_t truth(int scale, Instant at) const { return motions[static_cast<std::size_t>(scale)]->count(at); }
     std::vector<std::string> sentences() const {
         std::vector<std::string> out;
@@ -105,7 +105,7 @@ struct Crate {
     Watcher watcher{kernel};
     std::unique_ptr<Decoder> decoder;
     std::vector<std::unique_ptr<EvenMotion>> motions;
-    std::vector<std::unique_ptr<Ear>> ears;
+    std::vector<std::unique_ptr<RecordingListener>> listeners;
     std::vector<std::unique_ptr<Card>> cards;
 };
 

@@ -23,14 +23,14 @@ void EncoderCheck::look_at_lines(const AxisDetail& now, std::vector<Finding>& ou
     const std::int64_t a = modulo_16(now.edges_a, last_.edges_a), b = modulo_16(now.edges_b, last_.edges_b);
     if ((a > 0 && b > 0) || (a > 0 && b_alone_ > 0) || (b > 0 && a_alone_ > 0)) {
         a_alone_ = b_alone_ = 0;
-        told_alone_ = false;
+        reported_alone_ = false;
     }
     if (a_alone_ + b_alone_ == 0) alone_from_ = last_.at.raw;
     if (b == 0) a_alone_ += a;
     if (a == 0) b_alone_ += b;
     const std::int64_t alone = std::max(a_alone_, b_alone_);
-    if (told_alone_ || alone < settings_.edges_alone) return;
-    told_alone_ = true;
+    if (reported_alone_ || alone < settings_.edges_alone) return;
+    reported_alone_ = true;
     const EncoderFault fault = b_alone_ > 0 ? EncoderFault::line_a_missing : EncoderFault::line_b_missing;
     out.push_back({fault, alone, std::min(alone_from_, now.at.raw), std::max(alone_from_, now.at.raw)});
 }
@@ -43,7 +43,7 @@ std::int64_t EncoderCheck::off_grid(std::int64_t from, std::int64_t to) const {
     return std::min(rest, settings_.counts_per_index - rest);
 }
 
-void EncoderCheck::tell_spacing(std::int64_t from, std::int64_t to, std::vector<Finding>& out) {
+void EncoderCheck::report_spacing(std::int64_t from, std::int64_t to, std::vector<Finding>& out) {
     const std::int64_t spacing = std::llabs(to - from), turn = settings_.counts_per_index;
     const std::int64_t wanted = std::max<std::int64_t>(1, (spacing + turn / 2) / turn) * turn;
     if (spacing == wanted) return;
@@ -66,8 +66,8 @@ void EncoderCheck::index_came(std::int64_t at, std::vector<Finding>& out) {
     if (doubtful_known_ && fits) {
         out.push_back({EncoderFault::index_extra, 1, index_, doubtful_});
     } else if (doubtful_known_) {
-        tell_spacing(index_, doubtful_, out);
-        if (off_grid(doubtful_, at) > settings_.tolerance) tell_spacing(doubtful_, at, out);
+        report_spacing(index_, doubtful_, out);
+        if (off_grid(doubtful_, at) > settings_.tolerance) report_spacing(doubtful_, at, out);
     }
     doubtful_known_ = false;
     index_ = at;
@@ -78,10 +78,10 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
     if (turn <= 0) return;
     // Without an index, waits for one and an eighth revolutions.
     const std::int64_t here = came > 0 ? now.index_at : now.at.raw,
-                       patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
-    const auto passed = [&] { return std::max<std::int64_t>(0, std::llabs(here - index_) - patience) / turn; };
+                       max_wait = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
+    const auto passed = [&] { return std::max<std::int64_t>(0, std::llabs(here - index_) - max_wait) / turn; };
     if (came == 0 && doubtful_known_ && passed() > 1) {
-        tell_spacing(index_, doubtful_, out);
+        report_spacing(index_, doubtful_, out);
         doubtful_known_ = false;
         index_ = doubtful_;
     }

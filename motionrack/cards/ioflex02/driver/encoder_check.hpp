@@ -59,7 +59,7 @@ class EncoderCheck {
     void look_at_index(const AxisDetail& now, std::vector<Finding>& out);
     void index_came(std::int64_t at, std::vector<Finding>& out);
     std::int64_t off_grid(std::int64_t from, std::int64_t to) const;
-    void tell_spacing(std::int64_t from, std::int64_t to, std::vector<Finding>& out);
+    void report_spacing(std::int64_t from, std::int64_t to, std::vector<Finding>& out);
 
     EncoderCheckSettings settings_;
     bool begun_ = false;
@@ -67,7 +67,7 @@ class EncoderCheck {
     // lines
     std::int64_t a_alone_ = 0, b_alone_ = 0;  // edges of one line since the last edge of the other
     std::int64_t alone_from_ = 0;
-    bool told_alone_ = false;
+    bool reported_alone_ = false;
     // index
     bool index_known_ = false, doubtful_known_ = false;
     std::int64_t index_ = 0;     // position of the last good or expected index pulse

@@ -52,19 +52,19 @@ SpeedEstimate SpeedMeter::silence(const AxisReading& axis, std::int64_t ticks) c
 
 Speed SpeedMeter::update(const AxisReading& axis, std::int64_t ticks) {
     Speed out;
-    const bool told = axis.age < oldest_age;
+    const bool reported = axis.age < oldest_age;
     const std::int64_t edge_ticks = ticks - axis.age, place = place_of(axis);
-    if (!told && edge_known_ && place != edge_place_) edge_known_ = false;  // edges came and are too old
+    if (!reported && edge_known_ && place != edge_place_) edge_known_ = false;  // edges came and are too old
     if (begun_) {
         out.difference = difference(axis, ticks);
-        if (told && edge_known_ && edge_ticks > edge_ticks_) {
+        if (reported && edge_known_ && edge_ticks > edge_ticks_) {
             out.edges = mean(place - edge_place_, 2 * edge_error_, edge_ticks_, edge_ticks);
             out.edge_came = out.edges.known;
-        } else if (!told || (edge_known_ && place == edge_place_)) {
+        } else if (!reported || (edge_known_ && place == edge_place_)) {
             out.edges = silence(axis, ticks);
         }
     }
-    if (told && (!edge_known_ || out.edge_came)) {
+    if (reported && (!edge_known_ || out.edge_came)) {
         edge_known_ = true;
         edge_ticks_ = edge_ticks;
         edge_place_ = place;

@@ -39,9 +39,9 @@ struct EncoderAxisState {
     std::uint16_t edges_a = 0, edges_b = 0, indexes = 0;
     std::uint16_t mode = 0;
     CalState cal = CalState::calibrated;
-    std::uint8_t begun = 0;  ///< the first sample has been taken
-    std::uint8_t down = 0;   ///< the last count was downwards
-    std::uint8_t told = 0;   ///< the illegal transitions were reported
+    std::uint8_t begun = 0;     ///< the first sample has been taken
+    std::uint8_t down = 0;      ///< the last count was downwards
+    std::uint8_t reported = 0;  ///< the illegal transitions were reported
     std::array<std::uint8_t, 2> reserved{};
 };
 static_assert(std::has_unique_object_representations_v<EncoderAxisState>, "padding would get into the state's hash");

@@ -33,9 +33,10 @@ class Bus final : public sim::Device, public sim::RegisterDevice {
 
   private:
     struct State {
-        std::uint64_t told = 0;  ///< bit n: the conflict of the n-th card (bit 63: of all further cards) was reported
+        std::uint64_t reported =
+            0;  ///< bit n: the conflict of the n-th card (bit 63: of all further cards) was reported
     };
-    void tell_conflict(std::uint32_t address);
+    void report_conflict(std::uint32_t address);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_{};

@@ -25,7 +25,7 @@ void catch_up(State& state, Instant now, bool access) {
     Configuration& c = state.configuration;
     if (c.array == ArrayState::starting && c.starts_at <= now) {
         c.array = ArrayState::running;
-        state.told_no_project = 0;
+        state.reported_no_project = 0;
         begin_project(state, c.starts_at, sample_from(c.starts_at) - 1);
     }
     if (c.array != ArrayState::running || !c.known) return;
@@ -70,14 +70,14 @@ State Card::seen() const {
 
 void Card::catch_up(Instant now, bool access) {
     ioflex02::catch_up(state_, now, access);
-    tell_illegal();
+    report_illegal();
 }
 
-void Card::tell_illegal() {
+void Card::report_illegal() {
     for (std::size_t i = 0; i < axis_count; ++i) {
         EncoderAxisState& axis = state_.axes[i];
-        if (axis.illegal == 0 || axis.told) continue;
-        axis.told = 1;
+        if (axis.illegal == 0 || axis.reported) continue;
+        axis.reported = 1;
         report(CardCondition::illegal_transition, static_cast<std::int64_t>(i), axis.illegal_sample * 100);
     }
 }

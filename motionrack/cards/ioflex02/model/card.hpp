@@ -59,7 +59,7 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     State seen() const;
     EncoderAxisState axis_of(int axis) const { return seen().axes[static_cast<std::size_t>(axis)]; }
     void catch_up(Instant now, bool access);
-    void tell_illegal();
+    void report_illegal();
     void await_illegal();
     void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
     void put_out(std::uint16_t levels);

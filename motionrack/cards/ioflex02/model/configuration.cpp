@@ -21,7 +21,7 @@ void Card::control(std::uint16_t word) {
     if (!field("CONTROL", "CLEAR_ERRORS").test(word)) return;
     for (EncoderAxisState& axis : state_.axes) {
         axis.illegal = 0;
-        axis.told = 0;
+        axis.reported = 0;
     }
 }
 

@@ -103,8 +103,8 @@ std::uint16_t Card::read(std::uint32_t at) {
     catch_up(kernel_.now(), true);
     if (!declared_at(at, false)) {
         report(CardCondition::no_register, at, -1);
-    } else if (at >= project_from && !has_project() && at != offset("IDENT") && !state_.told_no_project) {
-        state_.told_no_project = 1;
+    } else if (at >= project_from && !has_project() && at != offset("IDENT") && !state_.reported_no_project) {
+        state_.reported_no_project = 1;
         report(CardCondition::no_project, at);
     }
     return word(state_, at);
@@ -119,8 +119,8 @@ void Card::write(std::uint32_t at, std::uint16_t value) {
     if (at == offset("CONTROL")) return control(value);
     if (at == offset("DATA")) return take_word(value);
     if (has_project()) return write_project(at, value);
-    if (state_.told_no_project) return;
-    state_.told_no_project = 1;
+    if (state_.reported_no_project) return;
+    state_.reported_no_project = 1;
     report(CardCondition::no_project, at);
 }
 

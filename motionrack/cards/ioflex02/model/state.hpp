@@ -47,7 +47,7 @@ struct State {
     Captured captured;
     std::uint16_t outputs = 0;
     std::uint16_t axis = 0;  ///< selected by AXIS
-    std::uint16_t told_no_project = 0;
+    std::uint16_t reported_no_project = 0;
     std::uint16_t begun = 0;
 };
 

@@ -74,10 +74,10 @@ TEST(Ioflex02Card, AnIllegalTransitionIsReportedWithAxisAndInstant) {
     rig.kernel.set_wire(rig.kernel.find_wire("c1.a1"), 1);
     rig.kernel.set_wire(rig.kernel.find_wire("c1.b1"), 1);
     rig.run(microseconds(10));
-    const auto told = rig.kernel.conditions();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(describe(told[0], "c1").find("axis 1 changed at once at 10100 ns"), std::string::npos)
-        << describe(told[0], "c1");
+    const auto reported = rig.kernel.conditions();
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_NE(describe(reported[0], "c1").find("axis 1 changed at once at 10100 ns"), std::string::npos)
+        << describe(reported[0], "c1");
 }
 
 TEST(Ioflex02Card, ThePositionWrapsAt24Bits) {

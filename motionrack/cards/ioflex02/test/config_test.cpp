@@ -86,10 +86,10 @@ TEST(Ioflex02Image, TheRefusalIsReportedInASentence) {
     std::vector<std::uint8_t> raw = good();
     raw.back() ^= 1;
     rig.feed(raw);
-    const auto told = rig.kernel.conditions();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(describe(told[0], "c1").find("refused after 44 bytes: its CRC-32 is wrong"), std::string::npos)
-        << describe(told[0], "c1");
+    const auto reported = rig.kernel.conditions();
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_NE(describe(reported[0], "c1").find("refused after 44 bytes: its CRC-32 is wrong"), std::string::npos)
+        << describe(reported[0], "c1");
     rig.feed(good());
     EXPECT_EQ(rig.read(error), 0);
     EXPECT_EQ(rig.read(state), starting);
@@ -272,9 +272,9 @@ TEST(Ioflex02Bus, TwoCardsAtOneAddressBothTakeWhatIsWrittenAndReadAndedAndThatIs
     EXPECT_EQ(rig.kernel.level(rig.kernel.find_wire("c2.out0")), 1);
     rig.set("in3", 1);
     EXPECT_EQ(rig.read(offset("IN")), 0);  // that of the other card is low
-    const auto told = rig.kernel.conditions();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_NE(describe(told[0], "bus").find("two cards answer at the base address 2300h"), std::string::npos);
+    const auto reported = rig.kernel.conditions();
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_NE(describe(reported[0], "bus").find("two cards answer at the base address 2300h"), std::string::npos);
 }
 
 TEST(Ioflex02Bus, CardsAtTheirOwnAddressesDoNotDisturbEachOther) {

@@ -23,12 +23,12 @@ struct Machine {
     explicit Machine(const PartSettings& settings, const EncoderCheckSettings& checks = {.counts_per_index = 400})
         : place(rig.kernel, {}),
           part(rig.kernel, "enc", place, settings),
-          joints(rig.kernel),
+          junctions(rig.kernel),
           card(rig.port, rig.port),
           check(checks) {
-        joints.join(part.a(), rig.kernel.find_wire("c1.a2"));
-        joints.join(part.b(), rig.kernel.find_wire("c1.b2"));
-        joints.join(part.z(), rig.kernel.find_wire("c1.z2"));
+        junctions.join(part.a(), rig.kernel.find_wire("c1.a2"));
+        junctions.join(part.b(), rig.kernel.find_wire("c1.b2"));
+        junctions.join(part.z(), rig.kernel.find_wire("c1.z2"));
         rig.start();
         card.Init(0x2300);
         rig.run(microseconds(1));
@@ -60,7 +60,7 @@ struct Machine {
     Rig rig{Settings{}};
     sim::FakePulses place;
     Part part;
-    sim::WireConnections joints;
+    sim::WireConnections junctions;
     Flex2Pos card;
     EncoderCheck check;
     std::vector<Finding> found;

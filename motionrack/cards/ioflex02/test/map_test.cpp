@@ -23,8 +23,8 @@ TEST(Ioflex02Map, TheCardHasTheDeclaredRegistersAndNoOthers) {
                 rig.write(at, 0);
             else
                 rig.read(at);
-            const bool told = !rig.conditions().empty();
-            EXPECT_EQ(told, !declared) << at << (write ? " written" : " read");
+            const bool reported = !rig.conditions().empty();
+            EXPECT_EQ(reported, !declared) << at << (write ? " written" : " read");
         }
 }
 

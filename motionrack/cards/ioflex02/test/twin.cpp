@@ -69,7 +69,7 @@ void Twin::run_to(std::int64_t half) {
         }
         if (phase_ == starting && now_ >= start_at_) {
             phase_ = running;
-            told_no_project_ = false;
+            reported_no_project_ = false;
             begin();
         }
     }
@@ -97,8 +97,8 @@ void Twin::sample(Axis& axis, int axis_number) {
     if (a && b) {
         if (axis.illegal < 65535) ++axis.illegal;
         axis.illegal_at = axis.raw;
-        if (!axis.told) note(1, axis_number, now_ * 50);
-        axis.told = true;
+        if (!axis.reported) note(1, axis_number, now_ * 50);
+        axis.reported = true;
     } else if (a || b) {
         // Previous and present phase of the line pair.
         constexpr int place[2][2] = {{0, 1}, {3, 2}};  // [B][A]
@@ -161,7 +161,7 @@ void Twin::byte(int value) {
     start_at_ = now_ + configuration_;
     if (configuration_ > 0) return;
     phase_ = running;
-    told_no_project_ = false;
+    reported_no_project_ = false;
     begin();
     sampled_ = false;  // a sample at this very instant is the first
 }
@@ -185,7 +185,7 @@ void Twin::write(int at, int value) {
                 outputs_ = 0;
             }
             if (value & 8)
-                for (Axis& axis : axes_) axis.illegal = 0, axis.told = false;
+                for (Axis& axis : axes_) axis.illegal = 0, axis.reported = false;
             return;
         case 0x02:
             byte(value & 255);
@@ -202,8 +202,8 @@ void Twin::write(int at, int value) {
             return note(5, at, value);
     }
     if (!project()) {
-        if (!told_no_project_) note(4, at, 0);
-        told_no_project_ = true;
+        if (!reported_no_project_) note(4, at, 0);
+        reported_no_project_ = true;
         return;
     }
     if (at == 0x10) {
@@ -285,8 +285,8 @@ int Twin::read(int at) {
     }
     if (at == 0x0A) return phase_ == running ? ident_ : 0xFFFF;
     if (!project()) {
-        if (!told_no_project_) note(4, at, 0);
-        told_no_project_ = true;
+        if (!reported_no_project_) note(4, at, 0);
+        reported_no_project_ = true;
         return 0xFFFF;
     }
     int bits = 0;

@@ -40,7 +40,7 @@ class Twin {
         std::deque<int> history[4];  // the last samples, the newest first
         int mode = 0, image_mode = 0;
         std::int64_t position = 0, raw = 0, age = 0;
-        bool counted = false, told = false;
+        bool counted = false, reported = false;
         int down = 0, edges_a = 0, edges_b = 0, indexes = 0, illegal = 0;
         std::int64_t index_at = 0, illegal_at = 0;
         int state = 0;  // 0 calibrated, 1 wait index, 2 wait cal
@@ -71,7 +71,7 @@ class Twin {
     std::int64_t start_at_ = 0, configuration_;
     std::vector<int> image_;
     int error_ = 0, ident_ = 0;
-    bool known_ = false, told_no_project_ = false;
+    bool known_ = false, reported_no_project_ = false;
     std::vector<Note> notes_;
 };
 

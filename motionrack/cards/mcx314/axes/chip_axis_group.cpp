@@ -15,24 +15,24 @@ namespace {
 
 // R of the second axis for R of the first: both axes step together, the path is sqrt(2) pulses long.
 constexpr double both_axes_factor = 1 + both_axes_extra;
-constexpr Duration joint_timeout = whole_seconds(3600);
-constexpr Duration brake_look = microseconds(5);  // less than the duration of any segment
-constexpr std::int64_t pulses_past_joint = 16;    // more than are driven until the next poll
+constexpr Duration junction_timeout = whole_seconds(3600);
+constexpr Duration brake_look = microseconds(5);   // less than the duration of any segment
+constexpr std::int64_t pulses_past_junction = 16;  // more than are driven until the next poll
 
 /// Returns true if the line is active. During a requested stop each wait returns at once, so decelerating axes are
 /// polled.
 bool wait_for_interrupt(Interrupt& host, bool brakes) {
-    if (!brakes) return host.wait(joint_timeout);
+    if (!brakes) return host.wait(junction_timeout);
     host.pass(brake_look);
     return false;
 }
 
 /// Detects whether the chip is at the junction. The queue also becomes free if a limit switch makes the chip decelerate
 /// within its segment, as this drops the queued one. The speed of that segment must not be written then.
-bool are_at(Driver& driver, const Pulses4& joint, int auxiliary) {
+bool are_at(Driver& driver, const Pulses4& junction, int auxiliary) {
     for (int c = 0; c < channel_count; ++c) {
         if (c == auxiliary) continue;
-        if (std::llabs(joint[static_cast<std::size_t>(c)] - driver.ReadLPS(c)) > pulses_past_joint) return false;
+        if (std::llabs(junction[static_cast<std::size_t>(c)] - driver.ReadLPS(c)) > pulses_past_junction) return false;
     }
     return true;
 }
@@ -133,7 +133,7 @@ Result<void> ChipAxisGroup::play(const Segment& segment) {
         MOTIONRACK_CHECK(start_chain(segment));
     } else {
         MOTIONRACK_CHECK(queue(segment));
-        MOTIONRACK_CHECK(wait_for_joint(segment));
+        MOTIONRACK_CHECK(wait_for_junction(segment));
         MOTIONRACK_CHECK(write_speed(segment));
     }
     ++segments_;
@@ -225,7 +225,7 @@ Result<void> ChipAxisGroup::command(const Segment& segment) {
 }
 
 /// Waits until the queued segment is running.
-Result<void> ChipAxisGroup::wait_for_joint(const Segment& queued) {
+Result<void> ChipAxisGroup::wait_for_junction(const Segment& queued) {
     bool woken = false;
     for (bool first = true;; first = false) {
         const MainStatus status = driver_.status();

@@ -62,7 +62,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
     Result<void> restart_late(const Segment& segment);
-    Result<void> wait_for_joint(const Segment& queued);
+    Result<void> wait_for_junction(const Segment& queued);
     Result<void> decelerate();
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);

@@ -12,7 +12,7 @@ namespace {
 // Share of the path acceleration for moves with a fourth axis.
 constexpr double auxiliary_share = 0.3;
 // Share of an axis' velocity step used from chord to chord of an arc, if the chords have that many pulses.
-constexpr double joint_share = 0.7, shortest_chord = 16, max_angle = 0.5;
+constexpr double junction_share = 0.7, shortest_chord = 16, max_angle = 0.5;
 
 double squared(double x) {
     return x * x;
@@ -32,8 +32,8 @@ double shortest_angle(const AxisMap& map, const control::Geometry& arc) {
 double chords_of(const AxisMap& map, const control::Geometry& path, double cruise, double min_seconds) {
     if (path.shape == control::PathShape::arc) {
         // From chord to chord the axis velocities change by speed * angle.
-        const double jump =
-            joint_share * std::min(map.limits[path.first].max_velocity_step, map.limits[path.second].max_velocity_step);
+        const double jump = junction_share * std::min(map.limits[path.first].max_velocity_step,
+                                                      map.limits[path.second].max_velocity_step);
         const double angle = std::min(tolerated_angle(map, path.radius), jump / cruise);
         const double min_angle = std::min(min_seconds * cruise / path.radius, max_angle);
         return std::ceil(std::fabs(path.sweep) / std::max({angle, shortest_angle(map, path), min_angle}));

@@ -63,8 +63,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
       limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {
     for (int a = 0; a < axes_of_chip; ++a) {
         const std::string prefix = name + "." + axis_letters[a];
-        outputs_[a].chip = ears_[a].chip = this;
-        outputs_[a].axis = ears_[a].axis = a;
+        outputs_[a].chip = listeners_[a].chip = this;
+        outputs_[a].axis = listeners_[a].axis = a;
         for (std::size_t i = 0; i < input_names.size(); ++i) {
             inputs_[a][i] = kernel_.add_wire(prefix + input_names[i], 1);
             kernel_.listen(inputs_[a][i], id_, 16 * a + static_cast<int>(i));
@@ -138,7 +138,7 @@ void Chip::reschedule() {
 /// Publishes the changes of an event to the listeners, and schedules the next event in the kernel.
 void Chip::settle(Instant now) {
     if (state_.acting != 0) wake();
-    tell_listeners(now);
+    notify_listeners(now);
     update_interrupt();
     if (state_.following != 0) show_wires(now);
     if (stale_) reschedule();
@@ -244,11 +244,11 @@ void Chip::note_rates() {
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
         if (outputs_[a].listeners.size() > 0)
-            state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
+            state_.axis[a].reported_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
     }
 }
 
-void Chip::tell_listeners(Instant now) {
+void Chip::notify_listeners(Instant now) {
     const unsigned changed = std::exchange(changed_, 0u);
     for_each_axis((changed | state_.crossed) & listened_, [&](int a) {
         Output& output = outputs_[a];
@@ -256,8 +256,8 @@ void Chip::tell_listeners(Instant now) {
             if (output.edge_listener) flush_edges(a);
             if (output.listeners.size() > 0) {
                 const double rate = rate_of(a, now);
-                const auto before =
-                    std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
+                const auto before = std::bit_cast<double>(
+                    std::exchange(state_.axis[a].reported_rate, std::bit_cast<std::uint64_t>(rate)));
                 output.listeners.notify_rate(before, rate, now);
             }
         }

@@ -135,7 +135,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void law_changed(int a) { changed_ |= 1u << a; }
     void law_changed_of(int generator);
     void note_rates();
-    void tell_listeners(Instant now);
+    void notify_listeners(Instant now);
     std::int64_t count_at(int axis, Instant t) const;
     double rate_of(int axis, Instant t) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
@@ -155,7 +155,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
-    bool encoder_connected(int a) const { return ears_[a].motion && !kernel_.forced(encoder_wires_[a][0]); }
+    bool encoder_connected(int a) const { return listeners_[a].motion && !kernel_.forced(encoder_wires_[a][0]); }
     void watch_encoder(int axis);
     std::int32_t encoder_position(const Axis& axis, int a) const;
     void set_encoder_position(int a, std::int32_t value);
@@ -345,7 +345,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     State state_{};
     std::array<Output, axes_of_chip> outputs_;
-    std::array<EncoderListener, axes_of_chip> ears_;
+    std::array<EncoderListener, axes_of_chip> listeners_;
     std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
     std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};

@@ -21,16 +21,16 @@ sim::Edges edges_of(const Axis& axis) {
 }  // namespace
 
 void Chip::connect_encoder(int a, sim::PositionFunction& counts) {
-    EncoderListener& ear = ears_[a];
-    MOTIONRACK_ASSERT(ear.motion == nullptr);
-    ear.motion = &counts;
-    ear.slot = counts.add_listener(ear);
+    EncoderListener& listener = listeners_[a];
+    MOTIONRACK_ASSERT(listener.motion == nullptr);
+    listener.motion = &counts;
+    listener.slot = counts.add_listener(listener);
     set_encoder_position(a, state_.axis[a].ep);
 }
 
 std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
     if (!encoder_connected(a)) return axis.ep;
-    const std::int64_t position = axis.encoder.value(*ears_[a].motion, kernel_.now());
+    const std::int64_t position = axis.encoder.value(*listeners_[a].motion, kernel_.now());
     if (axis.ring) return stepped(axis, 0, position);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
 }
@@ -43,21 +43,21 @@ void Chip::set_encoder_position(int a, std::int32_t value) {
     axis.encoder = sim::ClosedFormCounter(edges_of(axis), em::EPINV.test(state_.extension[a].em6));
     if (!encoder_connected(a)) return;
     const std::int64_t position = axis.ring ? std::int64_t{static_cast<std::uint32_t>(value)} : value;
-    axis.encoder.set(position, *ears_[a].motion, kernel_.now());
+    axis.encoder.set(position, *listeners_[a].motion, kernel_.now());
 }
 
 /// Subscribes to the encoder at the next count that may change a comparison with EP.
 void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
-    const EncoderListener& ear = ears_[a];
-    if (!ear.motion) return;
+    const EncoderListener& listener = listeners_[a];
+    if (!listener.motion) return;
     if (!encoder_connected(a) || !wr2::CMPSL.test(axis.wr2) || !compares(axis)) {
-        ear.motion->watch(ear.slot, sim::unwatched_below, sim::unwatched_above);
+        listener.motion->watch(listener.slot, sim::unwatched_below, sim::unwatched_above);
         return;
     }
-    const std::int64_t position = axis.encoder.value(*ear.motion, kernel_.now());
+    const std::int64_t position = axis.encoder.value(*listener.motion, kernel_.now());
     const std::int32_t counter = encoder_position(axis, a);
-    axis.encoder.watch(*ear.motion, ear.slot, position - steps_to_comparison(axis, counter, -1),
+    axis.encoder.watch(*listener.motion, listener.slot, position - steps_to_comparison(axis, counter, -1),
                        position + steps_to_comparison(axis, counter, +1));
 }
 
@@ -70,14 +70,14 @@ void Chip::encoder_crossed(int a, Instant now) {
 }
 
 void Chip::take_encoder(int a, bool taken) {
-    EncoderListener& ear = ears_[a];
-    if (!ear.motion) return;
+    EncoderListener& listener = listeners_[a];
+    if (!listener.motion) return;
     const Instant now = kernel_.now();
     catch_up(now);
     Axis& axis = state_.axis[a];
     if (taken && encoder_connected(a)) {
         axis.ep = encoder_position(axis, a);
-        axis.encoder_lines = sim::lines_of(ear.motion->count(now));
+        axis.encoder_lines = sim::lines_of(listener.motion->count(now));
         for (int i = 0; i < 2; ++i) kernel_.force(encoder_wires_[a][i], axis.encoder_lines >> i & 1);
         watch_encoder(a);
     } else if (!taken && !encoder_connected(a)) {

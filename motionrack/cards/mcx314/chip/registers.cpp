@@ -21,7 +21,7 @@ void Chip::reset() {
         fresh.encoder_lines = axis.encoder_lines;
         fresh.shown = axis.shown;
         fresh.mark = axis.mark;
-        fresh.told_rate = axis.told_rate;
+        fresh.reported_rate = axis.reported_rate;
         fresh.offset = options_.offset_after_reset;
         axis = fresh;
     }

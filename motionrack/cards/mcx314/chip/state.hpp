@@ -158,9 +158,9 @@ struct Axis {
     std::array<std::uint8_t, 7> reserved{};
     std::int64_t shown = 0;  ///< `made` at the last update of the pulse wires
     PulseMark mark;
-    std::int64_t count = 0;       ///< net pulses since the start
-    std::int64_t made = 0;        ///< pulses of both directions
-    std::uint64_t told_rate = 0;  ///< bits of the rate last sent to listeners, or to which it has drifted since
+    std::int64_t count = 0;           ///< net pulses since the start
+    std::int64_t made = 0;            ///< pulses of both directions
+    std::uint64_t reported_rate = 0;  ///< bits of the rate last sent to listeners, or to which it has drifted since
     sim::Listeners::Watches watch{};
     PathCommand held_path;
     Generator gen;

@@ -104,7 +104,7 @@ Result<void> Driver::give_pending_piece(bool last, Duration timeout) {
         path_axes_ = 0;
         chain_.running = true;
     } else {
-        MOTIONRACK_CHECK(wait_for_joint(timeout));
+        MOTIONRACK_CHECK(wait_for_junction(timeout));
         if (chain_.next_v != 0) put(own, param::V, chain_.speeds.V = chain_.next_v);
         if (last) aim_at_end(piece);
         chain_.next_v = chain_.pending_v;
@@ -156,7 +156,7 @@ void Driver::aim_at_end(const Piece& piece) {
 }
 
 /// Waits for CNEXT. `may_end`: the end of the chain is accepted as well.
-Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
+Result<void> Driver::wait_for_junction(Duration timeout, bool may_end) {
     const Instant end = later(interrupt_.now(), timeout);
     while (true) {
         const MainStatus main = status();
@@ -206,7 +206,7 @@ Result<ContOutcome> Driver::ContEnd(Duration timeout) {
         outcome.end_speed = plan.end_v;
     } else if (ramps) {
         EnableDeceleration(true);
-        MOTIONRACK_CHECK(wait_for_joint(timeout, true));
+        MOTIONRACK_CHECK(wait_for_junction(timeout, true));
         // The last segment is running: it may have begun faster than requested.
         const std::int64_t speed = ReadCV(chain_.generator);
         if (chain_.next_v != 0) put(1u << chain_.generator, param::V, chain_.speeds.V = chain_.next_v);

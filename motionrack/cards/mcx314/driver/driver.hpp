@@ -135,14 +135,14 @@ class Driver {
     Result<std::array<double, 4>> axis_speeds();
 
     /// Direct register access: AX1, AX2 (, AX3) channels; constant vector speed of two axes; junction interrupt.
-    void SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_joints);
+    void SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_junctions);
     /// A line of two or three axes: finish points -8,388,608 .. 8,388,607. Starts or queues it.
     Result<void> Line(const Finish* ends, int count);
     Result<void> Arc(const Finish (&ends)[2], bool clockwise);
     void EnableDeceleration(bool on);
     void ClearInterpolationInterrupt();
     /// Interrupt at each junction of continuous interpolation, and when the pattern stack needs data.
-    void EnableInterpolationInterrupts(bool joints, bool patterns);
+    void EnableInterpolationInterrupts(bool junctions, bool patterns);
 
     // ---- continuous interpolation (chain.cpp)
     // ContStart, then any number of ContLine and ContArc, then ContEnd. The last segment is held back until the next
@@ -362,7 +362,7 @@ class Driver {
     Result<void> give_pending_piece(bool last, Duration timeout);
     void aim_at_end(const Piece& piece);
     void note_end(const Piece& piece);
-    Result<void> wait_for_joint(Duration timeout, bool may_end = false);
+    Result<void> wait_for_junction(Duration timeout, bool may_end = false);
     Result<void> begin_pattern(const char* who, const BPDATA& data, unsigned axes, int count);
     void close_pattern();
     void abandon_path();

@@ -43,13 +43,13 @@ void Driver::write_path_mode(std::uint16_t word) {
     path_mode_ = word;
 }
 
-void Driver::SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_joints) {
+void Driver::SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_junctions) {
     unsigned word = field("WR5", "AX1").set(0, static_cast<unsigned>(first));
     word = field("WR5", "AX2").set(word, static_cast<unsigned>(second));
     word = field("WR5", "AX3").set(word, static_cast<unsigned>(third < 0 ? 0 : third));
     word = field("WR5", "LSPD").set(word, constant_vector ? 1 : 0);
     path_axes_ = 1u << first | 1u << second | (third < 0 ? 0 : 1u << third);
-    write_path_mode(field("WR5", "CIINT").set(word, interrupt_at_joints));
+    write_path_mode(field("WR5", "CIINT").set(word, interrupt_at_junctions));
 }
 
 Result<void> Driver::Line(const Finish* ends, int count) {
@@ -85,8 +85,8 @@ void Driver::ClearInterpolationInterrupt() {
     command(0, cmd::INTERPOLATION_INTERRUPT_CLEAR);
 }
 
-void Driver::EnableInterpolationInterrupts(bool joints, bool patterns) {
-    write_path_mode(field("WR5", "BPINT").set(field("WR5", "CIINT").set(path_mode_, joints), patterns));
+void Driver::EnableInterpolationInterrupts(bool junctions, bool patterns) {
+    write_path_mode(field("WR5", "BPINT").set(field("WR5", "CIINT").set(path_mode_, junctions), patterns));
 }
 
 // ---- points and settings

@@ -215,11 +215,11 @@ class Watcher final : public sim::PositionListener {
     void watch(std::int64_t below, std::int64_t above) { motion_.watch(slot_, below, above); }
     void crossed(Instant now) override { crossings.push_back({now / tick, motion_.count(now)}); }
     void rate_changed(double before, double rate, Instant) override {
-        EXPECT_EQ(before, told);
-        told = rate;
+        EXPECT_EQ(before, reported);
+        reported = rate;
         rates.push_back(rate);
     }
-    double told = 0;
+    double reported = 0;
     std::vector<std::pair<std::int64_t, std::int64_t>> crossings;
     std::vector<double> rates;
 

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Duration contract_patience = whole_seconds(20);
+constexpr Duration contract_max_wait = whole_seconds(20);
 
 class Contract : public testing::Test {
   protected:
@@ -30,7 +30,7 @@ class Contract : public testing::Test {
     }
     Driver& card() { return *driver_; }
     void done(const Result<void>& result) { ASSERT_TRUE(result) << result.error().message; }
-    void finish(unsigned axes) { done(card().wait_until_done(axes, contract_patience)); }
+    void finish(unsigned axes) { done(card().wait_until_done(axes, contract_max_wait)); }
 
     std::unique_ptr<ContractPort> card_;
     std::optional<Driver> driver_;
@@ -217,7 +217,7 @@ TEST_F(Contract, TheMakersContourIsClosed) {
         done(card().ContArc(0x3, {-150, -150}, {0, -150}, false));
         done(card().ContLine(0x3, {0, -150}));
         done(card().ContArc(0x3, {150, -150}, {150, 0}, false));
-        const Result<ContOutcome> outcome = card().ContEnd(contract_patience);
+        const Result<ContOutcome> outcome = card().ContEnd(contract_max_wait);
         ASSERT_TRUE(outcome) << outcome.error().message;
         EXPECT_EQ(outcome->segments, 8);
         EXPECT_EQ(card().ReadLPS(0), 0);
@@ -235,11 +235,11 @@ TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
     ASSERT_FALSE(full);
     EXPECT_EQ(full.error().kind, ErrorKind::refused);
     done(card().BPStart());
-    for (int i = 0; i < 9; ++i) done(card().BPStack(word, contract_patience));
+    for (int i = 0; i < 9; ++i) done(card().BPStack(word, contract_max_wait));
     done(card().SetOutput(axis_x, 0, true));  // does not disturb the pattern
     done(
-        card().BPStack({{0x0007, 0x0008}, {0x0000, 0x0008}}, contract_patience));  // X three times +, then the end code
-    done(card().BPEnd(contract_patience));
+        card().BPStack({{0x0007, 0x0008}, {0x0000, 0x0008}}, contract_max_wait));  // X three times +, then the end code
+    done(card().BPEnd(contract_max_wait));
     EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 3);
     EXPECT_EQ(card().ReadLPS(3), 12 * -4);
     EXPECT_EQ(card().ReadLPS(1), 0);
@@ -255,7 +255,7 @@ TEST_F(Contract, ABitPatternOfThreeAxesDeceleratesAtItsPoint) {
     done(card().BPStack({{0xFFFF, 0x5555, 0x0000}, {0x0000, 0x0000, 0x8001}}));
     done(card().BPStack({{0x0001, 0x0000, 0x0000}, {0x0001, 0x0000, 0x0000}}));
     done(card().BPStart());
-    done(card().BPEnd(contract_patience));
+    done(card().BPEnd(contract_max_wait));
     EXPECT_EQ(card().ReadLPS(0), 32);
     EXPECT_EQ(card().ReadLPS(1), 16);
     EXPECT_EQ(card().ReadLPS(2), -4);
@@ -310,7 +310,7 @@ TEST_F(Contract, SoftwareLimitsStopAndSayHowToContinue) {
     done(card().SLMTP(1, axis_x));
     done(card().SLMTM(1, axis_x));
     done(card().TCurve_C(axis_x, 10, 500, 400));
-    const Result<void> stopped = card().wait_until_done(axis_x, contract_patience);
+    const Result<void> stopped = card().wait_until_done(axis_x, contract_max_wait);
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().kind, ErrorKind::machine);
     EXPECT_THAT(stopped.error().message, HasSubstr("the + software limit was passed"));
@@ -326,7 +326,7 @@ TEST_F(Contract, TheEndOfADriveInterruptsAndReadingClearsIt) {
     if (!card_->has_interrupt_line()) GTEST_SKIP() << "its interrupts do not reach this program";
     done(card().EnableInterrupt(axis_y, cause::drive_end));
     done(card().TCurve_F(axis_y, 10, 500, 400, 200));
-    EXPECT_TRUE(card().interrupt().wait(contract_patience));
+    EXPECT_TRUE(card().interrupt().wait(contract_max_wait));
     EXPECT_FALSE(card().moving(axis_y));
     EXPECT_EQ(card().read_interrupts(1), cause::drive_end);
     EXPECT_EQ(card().read_interrupts(1), 0);

@@ -7,7 +7,7 @@
 
 namespace motionrack::mcx314 {
 
-inline constexpr Duration patience = whole_seconds(60);
+inline constexpr Duration max_wait = whole_seconds(60);
 
 inline void done(const Result<void>& result) {
     ASSERT_TRUE(result) << result.error().message;

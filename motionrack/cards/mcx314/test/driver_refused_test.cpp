@@ -134,25 +134,25 @@ TEST_F(Refused, AxesThatDoNotExist) {
     set_up();
     forbid_writing();
     for (const int axis : {-1, 4, 32, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
-        const std::string told = "the axis is " + std::to_string(axis) + "; it must be one of 0 X, 1 Y, 2 Z, 3 U";
-        expect_refused(driver_.change_pulses(axis, 100), told);
+        const std::string reported = "the axis is " + std::to_string(axis) + "; it must be one of 0 X, 1 Y, 2 Z, 3 U";
+        expect_refused(driver_.change_pulses(axis, 100), reported);
         const Finish ends[] = {{0, 1, 1}, {axis, 1, 1}};
-        expect_refused(driver_.Line(ends, 2), told);
-        expect_refused(driver_.Arc(ends, false), told);
+        expect_refused(driver_.Line(ends, 2), reported);
+        expect_refused(driver_.Arc(ends, false), reported);
         const std::int64_t away[] = {1};
-        expect_refused(home(driver_, axis, {}), told);
-        expect_refused(repeat_home(driver_, axis, {}, 1, away), told);
+        expect_refused(home(driver_, axis, {}), reported);
+        expect_refused(repeat_home(driver_, axis, {}, 1, away), reported);
         Manual manual(driver_, axis);
-        expect_refused(manual.set({}), told);
-        expect_refused(manual.jog(1, clock_.now()), told);
-        expect_refused(manual.step_jog(0, 1), told);
-        expect_refused(manual.home({}, clock_.now()), told);
+        expect_refused(manual.set({}), reported);
+        expect_refused(manual.jog(1, clock_.now()), reported);
+        expect_refused(manual.step_jog(0, 1), reported);
+        expect_refused(manual.home({}, clock_.now()), reported);
         RealAxis real(driver_, axis, {200}, {400});
-        expect_refused(real.set({1, 1, 1}), told);
+        expect_refused(real.set({1, 1, 1}), reported);
         expect_refused(real.move_to(1), "Call set first");
-        expect_refused(real.change_distance(1), told);
-        expect_refused(real.set_position(1), told);
-        expect_refused(real.speed(), told);
+        expect_refused(real.change_distance(1), reported);
+        expect_refused(real.set_position(1), reported);
+        expect_refused(real.speed(), reported);
     }
 }
 

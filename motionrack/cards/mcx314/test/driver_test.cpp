@@ -31,7 +31,7 @@ TEST(DriverMessages, TellTheCauseThePlaceAndWhatToDo) {
         rig.port.pass(milliseconds(500));
         EXPECT_EQ(d.error_text(), "");
         rig.wire(one.pin, 0);
-        const Result<void> stopped = d.wait_until_done(axis_x, patience);
+        const Result<void> stopped = d.wait_until_done(axis_x, max_wait);
         ASSERT_FALSE(stopped) << one.pin;
         EXPECT_EQ(stopped.error().kind, ErrorKind::machine);
         EXPECT_THAT(stopped.error().message, HasSubstr(one.why));
@@ -82,7 +82,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     while (!d.axis_status(0).constant()) rig.port.pass(milliseconds(1));
     done(d.change_pulses(0, 30'000));
     done(d.change_speed(axis_x, 900));
-    done(d.wait_until_done(axis_x, patience));
+    done(d.wait_until_done(axis_x, max_wait));
     EXPECT_EQ(d.ReadLPS(0), 30'000);
 
     // If the counter was set in the meantime, the pulses made are unknown.
@@ -95,7 +95,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     done(d.SetAO(axis_z, 500));
     while (!(d.axis_status(2).constant() && d.ReadCV(2) == 10)) rig.port.pass(milliseconds(1));
     EXPECT_FALSE(d.change_speed(axis_z, 500));
-    done(d.wait_until_done(axis_z, patience));
+    done(d.wait_until_done(axis_z, max_wait));
 
     done(d.TCurve_F(axis_y, 10, 1'000, 100, 4'000));
     while (!d.axis_status(1).decelerating()) rig.port.pass(milliseconds(1));
@@ -103,7 +103,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     ASSERT_FALSE(late);
     EXPECT_THAT(late.error().message, HasSubstr("Y decelerates to its end already"));
     EXPECT_FALSE(d.change_pulses(1, 9'000));
-    done(d.wait_until_done(axis_y, patience));
+    done(d.wait_until_done(axis_y, max_wait));
     EXPECT_EQ(d.ReadLPS(1), 4'000);
 }
 
@@ -123,7 +123,7 @@ TEST(DriverFlight, TheLeastPossibleTargetIsReportedAndTaken) {
         EXPECT_GT(min_pulses, 5'000);
         EXPECT_LT(min_pulses, 13'700);
         done(d.change_pulses(0, -(min_pulses + 5)));
-        done(d.wait_until_done(axis_x, patience));
+        done(d.wait_until_done(axis_x, max_wait));
         EXPECT_EQ(d.ReadLPS(0), -(min_pulses + 5));
         rig.deliver_edges();
         EXPECT_LT(last_rate(rig.edges[0], 1), 250) << "it ends at SV, 100 pulses/s";
@@ -162,7 +162,7 @@ TEST(DriverFlight, TheSpeedOfALedAxisIsThatOfItsLeader) {
     EXPECT_NEAR((*speeds)[1], 1'000, 1e-6);
     EXPECT_NEAR((*speeds)[2], -250, 1e-6);
     done(d.stop(axis_z, StopKind::slow));
-    done(d.wait_until_done(0x6, patience));
+    done(d.wait_until_done(0x6, max_wait));
 }
 
 }  // namespace

@@ -155,17 +155,17 @@ void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant 
 
 void Card::tell() {
     const State& s = engine_.state();
-    const std::int64_t fresh = s.marking_info & ~lines_.told_flags;
+    const std::int64_t fresh = s.marking_info & ~lines_.reported_flags;
     if (fresh != 0)
         for (std::int64_t bit = 0; bit < 32; ++bit)
             if (fresh >> bit & 1) report(CardCondition::flag_set, bit, s.flag_tick[static_cast<std::size_t>(bit)]);
-    lines_.told_flags = s.marking_info;
-    if (s.lists.ended_unwritten > lines_.told_unwritten)
+    lines_.reported_flags = s.marking_info;
+    if (s.lists.ended_unwritten > lines_.reported_unwritten)
         report(CardCondition::unwritten_place, s.lists.current, s.tick - 1);
-    lines_.told_unwritten = s.lists.ended_unwritten;
+    lines_.reported_unwritten = s.lists.ended_unwritten;
     const std::int64_t lost = s.startstop_info & startstop_bit("START_LOST");
-    if (lost != 0 && lines_.told_lost == 0) report(CardCondition::start_lost, 0, s.tick - 1);
-    lines_.told_lost = lost;
+    if (lost != 0 && lines_.reported_lost == 0) report(CardCondition::start_lost, 0, s.tick - 1);
+    lines_.reported_lost = lost;
 }
 
 void Card::report(CardCondition code, std::int64_t a, std::int64_t tick) {

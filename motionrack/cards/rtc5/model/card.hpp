@@ -51,7 +51,7 @@ class Card final : public sim::DeferringDevice, private Sink {
         std::int64_t change_count = 0;
         std::array<std::int64_t, 2 * half_us_per_tick>
             changes{};  ///< ticks of the kernel; levels alternate from !laser
-        std::int64_t laser = 0, told_unwritten = 0, told_flags = 0, told_lost = 0;
+        std::int64_t laser = 0, reported_unwritten = 0, reported_flags = 0, reported_lost = 0;
     };
 
     void samples(const Samples& block) override {

@@ -294,7 +294,7 @@ class Engine {
     void take_move_starts();
     void enqueue(std::int32_t delay, int encoder);
     void begin_start();
-    void tell_start(StartFate fate);
+    void report_start(StartFate fate);
     std::int64_t ticks_to_start(std::int64_t limit);
 
     // lists.cpp

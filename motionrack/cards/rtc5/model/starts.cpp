@@ -33,7 +33,7 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
     if (delay == 0) return begin_start();
     if (s.waiting == start_queue) {
         state_.startstop_info |= startstop_bit("START_LOST");
-        return tell_start(StartFate::too_many);
+        return report_start(StartFate::too_many);
     }
     std::int64_t from = state_.encoders[static_cast<std::size_t>(encoder)].travel;
     if (state_.control_mode & control_equidistant) {
@@ -54,7 +54,7 @@ void Engine::begin_start() {
     if (l.running || l.moving_alone) {
         raise(marking_bit("TRIGGER_ERROR"), state_.tick);
         state_.startstop_info |= startstop_bit("START_LOST");
-        return tell_start(StartFate::busy);
+        return report_start(StartFate::busy);
     }
     for (BeltCounter& e : state_.encoders) {
         if (e.reset_at_start) e.zero = e.travel;
@@ -64,10 +64,10 @@ void Engine::begin_start() {
     l.depth = 0;
     l.next = l.current = s.position;
     state_.startstop_info |= startstop_bit("EXTERNAL_START");
-    tell_start(StartFate::begun);
+    report_start(StartFate::begun);
 }
 
-void Engine::tell_start(StartFate fate) {
+void Engine::report_start(StartFate fate) {
     if (listener_ != nullptr) listener_->started(state_.tick, fate);
 }
 

@@ -226,9 +226,9 @@ TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
         std::vector<std::pair<std::int64_t, int>> all;  // 0 to 2: StartFate, 3: end
         void started(std::int64_t tick, StartFate fate) override { all.emplace_back(tick, static_cast<int>(fate)); }
         void ended(std::int64_t tick) override { all.emplace_back(tick, 3); }
-    } told;
+    } reported;
     Rig rig;
-    rig.card.set_listener(&told);
+    rig.card.set_listener(&reported);
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.card.set_control_mode(control_ext_start);
     ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
@@ -242,7 +242,7 @@ TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
     rig.card.run_to_rest(1000);
     const std::vector<std::pair<std::int64_t, int>> expected = {
         {60, 2}, {100, 0}, {110, 1}, {120, 3}, {160, 0}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {180, 3}};
-    EXPECT_EQ(told.all, expected);
+    EXPECT_EQ(reported.all, expected);
 }
 
 TEST(Rtc5Starts, EquidistantPartsCountFromTheStartBefore) {

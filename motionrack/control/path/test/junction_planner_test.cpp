@@ -12,23 +12,23 @@ namespace {
 
 struct ChoiceRow {
     std::vector<LegLimits> legs;
-    std::vector<Junction> joints;  ///< one more than legs, starting with the beginning of the sequence
+    std::vector<Junction> junctions;  ///< one more than legs, starting with the beginning of the sequence
 };
 
 ChoiceRow random_row(unsigned seed, std::size_t legs) {
     std::mt19937 random(seed);
     const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
     ChoiceRow out;
-    out.joints.push_back({});
+    out.junctions.push_back({});
     for (std::size_t i = 0; i < legs; ++i) {
         out.legs.push_back({between(0.01, 3), between(5, 100), between(500, 3000), between(1e4, 1e5)});
-        Junction joint;
-        joint.can_pass = i + 1 < legs;
-        joint.can_stop = !joint.can_pass || random() % 4 > 0;
-        joint.velocity = between(0.1, 30);
-        joint.half_blend_length = between(0, 0.3);
-        joint.gain = between(0, 0.01);
-        out.joints.push_back(joint);
+        Junction junction;
+        junction.can_pass = i + 1 < legs;
+        junction.can_stop = !junction.can_pass || random() % 4 > 0;
+        junction.velocity = between(0.1, 30);
+        junction.half_blend_length = between(0, 0.3);
+        junction.gain = between(0, 0.01);
+        out.junctions.push_back(junction);
     }
     return out;
 }
@@ -38,9 +38,9 @@ double seconds_of_row(const ChoiceRow& row, unsigned stops) {
     double seconds = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
         const bool begin = i == 0 || (stops >> (i - 1) & 1) != 0, end = (stops >> i & 1) != 0;
-        if (!(end ? row.joints[i + 1].can_stop : row.joints[i + 1].can_pass))
+        if (!(end ? row.junctions[i + 1].can_stop : row.junctions[i + 1].can_pass))
             return std::numeric_limits<double>::infinity();
-        seconds += leg_duration_s(row.legs[i], row.joints[i], begin, row.joints[i + 1], end);
+        seconds += leg_duration_s(row.legs[i], row.junctions[i], begin, row.junctions[i + 1], end);
     }
     return seconds;
 }
@@ -50,7 +50,7 @@ unsigned chosen(const ChoiceRow& row) {
     choice.begin();
     unsigned stops = 0, taken = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {
-        choice.add(row.legs[i], row.joints[i + 1]);
+        choice.add(row.legs[i], row.junctions[i + 1]);
         while (choice.decided() > 0) stops |= static_cast<unsigned>(choice.take()) << taken++;
         EXPECT_LE(i + 1 - taken, JunctionPlanner::max_junctions);
     }

@@ -58,15 +58,15 @@ std::vector<Move> at_feed(std::vector<Move> moves, double feed) {
 }
 
 struct Seconds {
-    double ride = 0, bound = 0, referee = 0;
+    double offline_trajectory = 0, bound = 0, referee = 0;
 };
 
 Seconds seconds_of(const std::vector<Move>& moves, const MachineLimits& limits, int of_piece = 20) {
     Seconds out;
-    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, limits)) {
-        out.ride += kept.section.seconds;
+    for (const trajectory_test::KeptStretch& kept : trajectory_test::kept_trajectory(moves, limits)) {
+        out.offline_trajectory += kept.section.seconds;
         out.bound += min_duration_s(kept.curve, limits);
-        out.referee += ride_test::time_optimal_s(kept.curve, limits, of_piece);
+        out.referee += trajectory_test::time_optimal_s(kept.curve, limits, of_piece);
     }
     return out;
 }
@@ -143,12 +143,14 @@ TEST(OfflineTrajectory, IsNeverQuickerThanWithAnyJerk) {
         for (const double chord : {0.1, 0.25, 1.0})
             for (const auto& shape : {circle(chord), sine(chord), spiral(chord)}) {
                 const Seconds found = seconds_of(shape, with_jerk(jerk));
-                EXPECT_GE(found.ride, found.referee * (1 - 1e-3)) << jerk << " " << chord;
+                EXPECT_GE(found.offline_trajectory, found.referee * (1 - 1e-3)) << jerk << " " << chord;
             }
     const std::uint64_t count = trials("MOTIONRACK_PROGRAMS", 6, 40);
     for (std::uint64_t seed = 1; seed <= count; ++seed)
-        for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
-            EXPECT_GE(kept.section.seconds, ride_test::time_optimal_s(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
+        for (const trajectory_test::KeptStretch& kept :
+             trajectory_test::kept_trajectory(ProgramMaker(seed).program(4), machine()))
+            EXPECT_GE(kept.section.seconds, trajectory_test::time_optimal_s(kept.curve, machine(), 60) * (1 - 1e-3))
+                << seed;
 }
 
 struct Nearness {
@@ -170,8 +172,8 @@ TEST(OfflineTrajectory, IsNearTheQuickestOnSmoothShapes) {
     const MachineLimits limits = with_jerk(1e8);
     for (const Nearness& shape : shapes) {
         const Seconds fed = seconds_of(shape.moves, limits), free = seconds_of(at_feed(shape.moves, 1000), limits);
-        EXPECT_LE(fed.ride, shape.at_feed * fed.referee) << shape.name;
-        EXPECT_LE(free.ride, shape.as_fast_as_can_be * free.referee) << shape.name;
+        EXPECT_LE(fed.offline_trajectory, shape.at_feed * fed.referee) << shape.name;
+        EXPECT_LE(free.offline_trajectory, shape.as_fast_as_can_be * free.referee) << shape.name;
     }
 }
 

@@ -54,17 +54,17 @@ class RowOfCorners : public testing::TestWithParam<Row> {};
 TEST_P(RowOfCorners, KeepsEverythingAtEveryInstant) {
     for (const double jerk : jerks)
         for (const double tolerance : tolerances) {
-            const ride_test::WildProgram program{machine(jerk), {}, moves_of(GetParam(), tolerance)};
-            const ride_test::Fault fault = ride_test::fault_of(program);
+            const trajectory_test::WildProgram program{machine(jerk), {}, moves_of(GetParam(), tolerance)};
+            const trajectory_test::Fault fault = trajectory_test::fault_of(program);
             EXPECT_EQ(fault.name, "") << fault.text << ", jerk " << jerk << ", tolerance " << tolerance;
         }
 }
 
 TEST_P(RowOfCorners, IsNoSlowerWithMoreTolerance) {
     for (const double jerk : jerks) {
-        double before = ride_test::seconds_stopping(moves_of(GetParam(), 0), machine(jerk));
+        double before = trajectory_test::seconds_stopping(moves_of(GetParam(), 0), machine(jerk));
         for (const double tolerance : tolerances) {
-            const double seconds = ride_test::seconds_of_ride(moves_of(GetParam(), tolerance), machine(jerk));
+            const double seconds = trajectory_test::trajectory_seconds(moves_of(GetParam(), tolerance), machine(jerk));
             EXPECT_LE(seconds, 1.01 * before) << "jerk " << jerk << ", tolerance " << tolerance;
             before = std::min(before, seconds);
         }
@@ -75,7 +75,7 @@ TEST_P(RowOfCorners, IsNoSlowerWithMoreJerk) {
     for (const double tolerance : tolerances) {
         double before = std::numeric_limits<double>::infinity();
         for (const double jerk : jerks) {
-            const double seconds = ride_test::seconds_of_ride(moves_of(GetParam(), tolerance), machine(jerk));
+            const double seconds = trajectory_test::trajectory_seconds(moves_of(GetParam(), tolerance), machine(jerk));
             EXPECT_LE(seconds, 1.01 * before) << "jerk " << jerk << ", tolerance " << tolerance;
             before = std::min(before, seconds);
         }
@@ -89,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Rows, RowOfCorners, testing::ValuesIn(rows), [](const a
 });
 
 double gain_of(const Row& row, double tolerance, double jerk) {
-    return 1 - ride_test::seconds_of_ride(moves_of(row, tolerance), machine(jerk)) /
-                   ride_test::seconds_stopping(moves_of(row, 0), machine(jerk));
+    return 1 - trajectory_test::trajectory_seconds(moves_of(row, tolerance), machine(jerk)) /
+                   trajectory_test::seconds_stopping(moves_of(row, 0), machine(jerk));
 }
 
 TEST(Corner, GainsMuchWhereAxesTakeTurnsAndAlsoWhereOneKeepsMoving) {

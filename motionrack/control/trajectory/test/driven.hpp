@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace motionrack::control::ride_test {
+namespace motionrack::control::trajectory_test {
 
 using curve_test::arc_from;
 using curve_test::line_to;
@@ -131,4 +131,4 @@ inline Move long_line(double feed) {
     return move;
 }
 
-}  // namespace motionrack::control::ride_test
+}  // namespace motionrack::control::trajectory_test

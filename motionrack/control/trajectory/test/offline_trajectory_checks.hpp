@@ -14,16 +14,16 @@
 #include <motionrack/control/trajectory/test/wild_programs.hpp>
 #include <string>
 
-namespace motionrack::control::ride_test {
+namespace motionrack::control::trajectory_test {
 
 /// Violated property and its excess; no name: none.
 struct Fault {
     std::string name, text;
 };
 
-class RideChecks {
+class TrajectoryChecks {
   public:
-    explicit RideChecks(const WildProgram& program) : program_(program), limits_(program.limits) {
+    explicit TrajectoryChecks(const WildProgram& program) : program_(program), limits_(program.limits) {
         Point at = program.start;
         for (const Move& move : program.moves) {
             paths_.push_back(geometry_of(move, at));
@@ -36,16 +36,18 @@ class RideChecks {
 
     /// Returns the first violation.
     Fault find() {
-        const std::vector<KeptStretch> ride = kept_ride(program_.moves, limits_, program_.start);
+        const std::vector<KeptStretch> offline_trajectory = kept_trajectory(program_.moves, limits_, program_.start);
         last_ = {};
         last_.place = program_.start;
-        for (std::size_t i = 0; i < ride.size() && fault_.name.empty(); ++i) {
-            if (ride[i].curve.empty()) continue;
+        for (std::size_t i = 0; i < offline_trajectory.size() && fault_.name.empty(); ++i) {
+            if (offline_trajectory[i].curve.empty()) continue;
             std::size_t next = i + 1;
-            while (next < ride.size() && ride[next].curve.empty() && ride[next].section.rest_seconds == 0) ++next;
+            while (next < offline_trajectory.size() && offline_trajectory[next].curve.empty() &&
+                   offline_trajectory[next].section.rest_seconds == 0)
+                ++next;
             // The remaining part is sampled together with the next section.
-            const double overlap = next < ride.size() ? ride[next].section.overlap : 0;
-            check(ride[i], ride[i].section.seconds - overlap, overlap == 0);
+            const double overlap = next < offline_trajectory.size() ? offline_trajectory[next].section.overlap : 0;
+            check(offline_trajectory[i], offline_trajectory[i].section.seconds - overlap, overlap == 0);
         }
         if (fault_.name.empty() && !program_.moves.empty()) check_end();
         return fault_;
@@ -211,15 +213,15 @@ class RideChecks {
 };
 
 inline Fault fault_of(const WildProgram& program) {
-    return RideChecks(program).find();
+    return TrajectoryChecks(program).find();
 }
 
 /// Removes everything that the fault does not need. Skipped moves shift the following ones.
 inline WildProgram reduced(WildProgram program) {
     const std::string name = fault_of(program).name;
-    bool news = true;
-    while (news) {
-        news = false;
+    bool changed = true;
+    while (changed) {
+        changed = false;
         for (std::size_t i = program.moves.size(); i-- > 0;) {
             WildProgram fewer = program;
             fewer.moves.erase(fewer.moves.begin() + static_cast<std::ptrdiff_t>(i));
@@ -227,7 +229,7 @@ inline WildProgram reduced(WildProgram program) {
             for (std::size_t k = 0; k < fewer.moves.size(); ++k) fewer.moves[k].line = static_cast<std::int32_t>(k + 1);
             if (fewer.moves.empty() || fault_of(fewer).name != name) continue;
             program = fewer;
-            news = true;
+            changed = true;
         }
     }
     return program;
@@ -254,4 +256,4 @@ inline std::string text_of(const WildProgram& program) {
     return out;
 }
 
-}  // namespace motionrack::control::ride_test
+}  // namespace motionrack::control::trajectory_test

@@ -7,7 +7,7 @@
 #include <motionrack/control/trajectory/offline_trajectory.hpp>
 #include <vector>
 
-namespace motionrack::control::ride_test {
+namespace motionrack::control::trajectory_test {
 
 /// A section with a copy of its segments.
 struct KeptStretch {
@@ -30,18 +30,18 @@ struct KeptStretch {
     }
 };
 
-inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const MachineLimits& limits,
-                                          const Point& start = {}) {
+inline std::vector<KeptStretch> kept_trajectory(const std::vector<Move>& moves, const MachineLimits& limits,
+                                                const Point& start = {}) {
     std::vector<KeptStretch> out;
-    OfflineTrajectory ride(limits, start, [&](const PathSection& section) { out.emplace_back(section); });
-    for (const Move& move : moves) ride.push(move);
-    ride.flush();
+    OfflineTrajectory offline_trajectory(limits, start, [&](const PathSection& section) { out.emplace_back(section); });
+    for (const Move& move : moves) offline_trajectory.push(move);
+    offline_trajectory.flush();
     return out;
 }
 
-inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimits& limits) {
+inline double trajectory_seconds(const std::vector<Move>& moves, const MachineLimits& limits) {
     double seconds = 0;
-    for (const KeptStretch& kept : kept_ride(moves, limits))
+    for (const KeptStretch& kept : kept_trajectory(moves, limits))
         seconds += kept.section.seconds - kept.section.overlap + kept.section.rest_seconds;
     return seconds;
 }
@@ -61,4 +61,4 @@ inline double seconds_stopping(std::vector<Move> moves, const MachineLimits& lim
     return sum.seconds;
 }
 
-}  // namespace motionrack::control::ride_test
+}  // namespace motionrack::control::trajectory_test

@@ -25,10 +25,10 @@ struct Ridden {
     std::vector<TrajectoryPoint> states;
 };
 
-Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
+Ridden offline_trajectory(const std::vector<Move>& moves, double step = 0.0005) {
     Ridden out;
     const MachineLimits limits = machine();
-    OfflineTrajectory ride(limits, {}, [&](const PathSection& section) {
+    OfflineTrajectory offline_trajectory(limits, {}, [&](const PathSection& section) {
         out.seconds += section.seconds - section.overlap + section.rest_seconds;
         out.rests += !section.curve.empty();
         out.end = section.end;
@@ -45,8 +45,8 @@ Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
             out.states.push_back(state);
         }
     });
-    for (const Move& move : moves) ride.push(move);
-    ride.flush();
+    for (const Move& move : moves) offline_trajectory.push(move);
+    offline_trajectory.flush();
     return out;
 }
 
@@ -58,7 +58,7 @@ std::vector<Move> square_wave(int legs, double length, double tolerance_mm) {
 
 TEST(OfflineTrajectory, KeepsEveryAxisWithinItsLimitsAtEveryInstant) {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
-        const Ridden ridden = ride(curve_test::ProgramMaker(seed).program(4));
+        const Ridden ridden = offline_trajectory(curve_test::ProgramMaker(seed).program(4));
         ASSERT_LE(ridden.velocity, 1 + 1e-6) << seed;
         ASSERT_LE(ridden.accel, 1 + 1e-6) << seed;
         ASSERT_LE(ridden.jerk, 1 + 1e-6) << seed;
@@ -69,7 +69,7 @@ TEST(OfflineTrajectory, HasNoStepsInPositionOrVelocity) {
     std::vector<Move> moves = square_wave(6, 10, 0.05);
     const Move arc = arc_from(moves.back().end, 0, 8, 4);
     moves.push_back(arc);
-    const Ridden ridden = ride(moves, 1e-5);
+    const Ridden ridden = offline_trajectory(moves, 1e-5);
     for (std::size_t i = 1; i < ridden.states.size(); ++i) {
         const TrajectoryPoint &a = ridden.states[i - 1], &b = ridden.states[i];
         if (b.u < a.u) continue;  // the next section, which starts before this one ends
@@ -81,17 +81,17 @@ TEST(OfflineTrajectory, HasNoStepsInPositionOrVelocity) {
 }
 
 TEST(OfflineTrajectory, OfAStraightLineIsAnSCurve) {
-    const Ridden ridden = ride({line_to({100, 0})});
+    const Ridden ridden = offline_trajectory({line_to({100, 0})});
     EXPECT_NEAR(ridden.seconds, 1 + 100.0 / 2000 + 2000.0 / 40'000,
                 1e-9);  // distance / velocity + velocity / acceleration + acceleration / jerk
     EXPECT_EQ(ridden.end[0], 100);
 }
 
 TEST(OfflineTrajectory, GainsWhatTheToleranceOfACornerAllows) {
-    const double stopping = ride_test::seconds_stopping(square_wave(40, 20, 0), machine());
+    const double stopping = trajectory_test::seconds_stopping(square_wave(40, 20, 0), machine());
     double last = stopping * 1.015;
     for (const double tolerance : {0.001, 0.01, 0.1}) {
-        const double seconds = ride(square_wave(40, 20, tolerance)).seconds;
+        const double seconds = offline_trajectory(square_wave(40, 20, tolerance)).seconds;
         EXPECT_LT(seconds, last) << tolerance;
         last = seconds - 0.1;
     }
@@ -103,7 +103,7 @@ TEST(OfflineTrajectory, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
         const std::vector<Move> moves = square_wave(8, 10, tolerance);
         const std::vector<Geometry> paths = curve_test::paths_of(moves);
         double farthest = 0;
-        for (const TrajectoryPoint& state : ride(moves).states) {
+        for (const TrajectoryPoint& state : offline_trajectory(moves).states) {
             double nearest = 1e9;
             for (const Geometry& path : paths)
                 nearest = std::min(nearest, distance_to(path, state.place[0], state.place[1], state.place[2]));
@@ -119,13 +119,13 @@ TEST(OfflineTrajectory, OfAZigzagIsHardlySlowerThanWithExactStops) {
         for (const double length : {0.5, 5.0, 50.0}) {
             std::vector<Move> moves;
             for (int i = 1; i <= 30; ++i) moves.push_back(line_to({i * length, i % 2 * length}, tolerance));
-            EXPECT_LE(ride(moves).seconds, 1.03 * ride_test::seconds_stopping(moves, machine()))
+            EXPECT_LE(offline_trajectory(moves).seconds, 1.03 * trajectory_test::seconds_stopping(moves, machine()))
                 << tolerance << " " << length;
         }
 }
 
 TEST(OfflineTrajectory, TakesACircleAtTheVelocityOfItsCurvature) {
-    const Ridden ridden = ride({arc_from({}, 0, 5, 12 * pi)});
+    const Ridden ridden = offline_trajectory({arc_from({}, 0, 5, 12 * pi)});
     double peak_velocity = 0;
     for (const TrajectoryPoint& state : ridden.states)
         peak_velocity = std::max(
@@ -137,7 +137,7 @@ TEST(OfflineTrajectory, TakesACircleAtTheVelocityOfItsCurvature) {
 TEST(OfflineTrajectory, DoesNotStopAtTangentJunctions) {
     std::vector<Move> moves = {line_to({50, 0}), arc_from({50, 0}, 0, 10, pi), line_to({0, 20})};
     for (Move& move : moves) move.path = PathControl::exact_path;
-    EXPECT_EQ(ride(moves).rests, 1);
+    EXPECT_EQ(offline_trajectory(moves).rests, 1);
 }
 
 /// Chords on a smooth curve take at most the time of its curvature and feed rate, plus one double-S profile.
@@ -156,7 +156,7 @@ TEST(OfflineTrajectory, RunsThroughManyChordsAsThroughTheCurve) {
         at = move.end;
         moves.push_back(move);
     }
-    EXPECT_LE(ride(moves).seconds, 1.12 * min_seconds + 0.1);
+    EXPECT_LE(offline_trajectory(moves).seconds, 1.12 * min_seconds + 0.1);
 }
 
 TEST(OfflineTrajectory, RestsForDwells) {
@@ -164,8 +164,8 @@ TEST(OfflineTrajectory, RestsForDwells) {
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;
     dwell.end = {10, 0};
-    const double without = ride({line_to({10, 0}), line_to({10, 10}, 0)}).seconds;
-    const Ridden ridden = ride({line_to({10, 0}), dwell, line_to({10, 10}, 0)});
+    const double without = offline_trajectory({line_to({10, 0}), line_to({10, 10}, 0)}).seconds;
+    const Ridden ridden = offline_trajectory({line_to({10, 0}), dwell, line_to({10, 10}, 0)});
     EXPECT_GE(ridden.seconds, without + 0.25 - 1e-3);
 }
 

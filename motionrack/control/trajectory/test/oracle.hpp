@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace motionrack::control::ride_test {
+namespace motionrack::control::trajectory_test {
 
 /// Step of the curve with the demands on each axis.
 struct OracleStep {
@@ -122,4 +122,4 @@ inline double time_optimal_s(std::span<const CubicSegment> curve, const MachineL
     return Oracle(curve, limits, of_piece, of_curve).seconds();
 }
 
-}  // namespace motionrack::control::ride_test
+}  // namespace motionrack::control::trajectory_test

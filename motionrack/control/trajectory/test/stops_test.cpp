@@ -14,7 +14,7 @@ using curve_test::line_to;
 using curve_test::machine;
 
 double times_stopping(const std::vector<Move>& moves) {
-    return ride_test::seconds_of_ride(moves, machine()) / ride_test::seconds_stopping(moves, machine());
+    return trajectory_test::trajectory_seconds(moves, machine()) / trajectory_test::seconds_stopping(moves, machine());
 }
 
 TEST(OfflineTrajectoryBesideExactStops, IsSeldomSlower) {
@@ -54,7 +54,7 @@ TEST(OfflineTrajectoryBesideExactStops, TakesTheProgrammedTimeInInverseTime) {
         moves.back().feed = length < 0.02 ? 2 : 3;
         programmed += 1 / moves.back().feed;
     }
-    const double seconds = ride_test::seconds_of_ride(moves, machine());
+    const double seconds = trajectory_test::trajectory_seconds(moves, machine());
     EXPECT_GE(seconds, programmed);
     EXPECT_LE(seconds, 1.02 * programmed);
 }

@@ -11,14 +11,14 @@
 namespace motionrack::control {
 namespace {
 
-using ride_test::arc_from;
-using ride_test::Driven;
-using ride_test::expect_end;
-using ride_test::expect_limits;
-using ride_test::line_to;
-using ride_test::long_line;
-using ride_test::machine;
-using ride_test::program;
+using trajectory_test::arc_from;
+using trajectory_test::Driven;
+using trajectory_test::expect_end;
+using trajectory_test::expect_limits;
+using trajectory_test::line_to;
+using trajectory_test::long_line;
+using trajectory_test::machine;
+using trajectory_test::program;
 
 /// Any path to the stop: corners, curves, the end of the known path. If a leg has started before the previous one has
 /// ended, both are executed as planned until that one ends.
@@ -26,7 +26,7 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDecelerate
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
         const std::vector<Move> moves = program(random);
-        const double whole = ride_test::seconds_of_ride(moves, machine());
+        const double whole = trajectory_test::trajectory_seconds(moves, machine());
         for (int holds = 0; holds < 10; ++holds) {
             const double when = whole * std::uniform_real_distribution<>(0, 1)(random);
             SCOPED_TRACE(::testing::Message() << "seed " << seed << ", held at " << when << " s");

@@ -11,13 +11,13 @@
 namespace motionrack::control {
 namespace {
 
-using ride_test::Driven;
-using ride_test::expect_end;
-using ride_test::expect_limits;
-using ride_test::line_to;
-using ride_test::long_line;
-using ride_test::machine;
-using ride_test::program;
+using trajectory_test::Driven;
+using trajectory_test::expect_end;
+using trajectory_test::expect_limits;
+using trajectory_test::line_to;
+using trajectory_test::long_line;
+using trajectory_test::machine;
+using trajectory_test::program;
 
 TEST(TrajectoryGeneratorLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
     for (unsigned seed = 0; seed < 40; ++seed) {
@@ -30,7 +30,8 @@ TEST(TrajectoryGeneratorLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItK
         }
         expect_limits(driven);
         expect_end(driven, moves.back().end);
-        EXPECT_NEAR(driven.now, ride_test::seconds_of_ride(moves, machine()), (knows_all ? 1e-3 : 0.1) * driven.now);
+        EXPECT_NEAR(driven.now, trajectory_test::trajectory_seconds(moves, machine()),
+                    (knows_all ? 1e-3 : 0.1) * driven.now);
     }
 }
 

@@ -142,13 +142,13 @@ TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterAC
 TEST(TrajectoryInterpolator, TakesAsLongAsTheTrajectoryGenerator) {
     double seconds = 0;
     for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
-    double ride = 0;
+    double offline_trajectory = 0;
     TrajectoryGenerator generator(machine(), {});
     const auto drive = [&] {
         while (generator.next(false) == NextMotion::motion) {
             const double pass = std::min(0.01, generator.left());
             generator.advance(pass);
-            ride += pass;
+            offline_trajectory += pass;
         }
     };
     for (const Move& move : curvy()) {
@@ -157,7 +157,7 @@ TEST(TrajectoryInterpolator, TakesAsLongAsTheTrajectoryGenerator) {
     }
     generator.flush();
     drive();
-    EXPECT_NEAR(seconds, ride, 0.01 * ride);
+    EXPECT_NEAR(seconds, offline_trajectory, 0.01 * offline_trajectory);
 }
 
 TEST(TrajectoryInterpolator, KeepsDwellsWholeOrCutsThem) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace motionrack::control::ride_test {
+namespace motionrack::control::trajectory_test {
 
 struct WildProgram {
     MachineLimits limits;
@@ -172,4 +172,4 @@ class WildMaker {
     double heading_ = 0, climb_ = 0, turn_ = 0, size_ = 1;
 };
 
-}  // namespace motionrack::control::ride_test
+}  // namespace motionrack::control::trajectory_test

@@ -9,22 +9,22 @@ namespace {
 
 TEST(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     for (std::uint64_t seed = 100'001; seed <= 100'060; ++seed) {
-        const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
-        const ride_test::Fault fault = ride_test::fault_of(program);
+        const trajectory_test::WildProgram program = trajectory_test::WildMaker(seed).program();
+        const trajectory_test::Fault fault = trajectory_test::fault_of(program);
         ASSERT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n"
-                                  << ride_test::text_of(ride_test::reduced(program));
+                                  << trajectory_test::text_of(trajectory_test::reduced(program));
     }
 }
 
 /// After a bend at which an axis needs all of its acceleration, a move of 6 nm that takes 23 s.
 TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAMoveBarelyMoves) {
-    const ride_test::Fault fault = ride_test::fault_of(ride_test::WildMaker(661189243).program());
+    const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(661189243).program());
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
 /// Between the blends of moves of nanometres, 1e-15 mm of the curve are left over.
 TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAlmostNothingIsLeftOfAMove) {
-    const ride_test::Fault fault = ride_test::fault_of(ride_test::WildMaker(58884117).program());
+    const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(58884117).program());
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
@@ -32,7 +32,7 @@ TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAlmostNothingIs
 /// although X moves a little.
 TEST(OfflineTrajectoryOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
     for (const bool moves_before : {false, true}) {
-        ride_test::WildProgram program;
+        trajectory_test::WildProgram program;
         for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
         Move move;
         move.kind = MoveKind::feed;
@@ -48,14 +48,14 @@ TEST(OfflineTrajectoryOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPu
         go(0, move.end[0] + 1e-5);
         go(3, 0.02);
         go(1, 5);
-        EXPECT_EQ(ride_test::fault_of(program).text, "");
+        EXPECT_EQ(trajectory_test::fault_of(program).text, "");
     }
 }
 
 /// The arc is shorter than the move before it, which is far below a pulse and leads beyond the end of the arc: together
 /// they are nearly nothing, and no full circle.
 TEST(OfflineTrajectoryOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelowAPulseBeforeIt) {
-    ride_test::WildProgram program;
+    trajectory_test::WildProgram program;
     for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
     program.start = {0, -5, 0, 0, 0, 0};
     Move to_the_arc;
@@ -75,7 +75,8 @@ TEST(OfflineTrajectoryOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelow
     arc.line = 3;
     program.moves = {to_the_arc, back, arc};
     double length = 0;
-    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(program.moves, program.limits, program.start))
+    for (const trajectory_test::KeptStretch& kept :
+         trajectory_test::kept_trajectory(program.moves, program.limits, program.start))
         for (const CubicSegment& piece : kept.curve) length += piece.length;
     EXPECT_NEAR(length, 5, 0.02);
 }
@@ -83,10 +84,11 @@ TEST(OfflineTrajectoryOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelow
 /// A step of the reference may be longer than a whole ramp; then it is too slow by this step at each end.
 TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanWithAnyJerk) {
     for (std::uint64_t seed = 100'001; seed <= 100'020; ++seed) {
-        const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
-        for (const ride_test::KeptStretch& kept : ride_test::kept_ride(program.moves, program.limits, program.start)) {
+        const trajectory_test::WildProgram program = trajectory_test::WildMaker(seed).program();
+        for (const trajectory_test::KeptStretch& kept :
+             trajectory_test::kept_trajectory(program.moves, program.limits, program.start)) {
             if (kept.curve.empty()) continue;
-            EXPECT_GE(kept.section.seconds, ride_test::time_optimal_s(kept.curve, program.limits) * (1 - 2e-3))
+            EXPECT_GE(kept.section.seconds, trajectory_test::time_optimal_s(kept.curve, program.limits) * (1 - 2e-3))
                 << seed << " line " << kept.section.line;
         }
     }

@@ -30,32 +30,32 @@ struct Heard {
 };
 
 /// Records the reported conditions with their simulated time.
-struct Ear {
+struct RecordingListener {
     mr_rack* rack = nullptr;
     std::vector<Heard> heard;
     std::vector<std::uint64_t> now_ns;
-    void (*also)(Ear& ear) = nullptr;
+    void (*also)(RecordingListener& listener) = nullptr;
     std::vector<std::pair<int, std::string>> answers;  ///< results of calls inside the callback
 
     static void call(void* user, std::uint64_t number, std::int64_t at, const char* card, int code,
                      const char* sentence) {
-        Ear& ear = *static_cast<Ear*>(user);
-        ear.heard.push_back({number, at, card, sentence, code});
-        ear.now_ns.push_back(mr_now_ns(ear.rack));
-        if (ear.also != nullptr) ear.also(ear);
+        RecordingListener& listener = *static_cast<RecordingListener*>(user);
+        listener.heard.push_back({number, at, card, sentence, code});
+        listener.now_ns.push_back(mr_now_ns(listener.rack));
+        if (listener.also != nullptr) listener.also(listener);
     }
     void note(int code) { answers.emplace_back(code, mr_last_error()); }
     void listen(World& world) {
         rack = world.rack;
-        EXPECT_EQ(mr_on_condition(rack, &Ear::call, this), MR_OK) << mr_last_error();
+        EXPECT_EQ(mr_on_condition(rack, &RecordingListener::call, this), MR_OK) << mr_last_error();
     }
 };
 
-std::vector<Heard> told(World& world, std::uint64_t since = 0) {
-    Ear ear;
-    ear.rack = world.rack;
-    EXPECT_EQ(mr_conditions(world, since, &Ear::call, &ear), MR_OK) << mr_last_error();
-    return ear.heard;
+std::vector<Heard> reported(World& world, std::uint64_t since = 0) {
+    RecordingListener listener;
+    listener.rack = world.rack;
+    EXPECT_EQ(mr_conditions(world, since, &RecordingListener::call, &listener), MR_OK) << mr_last_error();
+    return listener.heard;
 }
 
 /// Drives X continuously, at full velocity from the start.
@@ -80,16 +80,17 @@ void drive_and_stop(World& world, std::uint64_t step) {
 TEST(CConditions, EachIsReportedOnceInOrderAtItsInstantHoweverTimeIsCut) {
     World quiet(weak_axis);
     drive_and_stop(quiet, 600'000);
-    const std::vector<Heard> all = told(quiet);
+    const std::vector<Heard> all = reported(quiet);
     ASSERT_GE(all.size(), 2u);
     for (const std::uint64_t step : {600'000u, 40'000'000u, 120'000'000u}) {
         World world(weak_axis);
-        Ear ear;
-        ear.listen(world);
+        RecordingListener listener;
+        listener.listen(world);
         drive_and_stop(world, step);
-        EXPECT_EQ(ear.heard, all) << step;
-        for (std::size_t i = 0; i < ear.heard.size(); ++i)
-            EXPECT_EQ(ear.now_ns[i], static_cast<std::uint64_t>(ear.heard[i].at) / 10) << ear.heard[i].sentence;
+        EXPECT_EQ(listener.heard, all) << step;
+        for (std::size_t i = 0; i < listener.heard.size(); ++i)
+            EXPECT_EQ(listener.now_ns[i], static_cast<std::uint64_t>(listener.heard[i].at) / 10)
+                << listener.heard[i].sentence;
         EXPECT_EQ(world.hash(), quiet.hash()) << "who listens changes nothing";
     }
 }
@@ -97,36 +98,36 @@ TEST(CConditions, EachIsReportedOnceInOrderAtItsInstantHoweverTimeIsCut) {
 TEST(CConditions, ThoseBeforeItAreNotReportedAndThoseAfterItsRemovalNeither) {
     World world(weak_axis);
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
-    const std::size_t before = told(world).size();
+    const std::size_t before = reported(world).size();
     ASSERT_GE(before, 1u);
-    Ear ear;
-    ear.listen(world);
+    RecordingListener listener;
+    listener.listen(world);
     world.pass(1000);
-    EXPECT_TRUE(ear.heard.empty());
+    EXPECT_TRUE(listener.heard.empty());
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
-    ASSERT_EQ(ear.heard, told(world, before)) << "told before mr_fault returns";
-    EXPECT_FALSE(ear.heard.empty());
+    ASSERT_EQ(listener.heard, reported(world, before)) << "told before mr_fault returns";
+    EXPECT_FALSE(listener.heard.empty());
     EXPECT_EQ(mr_on_condition(world, nullptr, nullptr), MR_OK);
-    const std::size_t heard = ear.heard.size();
+    const std::size_t heard = listener.heard.size();
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
     world.pass(1000);
-    EXPECT_EQ(ear.heard.size(), heard);
+    EXPECT_EQ(listener.heard.size(), heard);
 }
 
 TEST(CConditions, ACopyHasNoCallBack) {
     World world(weak_axis);
-    Ear ear;
-    ear.listen(world);
+    RecordingListener listener;
+    listener.listen(world);
     World copy(world.rack);
     EXPECT_EQ(mr_fault(copy, "motor.lose_steps=64", "X"), MR_OK);
-    EXPECT_FALSE(told(copy).empty());
-    EXPECT_TRUE(ear.heard.empty());
+    EXPECT_FALSE(reported(copy).empty());
+    EXPECT_TRUE(listener.heard.empty());
 }
 
 TEST(CConditions, ACallBackActsAtTheInstantItself) {
     World world(weak_axis);
-    Ear ear;
-    ear.also = [](Ear& own) {
+    RecordingListener listener;
+    listener.also = [](RecordingListener& own) {
         double wire = -1, place = -1;
         std::uint64_t register_value = 0;
         own.note(mr_wire_get(own.rack, "c1.xlmtp", &wire));
@@ -135,19 +136,19 @@ TEST(CConditions, ACallBackActsAtTheInstantItself) {
         own.note(mr_wire_set(own.rack, "c1.xlmtp", 0));
         if (own.heard.size() == 1) own.note(mr_fault(own.rack, "motor.lose_steps=64", "X"));
     };
-    ear.listen(world);
+    listener.listen(world);
     drive(world);
     world.pass(1'000'000'000);
-    for (const auto& [code, sentence] : ear.answers) EXPECT_EQ(code, MR_OK) << sentence;
+    for (const auto& [code, sentence] : listener.answers) EXPECT_EQ(code, MR_OK) << sentence;
     EXPECT_EQ(world.peek("RR0") & 1, 0) << "the limit switch that it pressed has stopped the drive";
-    EXPECT_EQ(ear.heard, told(world)) << "what it did itself is told, too";
-    EXPECT_GE(ear.heard.size(), 2u);
+    EXPECT_EQ(listener.heard, reported(world)) << "what it did itself is told, too";
+    EXPECT_GE(listener.heard.size(), 2u);
 }
 
 TEST(CConditions, ACallBackThatLetsTimePassIsRefusedAndChangesNothing) {
     World world(weak_axis);
-    Ear ear;
-    ear.also = [](Ear& own) {
+    RecordingListener listener;
+    listener.also = [](RecordingListener& own) {
         std::uint16_t word = 0;
         mr_rack* copy = nullptr;
         const std::uint64_t before = mr_state_hash(own.rack);
@@ -162,10 +163,10 @@ TEST(CConditions, ACallBackThatLetsTimePassIsRefusedAndChangesNothing) {
         EXPECT_EQ(copy, nullptr);
         EXPECT_EQ(mr_state_hash(own.rack), before);
     };
-    ear.listen(world);
+    listener.listen(world);
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
-    ASSERT_FALSE(ear.answers.empty());
-    for (const auto& [code, sentence] : ear.answers) {
+    ASSERT_FALSE(listener.answers.empty());
+    for (const auto& [code, sentence] : listener.answers) {
         EXPECT_EQ(code, MR_REFUSED);
         EXPECT_THAT(sentence, HasSubstr("call-back"));
     }
@@ -174,12 +175,12 @@ TEST(CConditions, ACallBackThatLetsTimePassIsRefusedAndChangesNothing) {
 
 TEST(CConditions, ACallBackMayRemoveItself) {
     World world(weak_axis);
-    Ear ear;
-    ear.also = [](Ear& own) { own.note(mr_on_condition(own.rack, nullptr, nullptr)); };
-    ear.listen(world);
+    RecordingListener listener;
+    listener.also = [](RecordingListener& own) { own.note(mr_on_condition(own.rack, nullptr, nullptr)); };
+    listener.listen(world);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
-    EXPECT_EQ(ear.heard.size(), 1u);
-    EXPECT_EQ(mr_on_condition(nullptr, &Ear::call, &ear), MR_BAD_CALL);
+    EXPECT_EQ(listener.heard.size(), 1u);
+    EXPECT_EQ(mr_on_condition(nullptr, &RecordingListener::call, &listener), MR_BAD_CALL);
 }
 
 TEST(CConditions, ARecordingCanBeginWhenSomethingHappens) {

@@ -225,7 +225,7 @@ static uint8_t say_stop(host* h, const listing* l, const char* text, uint8_t sta
 }
 
 /* GOPOSIT; FNGoPosition, 1860. Unlike the programs, gives up if nothing happens for `patience_ns`. */
-static void go_position(host* h, const listing* l, unsigned target, uint64_t patience_ns) {
+static void go_position(host* h, const listing* l, unsigned target, uint64_t max_ready_wait_ns) {
     uint8_t event = 0;
     out_strobe(h, l, C2, 'P');
     out_strobe(h, l, DATA, 0);
@@ -238,7 +238,7 @@ static void go_position(host* h, const listing* l, unsigned target, uint64_t pat
         const uint64_t from = mr_now_ns(h->rack);
         uint8_t status;
         while ((in(h, STAT) & EVENT) == 0) {
-            if (mr_now_ns(h->rack) - from > patience_ns) {
+            if (mr_now_ns(h->rack) - from > max_ready_wait_ns) {
                 h->gave_up = 1;
                 return;
             }

@@ -77,19 +77,19 @@ INSTANTIATE_TEST_SUITE_P(Racks, CLists, testing::ValuesIn(racks()));
 TEST_P(CLists, HaveEveryQuantityThatTheRackHas) {
     World world(GetParam().c_str());
     const auto session = *rack::Session::open(GetParam());
-    std::set<std::string> known, told;
+    std::set<std::string> known, reported;
     for (const rack::QuantitiesOfPart& of : rack::quantities_of(session->rack()))
         for (const rack::Quantity& one : of.quantities) known.insert(of.part + "." + one.name);
     for (const auto& card : session->rack().cards())
         for (const std::string_view name : card->quantity_names()) known.insert(card->name() + "." + std::string(name));
     for (const Quantity& one : quantities(world)) {
-        EXPECT_TRUE(told.insert(one.name).second) << one.name << " is told twice";
+        EXPECT_TRUE(reported.insert(one.name).second) << one.name << " is told twice";
         EXPECT_FALSE(one.meaning.empty()) << one.name;
         const double value = world.part(one.name.c_str());
         EXPECT_GE(value, one.min) << one.name;
         EXPECT_LE(value, one.max) << one.name;
     }
-    EXPECT_EQ(told, known);
+    EXPECT_EQ(reported, known);
 }
 
 TEST_P(CLists, SayWhatCanBeSetAndHowFar) {
@@ -115,11 +115,11 @@ TEST_P(CLists, SayWhatCanBeSetAndHowFar) {
 TEST_P(CLists, HaveEveryFaultThatTheRackCanHaveWithItsRange) {
     World world(GetParam().c_str());
     const auto session = *rack::Session::open(GetParam());
-    std::set<std::pair<std::string, std::string>> known, told;
+    std::set<std::pair<std::string, std::string>> known, reported;
     for (const rack::FaultTarget& target : rack::fault_targets(session->rack()))
         for (const std::string_view name : target.faults) known.insert({target.name, std::string(name)});
     for (const Fault& one : faults(world)) {
-        EXPECT_TRUE(told.insert({one.target, one.name}).second) << one.name << " is told twice";
+        EXPECT_TRUE(reported.insert({one.target, one.name}).second) << one.name << " is told twice";
         EXPECT_FALSE(one.meaning.empty()) << one.name;
         const auto inject = [&](double value) {
             World copy(world.rack);
@@ -132,16 +132,16 @@ TEST_P(CLists, HaveEveryFaultThatTheRackCanHaveWithItsRange) {
         EXPECT_EQ(inject(one.max + beyond), MR_REFUSED) << one.target << " " << one.name;
         EXPECT_EQ(inject(one.min - beyond), MR_REFUSED) << one.target << " " << one.name;
     }
-    EXPECT_EQ(told, known);
+    EXPECT_EQ(reported, known);
 }
 
 TEST(CListsOfEverything, MeetEveryFaultThatAnAxisCanHave) {
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (const std::string& rack : racks()) {
         World world(rack.c_str());
-        for (const Fault& one : faults(world)) told.insert(one.name);
+        for (const Fault& one : faults(world)) reported.insert(one.name);
     }
-    for (const std::string_view name : rack::fault_names()) EXPECT_TRUE(told.count(std::string(name))) << name;
+    for (const std::string_view name : rack::fault_names()) EXPECT_TRUE(reported.count(std::string(name))) << name;
 }
 
 TEST(CListsOfEverything, NullPointersAreBadCalls) {

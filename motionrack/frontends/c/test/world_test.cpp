@@ -279,27 +279,27 @@ TEST(CWorld, TellsWhatHappenedWithItsInstant) {
         std::int64_t at;
         std::string card, sentence;
     };
-    std::vector<Told> told;
+    std::vector<Told> reported;
     const auto keep = [](void* user, uint64_t number, int64_t at, const char* card, int, const char* sentence) {
         static_cast<std::vector<Told>*>(user)->push_back({number, at, card, sentence});
     };
     World world("card.p1 = \"ioflex02\"");
     world.pass(10'000);
-    ASSERT_EQ(mr_conditions(world, 0, keep, &told), MR_OK) << mr_last_error();
-    EXPECT_TRUE(told.empty());
+    ASSERT_EQ(mr_conditions(world, 0, keep, &reported), MR_OK) << mr_last_error();
+    EXPECT_TRUE(reported.empty());
     world.set("p1.a2", 1);
     world.set("p1.b2", 1);
     world.pass(10'000);
-    ASSERT_EQ(mr_conditions(world, 0, keep, &told), MR_OK) << mr_last_error();
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].number, 1u);
-    EXPECT_NEAR(static_cast<double>(told[0].at), 10'000 * 10, 2'000) << "in 100 ps";
-    EXPECT_EQ(told[0].card, "p1");
-    EXPECT_THAT(told[0].sentence, HasSubstr("2"));
-    ASSERT_EQ(mr_conditions(world, 1, keep, &told), MR_OK);
-    EXPECT_EQ(told.size(), 1u) << "those after number 1";
+    ASSERT_EQ(mr_conditions(world, 0, keep, &reported), MR_OK) << mr_last_error();
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_EQ(reported[0].number, 1u);
+    EXPECT_NEAR(static_cast<double>(reported[0].at), 10'000 * 10, 2'000) << "in 100 ps";
+    EXPECT_EQ(reported[0].card, "p1");
+    EXPECT_THAT(reported[0].sentence, HasSubstr("2"));
+    ASSERT_EQ(mr_conditions(world, 1, keep, &reported), MR_OK);
+    EXPECT_EQ(reported.size(), 1u) << "those after number 1";
     EXPECT_EQ(mr_conditions(world, 0, nullptr, nullptr), MR_BAD_CALL);
-    EXPECT_EQ(mr_conditions(nullptr, 0, keep, &told), MR_BAD_CALL);
+    EXPECT_EQ(mr_conditions(nullptr, 0, keep, &reported), MR_BAD_CALL);
 }
 
 TEST(CWorld, HasAVersion) {

@@ -58,8 +58,8 @@ TEST(Mcx314libChips, TheFirstFunctionOpensTheRackOfTheEnvironment) {
     ::unsetenv("MOTIONRACK_RACK");
     EXPECT_EQ(mcx314_close(mcx314_open(nullptr, nullptr)), -1) << "its only card is open";
     EXPECT_THAT(mcx314_last_error(), HasSubstr("Unknown chip handle -1; the handles of the open chips are: "));
-    const std::string told = mcx314_last_error();
-    EXPECT_EQ(mcx314_close(std::stoi(told.substr(told.find("are: ") + 5))), 0);
+    const std::string reported = mcx314_last_error();
+    EXPECT_EQ(mcx314_close(std::stoi(reported.substr(reported.find("are: ") + 5))), 0);
 }
 
 TEST(Mcx314libChips, TwoChipsOfARackHaveOneTime) {

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 struct Refused {
     const char* function;
     void (*call)();
-    const char* told;
+    const char* reported;
 };
 
 const Refused refusals[] = {
@@ -200,7 +200,7 @@ TEST(Mcx314lib, WhatIsRefusedTellsTheRangeAndWritesNothing) {
         mcx314_clear_error();
         row.call();
         EXPECT_THAT(mcx314_last_error(), testing::StartsWith(std::string(row.function) + ": "));
-        EXPECT_THAT(mcx314_last_error(), HasSubstr(row.told)) << row.function;
+        EXPECT_THAT(mcx314_last_error(), HasSubstr(row.reported)) << row.function;
         EXPECT_THAT(mcx314_last_error(), testing::Not(testing::ContainsRegex("Cont[A-Z]|BP[23]D|BPS|BPE")))
             << "names of the C++ library";
         EXPECT_EQ(written(), before) << row.function;

@@ -194,7 +194,7 @@ TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
     client.hear(banner);
     EXPECT_EQ(client.ask("$32=1\n"), "ok\r\n");
     client.ask("$G\n");
-    EXPECT_THAT(told(), AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
+    EXPECT_THAT(reported(), AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
 }
 
 TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {

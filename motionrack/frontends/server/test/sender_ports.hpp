@@ -96,8 +96,8 @@ class SenderPorts : public testing::Test {
         settings_.port = 0;
         settings_.link = (folder_ / "grbl").string();
         settings_.on_setting = [this](const std::string& sender, const std::string& text) {
-            const std::lock_guard lock(told_mutex_);
-            told_ = sender + ": " + text;
+            const std::lock_guard lock(reported_mutex_);
+            reported_ = sender + ": " + text;
         };
         std::filesystem::create_directories(folder_);
     }
@@ -115,9 +115,9 @@ class SenderPorts : public testing::Test {
         thread_ = std::thread([this] { machine_->run(); });
     }
     /// Last setting changed by a sender; the ports report it on their own thread.
-    std::string told() {
-        const std::lock_guard lock(told_mutex_);
-        return told_;
+    std::string reported() {
+        const std::lock_guard lock(reported_mutex_);
+        return reported_;
     }
     operate::MachineState state() {
         std::promise<operate::MachineState> out;
@@ -135,8 +135,8 @@ class SenderPorts : public testing::Test {
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<GrblPorts> ports_;
     std::thread thread_;
-    std::mutex told_mutex_;
-    std::string told_;
+    std::mutex reported_mutex_;
+    std::string reported_;
 };
 
 }  // namespace motionrack::server

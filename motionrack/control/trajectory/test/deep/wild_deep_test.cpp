@@ -15,10 +15,10 @@ TEST_P(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     const std::uint64_t first = seed_from_environment() + GetParam() * count;
     int faults = 0;
     for (std::uint64_t seed = first; seed < first + count && faults < 5; ++seed) {
-        const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
-        const ride_test::Fault fault = ride_test::fault_of(program);
+        const trajectory_test::WildProgram program = trajectory_test::WildMaker(seed).program();
+        const trajectory_test::Fault fault = trajectory_test::fault_of(program);
         EXPECT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n"
-                                  << ride_test::text_of(ride_test::reduced(program));
+                                  << trajectory_test::text_of(trajectory_test::reduced(program));
         faults += !fault.name.empty();
     }
 }
