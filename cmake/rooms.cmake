@@ -159,7 +159,8 @@ list(TRANSFORM read_by_tests PREPEND ${PROJECT_SOURCE_DIR}/)
 # at once as NAME.1 .. NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them.
 # FAULTS and DEEP are filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the
 # label fault, those that take long as NAME.deep with the label deep. EVERY: tests that try some of many calls or
-# allocations that fail also run as NAME.PART.N with the labels deep and PART, where they try each of them. ALONE: each
+# allocations that fail also run as NAME.PART.N with the labels deep and PART, where they try each call, 40
+# of a served rack by the seed, and 400 allocations. ALONE: each
 # test is a process of its own, where a library has one state for the whole process. ALWAYS: its result depends on other
 # programs or libraries of the build, or on sources. Without it only its program and the tree's other files decide, so
 # that tests/unchanged knows whether it has to run again. tests/programs runs single tests by their names. COMPUTES: its
@@ -237,7 +238,7 @@ function(motionrack_test name)
       of_program(${test} "deep;${part};${T_LABELS}")
       set(environment "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${index};MOTIONRACK_CALLS=1000000000")
       set_tests_properties(${test} PROPERTIES TIMEOUT 3600
-                           ENVIRONMENT "${environment};MOTIONRACK_ALLOCATIONS=1000000000")
+                           ENVIRONMENT "${environment};MOTIONRACK_ALLOCATIONS=400;MOTIONRACK_SERVED_CALLS=40")
     endforeach()
   endwhile()
   if(elsewhere)

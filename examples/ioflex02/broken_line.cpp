@@ -15,17 +15,17 @@ motionrack::Result<void> broken_line() {
         bench.turn(0, 8'000);  // two turns a second
         EncoderCheck check({.counts_per_index = 4'000});
         fmt::print("{}:\n", fault.name);
-        int reported = 0;
-        for (int ms = 0; ms < 4'000 && reported == 0; ms += 20) {
+        int told = 0;
+        for (int ms = 0; ms < 4'000 && told == 0; ms += 20) {
             bench.run(milliseconds(20));
             if (ms == 1'400) bench.fault(0, fault.name, fault.value);
             const AxisDetail now = bench.flex().read_details()[0];
             for (const Finding& finding : check.look(now)) {
                 fmt::print("  {}\n", describe(finding, now, "spindle"));
-                ++reported;
+                ++told;
             }
         }
-        if (reported == 0) fmt::print("  nothing was found\n");
+        if (told == 0) fmt::print("  nothing was found\n");
     }
     return {};
 }

@@ -6,7 +6,7 @@ namespace howto {
 
 namespace {
 
-void report_positions(Flex2Pos& flex, const char* when) {
+void tell_positions(Flex2Pos& flex, const char* when) {
     const Reading at = flex.read();
     const auto statuses = flex.statuses();
     std::string line = fmt::format("{:<26}", when);
@@ -24,15 +24,15 @@ motionrack::Result<void> calibrate() {
     if (!flex.ok()) return fail(ErrorKind::machine, flex.why());
     for (int axis = 0; axis < 4; ++axis) bench.turn(axis, 1'000);  // an index every four seconds
     bench.run(whole_seconds(1));
-    report_positions(flex, "turning");
+    tell_positions(flex, "turning");
     flex.WriteCmd(cNop, cRes, cResNm, cResNmSig);
-    report_positions(flex, "the four commands");
+    tell_positions(flex, "the four commands");
     MOTIONRACK_CHECK(flex.wait_calibrated(2, whole_seconds(10)));
-    report_positions(flex, "the first index");
+    tell_positions(flex, "the first index");
     bench.run(milliseconds(500));
     bench.cal(3, true);
     MOTIONRACK_CHECK(flex.wait_calibrated(3, whole_seconds(10)));
-    report_positions(flex, "the index after Cal4");
+    tell_positions(flex, "the index after Cal4");
     return {};
 }
 

@@ -6,7 +6,7 @@ namespace howto {
 
 namespace {
 
-void report_speed(const char* how, const SpeedEstimate& estimate) {
+void tell_speed(const char* how, const SpeedEstimate& estimate) {
     if (estimate.known)
         fmt::print("  {:<11} {:>14.6f} counts/s, off by at most {:.3g}\n", how, estimate.counts_s, estimate.error);
 }
@@ -31,8 +31,8 @@ motionrack::Result<void> speed() {
             if (const Speed now = meter.update(at.axes[0], at.ticks); now.edge_came) last = now;
         }
         fmt::print("{} counts/s, looked at every {} ms\n", run.counts_s, to_seconds(run.between) * 1e3);
-        report_speed("difference", last.difference);
-        report_speed("edges, 1/T", last.edges);
+        tell_speed("difference", last.difference);
+        tell_speed("edges, 1/T", last.edges);
     }
     return {};
 }

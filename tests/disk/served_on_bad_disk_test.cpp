@@ -183,10 +183,11 @@ TEST_F(ServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsVali
         ASSERT_EQ(good.code, 0);
         const std::int64_t count = calls();
         check_positions(good, false, before, x);
-        const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12));
-        for (std::int64_t i = 0; i < std::min(count, tried); ++i)
+        const auto tried = std::min(count, static_cast<std::int64_t>(trials("MOTIONRACK_SERVED_CALLS", 2, 12)));
+        const auto shift = static_cast<std::int64_t>(seed_from_environment(0) % static_cast<std::uint64_t>(count));
+        for (std::int64_t i = 0; i < tried; ++i)
             for (const char* fault : {"fail", "tear", "drop"}) {
-                const std::int64_t nth = count - i * count / std::min(count, tried);
+                const std::int64_t nth = count - (i * count / tried + shift) % count;
                 const std::string plan = fault + (" " + std::to_string(nth));
                 SCOPED_TRACE(plan + " of about " + std::to_string(count) + (first_run ? ", first run" : ""));
                 start_anew();
