@@ -15,7 +15,8 @@ struct StrictVcd {
     struct Variable {
         std::string name;  ///< with its scopes: "X.X_step"
         bool is_real = false;
-        std::int64_t rises = 0;  ///< edges of a wire from 0 to 1
+        std::int64_t rises = 0;           ///< edges of a wire from 0 to 1
+        std::int64_t rises_at_start = 0;  ///< those at the first time: readers that sample see the level after them
         char level = 'x';
         double number = 0;
         std::int64_t changes = 0;
@@ -86,6 +87,7 @@ struct StrictVcd {
             if (word[0] == '#') {
                 const std::int64_t at = std::strtoll(word.c_str() + 1, nullptr, 10);
                 if (at <= end) refuse("time " + word + " does not rise");
+                if (end < 0) begin_ = at;
                 end = at;
             } else if (word[0] == 'r') {
                 std::string code;
@@ -107,13 +109,16 @@ struct StrictVcd {
         }
     }
 
-    static void take(Variable& variable, char level) {
-        variable.rises += variable.level == '0' && level == '1';
+    void take(Variable& variable, char level) {
+        const bool rises = variable.level == '0' && level == '1';
+        variable.rises += rises;
+        variable.rises_at_start += rises && end == begin_;
         variable.level = level;
         ++variable.changes;
     }
 
     std::istringstream words_;
+    std::int64_t begin_ = -1;  ///< the first time
 };
 
 }  // namespace motionrack::test

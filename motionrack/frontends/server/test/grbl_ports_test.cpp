@@ -251,7 +251,7 @@ TEST_F(SenderPorts, SayThatThePortIsTaken) {
         *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
     const auto opened = GrblPorts::open(same, *machine, lease_);
     ASSERT_FALSE(opened);
-    EXPECT_THAT(opened.error().message, HasSubstr("Give another port"));
+    EXPECT_THAT(opened.error().message, HasSubstr("Choose another port"));
 }
 
 }  // namespace

@@ -74,17 +74,17 @@ TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
 
 TEST_F(SenderPorts, KeepThePlaceOfASenderThatComesBackFreeOfObservers) {
     start();
-    auto sender = std::make_unique<Client>(tcp());
+    auto sender = std::make_unique<SenderClient>(tcp());
     sender->hear(banner);
     EXPECT_THAT(sender->ask("?", ">\r\n"), StartsWith("<Idle|"));
-    Client observer = tcp();
+    SenderClient observer = tcp();
     observer.hear("]\r\n");
     EXPECT_THAT(observer.ask("?", ">\r\n"), StartsWith("<Idle|"));
     sender.reset();
     while (ports_->sender() != "none") std::this_thread::yield();
     EXPECT_THAT(observer.ask("?", ">\r\n"), StartsWith("<Idle|"));
     EXPECT_EQ(ports_->sender(), "none");
-    Client back = tcp();
+    SenderClient back = tcp();
     EXPECT_EQ(back.hear(banner), banner);
 }
 
