@@ -9,7 +9,7 @@ namespace {
 
 constexpr int stop_writes = 2;
 
-// A terminate handler finds nothing but what is global.
+// A terminate handler can only reach globals.
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 std::mutex listed_cards_lock;
 LastStop* listed_cards = nullptr;

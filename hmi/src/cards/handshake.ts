@@ -28,8 +28,9 @@ export async function choose(
   write: (port: string, byte: number) => Promise<boolean>,
 ): Promise<boolean> {
   const shown = await look();
-  if (shown === null || shown.select === null) return false;
-  return shown.csb === 1 || (await write('CS', shown.select));
+  const select = shown?.select ?? null;
+  if (select === null) return false;
+  return shown?.csb === 1 || (await write('CS', select));
 }
 
 export type Exchanged = { value: number | null } | { why: string };
