@@ -48,19 +48,18 @@ Series series_of(double square) {
     return out;
 }
 
-/// Returns the position on a cell after `time`.
-double moved(const ProfileSegment& cell, double velocity, double time) {
-    const Series series = series_of(0.5 * cell.velocity2_curvature * time * time);
-    return velocity * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
-}
-
-/// Returns true if the motion of a cell has reversed before `time`, at most half of a period. With negative curvature
-/// it is an oscillation, whose position would be reached again later.
-bool is_reversed(const ProfileSegment& cell, double velocity, double time) {
-    if (cell.velocity2_curvature >= 0) return false;
+/// The motion on a cell after a time. `position` is on the path, from the beginning of the cell.
+struct CellMotion {
+    double position;
+    bool is_reversed;  ///< The motion has turned back. It may come to the same position again, or never to the end.
+};
+/// `time`: with negative curvature at most half of a period, because the motion is an oscillation.
+CellMotion motion_after(const ProfileSegment& cell, double velocity, double time) {
     const double square = 0.5 * cell.velocity2_curvature * time * time;
     const Series series = series_of(square);
-    return velocity * (1 + 0.5 * square * series.cosine) + 0.5 * cell.velocity2_slope * time * series.sine <= 0;
+    const double position = velocity * time * series.sine + 0.25 * cell.velocity2_slope * time * time * series.cosine;
+    const double now = velocity * (1 + 0.5 * square * series.cosine) + 0.5 * cell.velocity2_slope * time * series.sine;
+    return {position, !(now > 0) || position < 0};
 }
 
 double square_at(const ProfileSegment& cell, double x) {
@@ -92,10 +91,12 @@ void settle(ProfileSegment& cell) {
     if (bend < 0) max_time = std::min(max_time, pi / std::sqrt(-0.5 * bend));  // half of a period
     double time = std::min(max_time, cell.seconds);
     for (int step = 0; step < 60; ++step) {
-        const double there = moved(cell, velocity, time);
-        (there < length && !is_reversed(cell, velocity, time) ? min_time : max_time) = time;
+        const auto [there, is_reversed] = motion_after(cell, velocity, time);
+        (there < length && !is_reversed ? min_time : max_time) = time;
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
-        const bool inside = next > min_time && next < max_time;
+        const bool is_close = std::fabs(next - time) <= settled_part * time;
+        // Where the motion is reversed, it is close to the end on its way back.
+        const bool inside = next > min_time && next < max_time && !(is_close && is_reversed);
         if (!inside) next = 0.5 * (min_time + max_time);
         const bool settled = std::fabs(next - time) <= (inside ? settled_part : feed_rounding) * time;
         time = next;
@@ -132,7 +133,7 @@ PathMotion ProfileSegment::at(double time) const {
         return {begin + time * (velocity + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
                 velocity + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
     }
-    const double x = std::clamp(moved(*this, std::sqrt(velocity2), time), 0.0, length);
+    const double x = std::clamp(motion_after(*this, std::sqrt(velocity2), time).position, 0.0, length);
     const double velocity = std::sqrt(square_at(*this, x));
     return {begin + x, velocity, 0.5 * (velocity2_slope + velocity2_curvature * x),
             0.5 * velocity2_curvature * velocity};
