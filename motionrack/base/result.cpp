@@ -1,5 +1,6 @@
-// Failed assertions: print message and location, then abort.
+// Failed assertions: print message and location, then terminate, so that a terminate handler may stop real cards.
 #include <cstdio>
+#include <exception>
 #include <motionrack/base/result.hpp>
 
 namespace motionrack {
@@ -7,7 +8,7 @@ namespace motionrack {
 void assertion_failed(const char* condition, const char* file, int line) noexcept {
     std::fprintf(stderr, "motionrack: internal error: '%s' does not hold at %s:%d. Please report it.\n", condition,
                  file, line);
-    std::abort();
+    std::terminate();
 }
 
 }  // namespace motionrack

@@ -1,7 +1,9 @@
 // The list of cards that drive on when this program ends.
+#include <atomic>
 #include <cstdlib>
 #include <motionrack/live/last_stop.hpp>
 #include <mutex>
+#include <utility>
 
 namespace motionrack::live {
 
@@ -14,6 +16,8 @@ constexpr int stop_writes = 2;
 std::mutex listed_cards_lock;
 LastStop* listed_cards = nullptr;
 std::terminate_handler after_last_stop = nullptr;
+std::atomic<bool> program_ends = false;
+thread_local bool stops_cards = false;  // a stop that ends the program itself must not wait for its own lock
 // NOLINTEND(cppcoreguidelines-avoid-non-const-global-variables)
 
 void stop_listed(FunctionLibrary& library) {
@@ -25,7 +29,8 @@ void stop_listed(FunctionLibrary& library) {
 }
 
 [[noreturn]] void stop_and_end() {
-    stop_live_cards();
+    program_ends = true;
+    if (!std::exchange(stops_cards, true)) stop_live_cards();
     after_last_stop();
     std::abort();
 }
@@ -43,6 +48,10 @@ LastStop::~LastStop() {
     LastStop** at = &listed_cards;
     while (*at != this) at = &(*at)->next_;
     *at = next_;
+}
+
+bool is_program_ending() {
+    return program_ends;
 }
 
 void stop_live_cards() noexcept {

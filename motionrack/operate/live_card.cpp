@@ -50,7 +50,7 @@ Result<void> LiveCard::open_port() {
 // ---- accesses
 
 void LiveCard::write(std::uint32_t offset, std::uint16_t value) {
-    if (lost_) return;
+    if (lost_ || live::is_program_ending()) return;
     card_.registers->write(offset, value);
     lost_ = card_.port->trouble();
 }
@@ -64,7 +64,7 @@ std::uint16_t LiveCard::read(std::uint32_t offset) {
 }
 
 void LiveCard::out(std::uint8_t port, std::uint8_t value) {
-    if (lost_) return;
+    if (lost_ || live::is_program_ending()) return;
     card_.bytes->out(port, value);
     lost_ = card_.port->trouble();
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <motionrack/live/last_stop.hpp>
@@ -176,6 +177,46 @@ TEST(RealCard, IsStoppedByAThreadThatEndsTheProgramForWantOfMemory) {
         std::thread([] { throw std::bad_alloc(); }).join();
     };
     EXPECT_EXIT(end(), testing::ExitedWithCode(5), "");
+    EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
+}
+
+/// For terminate handlers, which have no arguments.
+LiveCard*& ended_card() {
+    static LiveCard* card = nullptr;
+    return card;
+}
+
+/// Opens a card in plain memory, then ends the program by a terminate handler that calls `then`.
+void end_with_card(const CardFile& file, std::terminate_handler then, void (*last)()) {
+    rack::Rack rack(two_axes(beside));
+    rack.start();
+    const auto card = LiveCard::open(*read_live_place("bench=" + file.place()), rack);
+    if (!card) std::_Exit(1);
+    ended_card() = card->get();
+    live::stop_live_cards_at_terminate(then);
+    last();
+}
+
+TEST(RealCard, IsNotDrivenAfterTheStopOfAProgramThatEnds) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    const auto drive_and_end = [] {
+        ended_card()->write(0, 0x0120);
+        std::_Exit(5);
+    };
+    EXPECT_EXIT(end_with_card(file, drive_and_end, [] { std::terminate(); }), testing::ExitedWithCode(5), "");
+    EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
+}
+
+TEST(RealCard, IsStoppedWhereAnInternalCheckEndsTheProgram) {
+    CardFile file("/dev/zero");
+    const fs::path memory = file.memory('\0');
+    file.points_to(memory);
+    const auto fail_check = [] { MOTIONRACK_ASSERT(ended_card() == nullptr); };
+    EXPECT_EXIT(end_with_card(
+                    file, [] { std::_Exit(5); }, fail_check),
+                testing::ExitedWithCode(5), "internal error");
     EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
 }
 
