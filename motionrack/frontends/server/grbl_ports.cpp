@@ -13,9 +13,9 @@
 #include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/frontends/server/sender_port.hpp>
+#include <motionrack/grbl/input_parser.hpp>
 #include <motionrack/grbl/introduction.hpp>
 #include <mutex>
-#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -41,23 +41,28 @@ struct Visitor {
 
     /// Notes whether ignored bytes end within a line.
     void ignore(const std::string& bytes) {
-        constexpr std::string_view real_time = "?!~\x18";
         for (const char c : bytes)
-            if (c == '\n' || c == '\r')
+            if (ends_line(c))
                 within_line = false;
-            else if (static_cast<unsigned char>(c) < 0x80 && real_time.find(c) == std::string_view::npos)
+            else if (static_cast<unsigned char>(c) < 0x80 && !is_realtime(c))
                 within_line = true;
     }
-    /// Takes the rest of a line, of which a part was ignored, off the bytes.
-    std::string take_rest_of_line(std::string& bytes) {
-        if (!within_line) return {};
-        std::size_t end = bytes.find_first_of("\r\n");
-        within_line = end == std::string::npos;
-        if (!within_line && bytes.compare(end, 2, "\r\n") == 0) ++end;
-        std::string rest = bytes.substr(0, within_line ? end : end + 1);
-        bytes.erase(0, rest.size());
-        return rest;
+    /// Takes the rest of a line, of which a part was ignored, off the bytes. Its real-time bytes stay.
+    void drop_rest_of_line(std::string& bytes) {
+        std::string kept;
+        std::size_t at = 0;
+        for (; within_line && at < bytes.size(); ++at) {
+            within_line = !ends_line(bytes[at]);
+            if (is_realtime(bytes[at])) kept += bytes[at];
+        }
+        if (at > 0 && bytes.compare(at - 1, 2, "\r\n") == 0) ++at;
+        bytes.replace(0, at, kept);
     }
+
+  private:
+    static bool is_realtime(char c) { return grbl::realtime_of(static_cast<std::uint8_t>(c)).has_value(); }
+    /// A reset discards the line that it comes in.
+    static bool ends_line(char c) { return c == '\n' || c == '\r' || c == '\x18'; }
 };
 
 }  // namespace
@@ -178,10 +183,10 @@ class GrblPorts::Inside {
             bytes = visitor.introduction.take_bytes();
         }
         if (is_held_in_silence() || (writer_ == nullptr && !known)) let_write(visitor);
-        if (writer_ != &visitor)
+        if (writer_ == &visitor)
+            visitor.drop_rest_of_line(bytes);
+        else
             visitor.ignore(bytes);
-        else if (std::string rest = visitor.take_rest_of_line(bytes); !rest.empty())
-            tcp_port_->hear(std::move(rest), false, visitor.address, [] {});
         tcp_port_->hear(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
     }
     /// True while the writer is a connection that has not spoken as a sender for too long.
