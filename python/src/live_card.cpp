@@ -41,7 +41,7 @@ std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::Card
 }  // namespace
 
 LiveCard::LiveCard(const std::string& place, const std::string& type, int select)
-    : place_(place), map_(kind_of(type).map()), device_(device_at(place, kind_of(type), listeners_, select)) {}
+    : place_(place), map_(kind_of(type).map()), device_(device_at(place, kind_of(type), host_, select)) {}
 
 LiveCard::~LiveCard() {
     if (!closed()) static_cast<void>(device_->stop());
@@ -115,7 +115,7 @@ void LiveCard::claim(const std::string& driver) {
     driver_ = driver;
 }
 
-bool LiveCard::RecordingListeners::wait(Duration timeout) {
+bool LiveCard::RealTimeHost::wait(Duration timeout) {
     const Instant end = later(now(), timeout);
     while (true) {
         signals_.look(card_);
@@ -125,7 +125,7 @@ bool LiveCard::RecordingListeners::wait(Duration timeout) {
     }
 }
 
-void LiveCard::RecordingListeners::pass(Duration duration) {
+void LiveCard::RealTimeHost::pass(Duration duration) {
     const Instant end = later(now(), duration);
     do {
         signals_.look(card_);
@@ -180,7 +180,7 @@ bool LiveCard::wait_interrupt(Duration timeout) {
             fmt::format("The card at {} has no interrupt here. Nothing was done. Open it with interrupt=PATH, or "
                         "look at its registers.",
                         place_));
-    return run_exclusive(*this, [&] { return listeners_.wait(timeout); });
+    return run_exclusive(*this, [&] { return host_.wait(timeout); });
 }
 
 }  // namespace motionrack::python

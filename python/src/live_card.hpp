@@ -1,7 +1,7 @@
 // A real card in Python: a live port with a latching stop; Ctrl-C is handled while a call waits.
 //
 //   Python ──► RackLock ──► LiveCard ──► Driver, Library ──► LiveDevice ──► live::LivePort ──► card
-//   Ctrl-C, quick_stop() ──► stop flag ──► Ears, LiveDevice::stop ── all axes ──► ┘
+//   Ctrl-C, quick_stop() ──► stop flag ──► RealTimeHost, LiveDevice::stop ── all axes ──► ┘
 //
 // A stop is accepted in every state and from every thread. It ends the running call. Until reset_stop(), only stops are
 // written to the card.
@@ -65,9 +65,9 @@ class LiveCard final : public Host {
 
   private:
     /// Real time for drivers; waits check for signals.
-    class RecordingListeners final : public Interrupt {
+    class RealTimeHost final : public Interrupt {
       public:
-        explicit RecordingListeners(LiveCard& card) : card_(card) {}
+        explicit RealTimeHost(LiveCard& card) : card_(card) {}
         bool wait(Duration timeout) override;
         void pass(Duration duration) override;
         Instant now() const override { return card_.device_->port().now(); }
@@ -84,7 +84,7 @@ class LiveCard final : public Host {
 
     std::string place_;
     const CardMap& map_;
-    RecordingListeners listeners_{*this};
+    RealTimeHost host_{*this};
     std::unique_ptr<LiveDevice> device_;
     std::string driver_;
 };
