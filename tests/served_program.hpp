@@ -34,6 +34,7 @@ class ServedLink {
     bool send(const std::string& method, const std::string& name, const std::string& body) const {
         const std::string text =
             method + " /api/" + name + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port_) +
+            (token.empty() ? "" : "\r\nAuthorization: Bearer " + token) +
             "\r\nContent-Type: application/json\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
         return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
     }
@@ -64,6 +65,8 @@ class ServedLink {
         return all.is_object() ? all.value("status", nlohmann::json()) : nlohmann::json();
     }
     int port() const { return port_; }  ///< 0: not connected
+
+    std::string token;  ///< of a pairing, sent with each request; empty: none
 
   protected:
     void connect(int port) {

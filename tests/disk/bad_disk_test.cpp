@@ -3,6 +3,7 @@
 // there before, or the whole result.
 #include <gmock/gmock.h>
 
+#include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/sweep/results.hpp>
 #include <motionrack/trace/diff.hpp>
@@ -41,6 +42,7 @@ const Scenario scenarios[] = {
     {"plan", "plan part.ngc --picture a.svg", {"a.svg"}},
     {"homing", "home X --picture a.svg -q", {"a.svg"}},
     {"mark", "mark job.toml -q --picture a.svg --report a.html", {"a.svg", "a.html"}},
+    {"mark_with_a_correction_file", "mark corrected.toml -q --picture a.svg", {"a.svg"}},
     {"mark_as_png", "mark job.toml -q --picture a.png", {"a.png"}},
     {"rack_file", "new router a.toml --force", {"a.toml"}},
     {"image", "image make part.ngc -o a.bin --axis 0=reversed", {"a.bin"}},
@@ -63,9 +65,17 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
         write("job.toml", "[drawing]\ntext = 'A'\n");
         write("stage.toml", text_of(source_root / "examples/13_stage/machine.toml"));
         const std::string command = GetParam().command;
+        if (command.find("corrected.toml") != std::string::npos) write_correction();
         if (command.find("given.h5") != std::string::npos) {
             ASSERT_EQ(motionrack("run part.ngc -q --no-report --record given.h5").code, 0);
         }
+    }
+    /// A job whose optics have the correction file of a lens.
+    void write_correction() const {
+        const auto table = rtc5::correction_of({{255.059, -1.365, 1.493, -18.087}, 11.7, 5184}, 721);
+        const std::vector<std::uint8_t> bytes = rtc5::written_ct5(*table);
+        write("lens.ct5", std::string(bytes.begin(), bytes.end()));
+        write("corrected.toml", "[drawing]\ntext = 'A'\n[optics]\nct5 = 'lens.ct5'\n");
     }
     /// Runs it in a folder `on` with results of a run before; `plan`: what goes wrong.
     Ran run_on(const std::string& plan) {

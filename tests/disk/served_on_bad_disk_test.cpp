@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <functional>
 #include <motionrack/journal/journal.hpp>
 #include <tests/environment.hpp>
 #include <tests/ran.hpp>
@@ -199,58 +200,101 @@ TEST_F(ServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsVali
     }
 }
 
-TEST_F(ServedRackOnABadDisk, AcknowledgesNoPairingThatIsNotWritten) {
-    const auto pair = [](Served& served, const char* name) {
+/// Changes of the users file: each is acknowledged once it is written, and only then in force.
+class UsersOfAServedRackOnABadDisk : public ServedRackOnABadDisk {
+  protected:
+    /// A request that changes the file, and what it answers.
+    using Change = std::function<json(Served&)>;
+
+    static json pair(Served& served, const char* name) {
         const std::size_t at = served.said.find("#pair=");
         return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", name}});
-    };
-    const auto names = [&] {
-        std::string out;
-        const json users = json::parse(text_of(folder / "data/users.json"), nullptr, false);
-        EXPECT_FALSE(users.is_discarded());
-        if (users.is_object())
-            for (const json& one : users["users"]) out += one["name"].get<std::string>() + " ";
-        return out;
-    };
-    std::int64_t before = 0;
-    {
-        const BadDiskAhead disk(at("data"), "fail 0", "", at("count"));
-        {
-            Served served(with_pairing());
-            ASSERT_TRUE(pair(served, "anna").contains("token"));
-            EXPECT_EQ(served.end(SIGTERM), 0);
-        }
-        const std::string old = text_of(folder / "data/users.json");
-        EXPECT_EQ(Served(with_pairing()).end(SIGTERM), 0);
-        before = calls();
-        {
-            Served served(with_pairing());
-            ASSERT_TRUE(pair(served, "berta").contains("token"));
-            EXPECT_EQ(served.end(SIGTERM), 0);
-        }
-        write("data/users.json", old);
     }
-    const std::int64_t count = calls(), first = before + 1;
-    ASSERT_GE(count, first);
-    const std::string old = text_of(folder / "data/users.json");
-    const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 3, 20));
-    const std::int64_t step = std::max<std::int64_t>(1, (count - before) / tried);
-    for (std::int64_t nth = first; nth <= count; nth += step)
-        for (const char* fault : {"fail", "tear", "drop"}) {
-            const std::string plan = fault + (" " + std::to_string(nth));
-            SCOPED_TRACE(plan + " of " + std::to_string(before) + " and " + std::to_string(count));
-            write("data/users.json", old);
-            const BadDiskAhead disk(at("data"), plan, "", at("count"));
-            Served served(with_pairing());
-            const json answer = pair(served, "berta");
-            if (answer.contains("token")) {
-                EXPECT_EQ(names(), "anna berta ");
-            } else {
-                EXPECT_THAT(answer.dump(), HasSubstr("users file"));
-                EXPECT_TRUE(text_of(folder / "data/users.json") == old || names() == "anna berta ");
+    /// Pairs a user on a disk that is good; returns the token.
+    std::string paired(const char* name) const {
+        Served served(with_pairing());
+        const json answer = pair(served, name);
+        EXPECT_EQ(served.end(SIGTERM), 0);
+        EXPECT_TRUE(answer.contains("token")) << answer;
+        return answer.contains("token") ? answer["token"].get<std::string>() : "";
+    }
+    static bool is_token_known(const Served& served, const std::string& token) {
+        ServedLink link(served.port());
+        link.token = token;
+        return !token.empty() && link.get("status").contains("status");
+    }
+    std::string users_text() const { return text_of(folder / "data/users.json"); }
+    /// Names in the users file, each followed by a blank.
+    std::string names() const {
+        std::string out;
+        const json users = json::parse(users_text(), nullptr, false);
+        EXPECT_TRUE(users.contains("users")) << users_text();
+        for (const json& one : users.value("users", json::array())) out += one["name"].get<std::string>() + " ";
+        return out;
+    }
+    /// Number of calls of the disk of a session with this change.
+    std::int64_t calls_with(const Change& change) const {
+        const BadDiskAhead disk(at("data"), "fail 0", "", at("count"));
+        Served served(with_pairing());
+        change(served);
+        EXPECT_EQ(served.end(SIGTERM), 0);
+        return calls();
+    }
+    /// Makes a change that leaves the users `after`, on disks of which a call that belongs to it goes wrong. `token`:
+    /// of the user that changes, also as `change` sets it; `is_known`: it is valid after the change.
+    void expect_acknowledged_if_written(const Change& change, const std::string& after, const std::string& token,
+                                        bool is_known) const {
+        const std::string old = users_text();
+        const std::int64_t before = calls_with([](Served&) { return json(); }), count = calls_with(change);
+        ASSERT_GT(count, before);
+        EXPECT_EQ(names(), after);
+        const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 3, 20));
+        const std::int64_t step = std::max<std::int64_t>(1, (count - before) / tried);
+        for (std::int64_t nth = before + 1; nth <= count; nth += step)
+            for (const char* fault : {"fail", "tear", "drop"}) {
+                const std::string plan = fault + (" " + std::to_string(nth));
+                SCOPED_TRACE(plan + " of " + std::to_string(before) + " and " + std::to_string(count));
+                write("data/users.json", old);
+                const BadDiskAhead disk(at("data"), plan, "", at("count"));
+                Served served(with_pairing());
+                const json answer = change(served);
+                const bool done = is_done(answer) || answer.contains("token");
+                EXPECT_NE(done, answer.dump().find("users file") != std::string::npos) << answer;
+                EXPECT_TRUE(names() == after || (!done && users_text() == old)) << users_text();
+                EXPECT_EQ(is_token_known(served, token), done == is_known);
+                EXPECT_EQ(served.end(SIGTERM), 0);
             }
-            EXPECT_EQ(served.end(SIGTERM), 0);
-        }
+    }
+};
+
+TEST_F(UsersOfAServedRackOnABadDisk, AcknowledgesNoPairingThatIsNotWritten) {
+    paired("anna");
+    std::string token;
+    const auto pair_berta = [&](Served& served) {
+        const json answer = pair(served, "berta");
+        token = answer.contains("token") ? answer["token"].get<std::string>() : "";
+        return answer;
+    };
+    expect_acknowledged_if_written(pair_berta, "anna berta ", token, true);
+}
+
+TEST_F(UsersOfAServedRackOnABadDisk, AcknowledgesNoRevocationThatIsNotWritten) {
+    const std::string anna = paired("anna"), berta = paired("berta");
+    const auto revoke_berta = [&](Served& served) {
+        served.token = anna;
+        return served.post("revoke_user", {{"user", "berta"}});
+    };
+    expect_acknowledged_if_written(revoke_berta, "anna ", berta, false);
+}
+
+TEST_F(UsersOfAServedRackOnABadDisk, AcknowledgesNoForgottenTokenThatIsNotWritten) {
+    paired("anna");
+    const std::string berta = paired("berta");
+    const auto forget_berta = [&](Served& served) {
+        served.token = berta;
+        return served.send("POST", "forget", "") ? served.answer() : json();
+    };
+    expect_acknowledged_if_written(forget_berta, "anna ", berta, false);
 }
 
 }  // namespace
