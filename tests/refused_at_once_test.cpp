@@ -1,8 +1,11 @@
-// Commands that cannot be intended: each answer has an explanation, and nothing moves.
+// Commands that cannot be intended: each answer has an explanation, takes little of the processor's time, and nothing
+// moves.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <tests/ran.hpp>
 #include <tests/served_program.hpp>
+#include <vector>
 
 namespace motionrack {
 namespace {
@@ -10,7 +13,31 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-using EmptyProgram = InFolder;
+/// Time of the processor that all ended commands took.
+double processor_seconds() {
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
+    };
+    rusage usage{};
+    EXPECT_EQ(::getrusage(RUSAGE_CHILDREN, &usage), 0);
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+class RefusedCommand : public InFolder {
+  protected:
+    /// Expects that the program took less than a second of the processor, which is dozens of times what it needs.
+    Ran refused(const std::string& arguments) const {
+        const double before = processor_seconds();
+        Ran ran = motionrack(arguments);
+        EXPECT_LT(processor_seconds() - before, 1) << arguments;
+        return ran;
+    }
+    void expect_no_file(const std::vector<const char*>& names) const {
+        for (const char* name : names) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+    }
+};
+using EmptyProgram = RefusedCommand;
+using DrawingOutsideTheField = RefusedCommand;
 
 TEST_F(EmptyProgram, IsRefusedByEachCommand) {
     write("empty.ngc", "");
@@ -22,15 +49,31 @@ TEST_F(EmptyProgram, IsRefusedByEachCommand) {
               "trace PROGRAM a.vcd -q", "check PROGRAM", "plan PROGRAM --picture a.svg", "bench PROGRAM"}) {
             std::string line = command;
             line.replace(line.find("PROGRAM"), 7, program);
-            const Ran ran = motionrack(line);
+            const Ran ran = refused(line);
             EXPECT_EQ(ran.code, 2) << line << ": " << ran.out;
             EXPECT_THAT(ran.out, HasSubstr(std::string(program) + ":1:1: the program is empty")) << line;
         }
-    for (const char* result : {"a.html", "a.h5", "a.vcd", "a.svg"})
-        EXPECT_FALSE(std::filesystem::exists(folder / result)) << result;
+    expect_no_file({"a.html", "a.h5", "a.vcd", "a.svg"});
     EXPECT_EQ(shell("printf '' | " MOTIONRACK_PROGRAM " run - -q --no-report").code, 2);
     write("units.ngc", "G21\n");
     EXPECT_EQ(motionrack("run units.ngc -q --no-report").code, 0) << "it says what is to be set";
+}
+
+TEST_F(DrawingOutsideTheField, IsRefusedBeforeAnythingIsMarked) {
+    write("line.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M 0 0 H 10'/></svg>");
+    write("far.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M 0 0 H 1e8'/></svg>");
+    const auto expect_refusal = [&](const std::string& drawing, int code, const char* sentence) {
+        write("job.toml", "[drawing]\n" + drawing + "\n");
+        const Ran ran = refused("mark job.toml -q --picture a.svg --report a.html");
+        EXPECT_EQ(ran.code, code) << drawing << ": " << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr(sentence)) << drawing;
+        EXPECT_THAT(ran.out, HasSubstr("Nothing was marked")) << drawing;
+    };
+    expect_refusal("svg = 'line.svg'\nx_mm = 1000", 3, "outside the field");
+    expect_refusal("text = 'I'\ny_mm = -1000", 3, "outside the field");
+    expect_refusal("svg = 'line.svg'\nx_mm = 1000\nscale = 1e6", 2, "more than 100000 mm from the field's middle");
+    expect_refusal("svg = 'far.svg'", 2, "more than 100000 mm from the field's middle");
+    expect_no_file({"a.svg", "a.html"});
 }
 
 class ServedMachine : public InFolder {
