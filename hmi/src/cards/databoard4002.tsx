@@ -10,7 +10,7 @@ import { usePoll } from '../parts/poll';
 import { Button, Empty, Field, Panel } from '../parts/ui';
 import { Chart, Legend } from '../scope/chart';
 import { Console, mayAccess } from './console';
-import { ask, choose, give, type Bus, type Exchanged, type Shown } from './handshake';
+import { ask, choose, give, Turns, type Bus, type Exchanged, type Shown } from './handshake';
 import { LiveCard } from './live_card';
 import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 import { analogOutputs } from './words';
@@ -97,7 +97,8 @@ function busOf(card: CardInfo): Bus {
   };
 }
 
-function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: string }): JSX.Element {
+function Command(props: { bus: Bus; turns: Turns; command: CommandInfo; why: string }): JSX.Element {
+  const { bus, turns, command, why } = props;
   const argument = useSignal('');
   const answer = useSignal<number | null>(null);
   const told = (outcome: Exchanged): void => {
@@ -111,7 +112,7 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
         'refused',
         `The argument is "${argument.value}"; it must be ${whole(command.min)} to ${whole(command.max)}. Nothing was sent.`,
       );
-    else void give(bus, command, value).then(told);
+    else void turns.take(() => give(bus, command, value)).then(told);
   };
   const reads = command.answer_bytes > 0;
   return (
@@ -140,7 +141,10 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
             </Button>
           )}
           {reads && (
-            <Button why={why} label={`Ask ${command.name}`} onClick={() => void ask(bus, command).then(told)}>
+            <Button
+              why={why}
+              label={`Ask ${command.name}`}
+              onClick={() => void turns.take(() => ask(bus, command)).then(told)}>
               Ask
             </Button>
           )}
@@ -155,6 +159,7 @@ function Command({ bus, command, why }: { bus: Bus; command: CommandInfo; why: s
 function Commands({ card }: { card: CardInfo }): JSX.Element {
   const why = mayAccess(card);
   const bus = busOf(card);
+  const turns = useMemo(() => new Turns(), []);
   return (
     <Panel title="Commands" class="wide">
       <div class="scroll" tabIndex={0} role="region" aria-label="Commands of the card">
@@ -172,7 +177,7 @@ function Commands({ card }: { card: CardInfo }): JSX.Element {
             {card.commands
               .filter((one) => one.data_bytes <= MAX_BYTES)
               .map((one) => (
-                <Command key={one.name} bus={bus} command={one} why={why} />
+                <Command key={one.name} bus={bus} turns={turns} command={one} why={why} />
               ))}
           </tbody>
         </table>

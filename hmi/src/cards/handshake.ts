@@ -105,3 +105,14 @@ export async function ask(bus: Bus, command: CommandInfo): Promise<Exchanged> {
   }
   return { value: numberOf(bytes) };
 }
+
+/** Runs exchanges with a card one after the other: it would take the bytes of two that overlap for those of one. */
+export class Turns {
+  private last: Promise<unknown> = Promise.resolve();
+
+  take<T>(exchange: () => Promise<T>): Promise<T> {
+    const next = this.last.then(exchange, exchange);
+    this.last = next;
+    return next;
+  }
+}

@@ -1,6 +1,6 @@
 // The handshake of a DataBoard 4002, with a card that is busy after each byte.
 import { describe, expect, test } from 'vitest';
-import { ask, bytesOf, choose, give, numberOf, type Bus, type Shown } from '../../src/cards/handshake';
+import { ask, bytesOf, choose, give, numberOf, Turns, type Bus, type Shown } from '../../src/cards/handshake';
 import type { CommandInfo } from '../../src/link/rack';
 
 const command = (name: string, more: Partial<CommandInfo> = {}): CommandInfo => ({
@@ -178,5 +178,26 @@ describe('the card', () => {
       false,
     ]);
     expect(written).toEqual(['CS 13']);
+  });
+});
+
+describe('two exchanges that overlap', () => {
+  test('do not mix their bytes', async () => {
+    const { bus, sent } = card(1);
+    const turns = new Turns();
+    const position = turns.take(() => give(bus, command('P', { data_bytes: 2 }), 1000));
+    const go = turns.take(() => give(bus, command('G'), 0));
+    expect(await Promise.all([position, go])).toEqual([{ value: null }, { value: null }]);
+    expect(sent).toEqual(['C2 80', 'DATA 232', 'DATA 3', 'C2 71']);
+  });
+
+  test('do not wait for one that failed', async () => {
+    const { bus, sent } = card(0);
+    const turns = new Turns();
+    const failed = turns.take(() => Promise.reject(new Error('The link is gone.')));
+    const go = turns.take(() => give(bus, command('G'), 0));
+    await expect(failed).rejects.toThrow('The link is gone.');
+    expect(await go).toEqual({ value: null });
+    expect(sent).toEqual(['C2 71']);
   });
 });
