@@ -31,6 +31,7 @@ function(motionrack_c_library target export_name headers)
 endfunction()
 motionrack_c_library(motionrack_c c ${CMAKE_INSTALL_INCLUDEDIR}/motionrack)
 motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
+motionrack_c_library(databoard4002lib databoard4002lib ${CMAKE_INSTALL_INCLUDEDIR})
 motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
@@ -89,8 +90,10 @@ list(TRANSFORM runtime PREPEND "-l")
 list(JOIN runtime " " pc_libs_private)
 configure_file(cmake/motionrack.pc.in ${PROJECT_BINARY_DIR}/motionrack.pc @ONLY)
 configure_file(cmake/mcx314lib.pc.in ${PROJECT_BINARY_DIR}/mcx314lib.pc @ONLY)
+configure_file(cmake/databoard4002lib.pc.in ${PROJECT_BINARY_DIR}/databoard4002lib.pc @ONLY)
 configure_file(cmake/rtc5sim.pc.in ${PROJECT_BINARY_DIR}/rtc5sim.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc ${PROJECT_BINARY_DIR}/mcx314lib.pc ${PROJECT_BINARY_DIR}/rtc5sim.pc
+install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc ${PROJECT_BINARY_DIR}/mcx314lib.pc
+              ${PROJECT_BINARY_DIR}/databoard4002lib.pc ${PROJECT_BINARY_DIR}/rtc5sim.pc
         DESTINATION ${pc_dir} COMPONENT dev)
 
 # ---- the program, and what it says of itself ----

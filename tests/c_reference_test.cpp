@@ -114,6 +114,10 @@ TEST(CReference, ThePagesAreMadeFromTheHeaders) {
     is_made_from("mcx314lib.md", "motionrack/frontends/mcx314lib/mcx314lib.h",
                  "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n",
                  "MCX314_API ");
+    is_made_from(
+        "databoard4002lib.md", "motionrack/frontends/databoard4002lib/databoard4002lib.h",
+        "# The DataBoard 4002's library in C\n\n`databoard4002lib.h`, as a page: this one is made from it.\n\n",
+        "DATABOARD4002_API ");
     is_made_from("rtc5sim.md", "motionrack/frontends/rtc5sim/rtc5sim.h",
                  "# The RTC5's commands in C\n\n`rtc5sim.h`, as a page: this one is made from it.\n\n", "RTC5_API ",
                  "motionrack/frontends/rtc5sim/rtc5sim_virtual.h");

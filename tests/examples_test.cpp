@@ -67,6 +67,12 @@ TEST(Examples, TheFunctionLibraryInCPrintsTheExpectedOutput) {
     EXPECT_EQ(ran.out, text_of(examples / "09_mcx314lib" / "expected.txt"));
 }
 
+TEST(Examples, TheDataBoardsLibraryInCPrintsTheExpectedOutput) {
+    const Ran ran = run(examples, MOTIONRACK_DATABOARD4002LIB_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "databoard4002lib" / "expected.txt"));
+}
+
 TEST(Examples, TheMarkingJobInCPrintsTheExpectedOutput) {
     const Ran ran = run(examples, MOTIONRACK_RTC5SIM_EXAMPLE);
     EXPECT_EQ(ran.code, 0);

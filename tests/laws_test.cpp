@@ -54,6 +54,7 @@ std::string room_of(const std::string& path) {
     if (path.rfind("frontends/calls/", 0) == 0) return "calls";
     if (path.rfind("frontends/mcx314lib/windows/", 0) == 0) return "mcx314lib/windows";
     if (path.rfind("frontends/mcx314lib/", 0) == 0) return "mcx314lib";
+    if (path.rfind("frontends/databoard4002lib/", 0) == 0) return "databoard4002lib";
     if (path.rfind("frontends/rtc5sim/", 0) == 0) return "rtc5sim";
     if (path.rfind("frontends/c/flex2pos", 0) == 0) return "flex2pos";
     return path.substr(0, path.find('/'));
@@ -136,6 +137,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "live", "mcx314/map", "mcx314/driver"}},
     {"mcx314lib/windows", {"base", "sim", "mcx314lib", "mcx314/map", "mcx314/chip"}},
+    {"databoard4002lib",
+     {"base", "calls", "rack", "live", "databoard4002/map", "databoard4002/driver", "databoard4002/library"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
     {"python",
      {"base", "sim", "control", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library",

@@ -21,6 +21,7 @@ C_HEADERS = (
     "motionrack/c.h",
     "motionrack/flex2pos.h",
     "motionrack/frontends/mcx314lib/mcx314lib.h",
+    "motionrack/frontends/databoard4002lib/databoard4002lib.h",
     "motionrack/frontends/rtc5sim/rtc5sim.h",
 )
 # As cmake/install.cmake leaves them out.

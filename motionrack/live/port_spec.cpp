@@ -72,6 +72,12 @@ std::string_view port_spec_form() {
            ",interrupt=PATH ,gap_ns=N";
 }
 
+bool names_real_card(std::string_view text) {
+    for (const std::string_view kind : {"uio:", "memory:", "port:"})
+        if (text.starts_with(kind)) return true;
+    return false;
+}
+
 Result<PortSpec> read_port_spec(std::string_view text) {
     PortSpec spec;
     const std::size_t colon = text.find(':');

@@ -31,6 +31,10 @@ struct PortSpec {
     Duration gap = nanoseconds(250);  ///< minimum time between two accesses, 0 .. 1 s
 };
 
+/// Returns true for the address of a real card ("uio:..", "memory:..", "port:.."), as opposed to the text or path of a
+/// rack file. The address may be wrong.
+bool names_real_card(std::string_view text);
+
 /// Parses KIND:PATH[,KEY=VALUE]...; keys offset, stride, width, map, interrupt (a path or "none"), gap_ns; numbers
 /// decimal or 0x... Errors: invalid_input, with the cause and the format.
 Result<PortSpec> read_port_spec(std::string_view text);

@@ -10,7 +10,7 @@ motionrack_legal_rule(EveryPartOfOthersIsOnItsPage third_party.py)
 motionrack_legal_rule(TheCopyrightFileHasEveryLicence copyright_file.py)
 
 # What is given away: the program and its module, the C libraries, the Python module.
-set(given motionrack motionrack_png motionrack_c mcx314lib rtc5sim)
+set(given motionrack motionrack_png motionrack_c mcx314lib databoard4002lib rtc5sim)
 if(TARGET motionrack_python)
   list(APPEND given motionrack_python)
 endif()

@@ -14,14 +14,6 @@ constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
 constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(VirtualRack::max_ns));
 
-/// Returns true for the address of a real card ("uio:..", "memory:..", "port:.."), as opposed to the text or path of a
-/// rack file.
-bool names_real_card(std::string_view text) {
-    for (const std::string_view kind : {"uio:", "memory:", "port:"})
-        if (text.substr(0, kind.size()) == kind) return true;
-    return false;
-}
-
 }  // namespace
 
 bool OpenChip::step() {
@@ -69,7 +61,7 @@ bool ChipTable::is_open(const VirtualCard& card) const {
 Result<int> ChipTable::open(const char* rack, const char* card) {
     std::shared_ptr<VirtualRack> found;
     if (rack != nullptr) {
-        if (names_real_card(rack)) return open_live(rack, card);
+        if (live::names_real_card(rack)) return open_live(rack, card);
         MOTIONRACK_TRY(found, VirtualRack::open(rack));
     } else if (chips_.empty()) {
         const std::string path = environment_variable(variable);
@@ -81,7 +73,7 @@ Result<int> ChipTable::open(const char* rack, const char* card) {
                     "the path of a rack file with an mcx314 card, or to a real card ({1}), or call mcx314_open "
                     "first.",
                     variable, live::port_spec_form()));
-        if (names_real_card(path)) return open_live(path.c_str(), card);
+        if (live::names_real_card(path)) return open_live(path.c_str(), card);
         MOTIONRACK_TRY(found, VirtualRack::open(path));
     } else {
         MOTIONRACK_TRY(OpenChip * chip, selected());

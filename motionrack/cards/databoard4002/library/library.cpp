@@ -53,6 +53,10 @@ std::span<const FunctionInfo> CommandLibrary::functions() const {
 
 Result<void> CommandLibrary::begin() {
     if (driver_.status().word != no_card) driver_.reset();
+    return connect();
+}
+
+Result<void> CommandLibrary::connect() {
     const Instant until = later(host_.now(), max_start);
     while (!driver_.status().ready() && host_.now() < until && !host_.stop_requested())
         host_.pass(library_ready_timeout);

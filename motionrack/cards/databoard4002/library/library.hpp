@@ -29,8 +29,11 @@ class CommandLibrary final : public FunctionLibrary {
     CommandLibrary(BytePort& port, Interrupt& host, std::uint8_t select);
 
     std::span<const FunctionInfo> functions() const override;
-    /// Resets the card (C3) and connects to it. Errors: machine if no card answers.
+    /// Resets the card (C3) and connects to it. Errors: as connect().
     Result<void> begin() override;
+    /// Waits until the card is Ready, at most 1 s, and connects to it as it is: its reset mark is cleared, its events
+    /// are off. Errors: machine if no card answers, or it is not Ready.
+    Result<void> connect();
     Result<CallAnswer> call(std::size_t function, std::span<const std::int64_t> values) override;
     /// True while the rate at the output is not 0, or the card does not tell it.
     bool moving() override;
