@@ -22,9 +22,9 @@ Result<std::shared_ptr<DataboardBus>> open_bus(std::string_view place) {
     return bus;
 }
 
-Result<std::unique_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBus>& bus, int number) {
+Result<std::shared_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBus>& bus, int number) {
     const auto select = static_cast<std::uint8_t>(number);
-    if (bus->port) return std::make_unique<OpenDataboard>(bus, nullptr, *bus->port, *bus->port, select);
+    if (bus->port) return std::make_shared<OpenDataboard>(bus, nullptr, *bus->port, *bus->port, select);
     rack::Rack& rack = bus->session->rack();
     std::string known;
     for (const rack::RackCard& each : rack.config().cards) {
@@ -32,7 +32,7 @@ Result<std::unique_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBu
         if (each.databoard4002.select == number) {
             rack::Card* const card = rack.card(each.name);
             sim::VirtualBytePort& port = *card->byte_port();
-            return std::make_unique<OpenDataboard>(bus, card, port, port, select);
+            return std::make_shared<OpenDataboard>(bus, card, port, port, select);
         }
         known += fmt::format("{}{}", known.empty() ? "" : ", ", each.databoard4002.select);
     }
@@ -67,6 +67,29 @@ StopFlags& stop_flags() {
     return one;
 }
 
+// ---- accesses
+
+void TurnLock::lock() {
+    std::unique_lock<std::mutex> alone(lock_);
+    const std::uint64_t ticket = last_ticket_++;
+    next_.wait(alone, [&] { return turn_ == ticket; });
+}
+
+void TurnLock::unlock() {
+    {
+        const std::lock_guard<std::mutex> alone(lock_);
+        ++turn_;
+    }
+    next_.notify_all();
+}
+
+void StoppableTime::pass(Duration duration) {
+    bus_.accesses.unlock();
+    if (bus_.port) inner_.pass(duration);
+    bus_.accesses.lock();
+    if (!bus_.port) inner_.pass(duration);  // it runs the rack
+}
+
 // ---- the table
 
 Result<std::shared_ptr<DataboardBus>> DataboardTable::bus_at(const char* place) const {
@@ -94,15 +117,18 @@ Result<int> DataboardTable::open(const char* place, int number) {
                         fmt::format("Card {} of this bus is open already; its handle is {}. Nothing "
                                     "was opened.",
                                     number, handle));
-    MOTIONRACK_TRY(std::unique_ptr<OpenDataboard> card, card_on(bus, number));
-    MOTIONRACK_CHECK(card->connect());
+    MOTIONRACK_TRY(std::shared_ptr<OpenDataboard> card, card_on(bus, number));
+    {
+        const std::lock_guard<TurnLock> alone(bus->accesses);
+        MOTIONRACK_CHECK(card->connect());
+    }
     stop_flags().add(++last_, card->stop_flag());
     cards_.emplace(last_, std::move(card));
     return last_;
 }
 
-Result<OpenDataboard*> DataboardTable::find(int handle) const {
-    if (const auto found = cards_.find(handle); found != cards_.end()) return found->second.get();
+Result<std::shared_ptr<OpenDataboard>> DataboardTable::find(int handle) const {
+    if (const auto found = cards_.find(handle); found != cards_.end()) return found->second;
     std::string known;
     for (const auto& [each, card] : cards_) known += fmt::format("{}{}", known.empty() ? "" : ", ", each);
     return fail(ErrorKind::invalid_input,
@@ -110,11 +136,9 @@ Result<OpenDataboard*> DataboardTable::find(int handle) const {
                             known.empty() ? "none" : known));
 }
 
-Result<void> DataboardTable::close(int handle) {
-    MOTIONRACK_CHECK(find(handle));
+void DataboardTable::close(int handle) {
     stop_flags().remove(handle);
     cards_.erase(handle);
-    return {};
 }
 
 }  // namespace motionrack::databoard4002lib

@@ -3,9 +3,14 @@
 //   databoard4002_open ──► OpenDataboard 1 ─ CommandLibrary ─┐
 //                          OpenDataboard 2 ─ CommandLibrary ─┴─► DataboardBus: live::ByteCardPort, or a rack
 //   databoard4002_stop ──► StopFlags ──► StoppableTime ──► the call that waits
+//
+// Locks, in this order: of a card's calls, of the table, of a bus's accesses. A call that waits gives the last one
+// away.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <motionrack/cards/databoard4002/library/library.hpp>
@@ -33,27 +38,43 @@ class StopFlags {
 /// Those of the process.
 StopFlags& stop_flags();
 
-/// Time and interrupt of a card, with the stop of databoard4002_stop().
+/// A lock that goes to the threads in the order in which they ask for it.
+class TurnLock {
+  public:
+    void lock();
+    void unlock();
+
+  private:
+    std::mutex lock_;
+    std::condition_variable next_;
+    std::uint64_t last_ticket_ = 0, turn_ = 0;
+};
+
+/// A bus with cards: a real one, or that of a rack.
+struct DataboardBus {
+    TurnLock accesses;
+    std::unique_ptr<live::ByteCardPort> port;  ///< real cards only
+    std::unique_ptr<rack::Session> session;    ///< virtual cards only
+};
+
+/// Time and interrupt of a card, with the stop of databoard4002_stop(). Its user has locked the accesses of the bus;
+/// pass() lets others have them meanwhile, and drivers select their card again afterwards.
 class StoppableTime final : public Interrupt {
   public:
-    StoppableTime(Interrupt& inner, const std::atomic<bool>& stop) : inner_(inner), stop_(stop) {}
+    StoppableTime(Interrupt& inner, DataboardBus& bus, const std::atomic<bool>& stop)
+        : inner_(inner), bus_(bus), stop_(stop) {}
     bool wait(Duration timeout) override { return inner_.wait(timeout); }
-    void pass(Duration duration) override { inner_.pass(duration); }
+    void pass(Duration duration) override;
     Instant now() const override { return inner_.now(); }
     bool stop_requested() const override { return stop_.load(); }
 
   private:
     Interrupt& inner_;
+    DataboardBus& bus_;
     const std::atomic<bool>& stop_;
 };
 
-/// A bus with cards: a real one, or that of a rack.
-struct DataboardBus {
-    std::unique_ptr<live::ByteCardPort> port;  ///< real cards only
-    std::unique_ptr<rack::Session> session;    ///< virtual cards only
-};
-
-/// An open card with its function library.
+/// An open card with its function library. Its calls need both locks, calls() and the bus's.
 class OpenDataboard {
   public:
     /// `card`: the virtual card; nullptr: a real one. `port` and `time`: those of the bus.
@@ -62,6 +83,7 @@ class OpenDataboard {
 
     const std::shared_ptr<DataboardBus>& shared_bus() const { return bus_; }
     int number() const { return number_; }
+    std::mutex& calls() { return calls_; }
     const std::shared_ptr<std::atomic<bool>>& stop_flag() const { return stop_; }
 
     /// As CommandLibrary::connect() and begin(). Errors: also those of check_live().
@@ -88,26 +110,27 @@ class OpenDataboard {
     Result<void> set_wire(std::string_view wire, double value);
 
   private:
+    std::mutex calls_;
     std::shared_ptr<DataboardBus> bus_;
     rack::Card* card_;
     std::uint8_t number_;
     std::shared_ptr<std::atomic<bool>> stop_ = std::make_shared<std::atomic<bool>>(false);
     StoppableTime time_;
     databoard4002::CommandLibrary library_;
-    databoard4002::Driver stopper_;  ///< on the bus itself
+    databoard4002::Driver stopper_;  ///< on the bus itself, which a stop does not guard
 };
 
 class DataboardTable {
   public:
     /// See databoard4002_open.
     Result<int> open(const char* place, int number);
-    Result<void> close(int handle);
-    Result<OpenDataboard*> find(int handle) const;
+    void close(int handle);
+    Result<std::shared_ptr<OpenDataboard>> find(int handle) const;
 
   private:
     Result<std::shared_ptr<DataboardBus>> bus_at(const char* place) const;
 
-    std::map<int, std::unique_ptr<OpenDataboard>> cards_;
+    std::map<int, std::shared_ptr<OpenDataboard>> cards_;
     int last_ = 0;
 };
 

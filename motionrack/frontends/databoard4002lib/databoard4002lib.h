@@ -27,8 +27,8 @@
  * databoard4002_advance_ms(), and by the bus time of each access, so that a loop that polls databoard4002_status()
  * ends.
  *
- * Threads. Functions may be called from any thread; concurrent calls are serialised, also those of different cards.
- * databoard4002_stop() ends the call that waits.
+ * Threads. Functions may be called from any thread. Calls of one card are made one after another; a call that waits
+ * lets those of other cards pass. databoard4002_stop() ends the call of its card that waits.
  */
 #ifndef DATABOARD4002LIB_H
 #define DATABOARD4002LIB_H

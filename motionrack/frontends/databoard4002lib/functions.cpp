@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <initializer_list>
+#include <memory>
 #include <motionrack/frontends/databoard4002lib/calls.hpp>
+#include <mutex>
 
 namespace motionrack::databoard4002lib {
 
@@ -74,13 +76,16 @@ int ask(const char* who, int card, int* answer, Values values = {}) noexcept {
 // ---- cards
 
 int databoard4002_open(const char* place, int number) {
-    return with_table<int>(__func__, [&](DataboardTable& table) { return table.open(place, number); });
+    return run<int>(__func__,
+                    [&] { return process().alone([&](DataboardTable& table) { return table.open(place, number); }); });
 }
 
 int databoard4002_close(int card) {
-    return with_table<int>(__func__, [&](DataboardTable& table) -> Result<int> {
-        MOTIONRACK_CHECK(table.close(card));
-        return 0;
+    return run<int>(__func__, [&]() -> Result<int> {
+        MOTIONRACK_TRY(const std::shared_ptr<OpenDataboard> board, find_card(card));
+        const std::lock_guard<std::mutex> alone(board->calls());
+        MOTIONRACK_CHECK(find_card(card));
+        return process().alone([card](DataboardTable& table) -> Result<int> { return table.close(card), 0; });
     });
 }
 
@@ -208,9 +213,8 @@ int databoard4002_advance_ms(int card, int milliseconds) {
 }
 
 int64_t databoard4002_now_us(int card) {
-    return with_table<std::int64_t>(__func__, [&](DataboardTable& table) -> Result<std::int64_t> {
-        MOTIONRACK_TRY(const OpenDataboard* board, table.find(card));
-        return board->now() / motionrack::microseconds(1);
+    return value_of_card<std::int64_t>(__func__, card, [](OpenDataboard& board) -> Result<std::int64_t> {
+        return board.now() / motionrack::microseconds(1);
     });
 }
 

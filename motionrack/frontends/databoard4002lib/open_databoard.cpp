@@ -24,9 +24,9 @@ OpenDataboard::OpenDataboard(std::shared_ptr<DataboardBus> bus, rack::Card* card
     : bus_(std::move(bus)),
       card_(card),
       number_(number),
-      time_(time, *stop_),
+      time_(time, *bus_, *stop_),
       library_(port, time_, number),
-      stopper_(port, time, stopper_settings(number)) {}
+      stopper_(port, time_, stopper_settings(number)) {}
 
 Result<void> OpenDataboard::connect() {
     const Result<void> connected = library_.connect();

@@ -178,7 +178,7 @@ TEST(Databoard4002libCommands, AMoveFollowsASlopeThatTheLibraryDesigns) {
     EXPECT_EQ(answer_of(databoard4002_position, card), 5000);
 }
 
-TEST(Databoard4002libCommands, AnEndStopEndsAMoveWithItsSentence) {
+TEST(Databoard4002libCommands, AMoveAgainstAnActiveEndStopNamesIt) {
     const Open card;
     EXPECT_EQ(databoard4002_set_wire(card.handle, "c1.esr", 1), 0) << databoard4002_last_error();
     databoard4002_advance_ms(card.handle, 1);
@@ -279,6 +279,23 @@ TEST(Databoard4002libStops, AnotherThreadStopsALongMove) {
                 testing::AnyOf(HasSubstr("Stopped on request"), HasSubstr("was stopped, and the stop holds")));
     databoard4002_advance_ms(card.handle, 1);
     EXPECT_EQ(peek(card, "MOVING"), 0);
+}
+
+TEST(Databoard4002libStops, AWaitForOneCardLetsTheStopOfAnotherPass) {
+    const Open waiting(two_cards, 7), other(nullptr, 13);
+    EXPECT_EQ(databoard4002_set_rate(waiting.handle, 1), 0);
+    std::string sentence;
+    std::thread mover([&] {
+        databoard4002_move_to(waiting.handle, 8'000'000, 600'000);
+        sentence = databoard4002_last_error();
+    });
+    EXPECT_EQ(databoard4002_stop(other.handle), 0) << databoard4002_last_error();
+    EXPECT_EQ(databoard4002_stop(waiting.handle), 0) << databoard4002_last_error();
+    mover.join();
+    EXPECT_THAT(sentence,
+                testing::AnyOf(HasSubstr("Stopped on request"), HasSubstr("was stopped, and the stop holds")));
+    EXPECT_EQ(databoard4002_reset_stop(other.handle), 0) << databoard4002_last_error();
+    EXPECT_EQ(databoard4002_move_to(other.handle, 10, 1000), 0) << databoard4002_last_error();
 }
 
 // ---- the library's names
