@@ -248,7 +248,7 @@ class UsersOfAServedRackOnABadDisk : public ServedRackOnABadDisk {
         const std::int64_t before = calls_with([](Served&) { return json(); }), count = calls_with(change);
         ASSERT_GT(count, before);
         EXPECT_EQ(names(), after);
-        const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 3, 20));
+        const auto tried = static_cast<std::int64_t>(trials("MOTIONRACK_SERVED_CALLS", 3, 20));
         const std::int64_t step = std::max<std::int64_t>(1, (count - before) / tried);
         for (std::int64_t nth = before + 1; nth <= count; nth += step)
             for (const char* fault : {"fail", "tear", "drop"}) {

@@ -132,11 +132,12 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
     ~OnABadDisk() override {
         for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) std::filesystem::remove(state_ + end);
     }
-    /// Every writing call, or a selection with the first and the last.
+    /// Every writing call, or a selection by the seed with the last.
     std::vector<std::int64_t> chosen(std::int64_t calls, std::uint64_t everyday) const {
-        const auto count = static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", everyday, 100));
+        const auto count = std::min(calls, static_cast<std::int64_t>(trials("MOTIONRACK_JOURNAL_CALLS", everyday, 100)));
         std::vector<std::int64_t> out;
-        for (std::int64_t i = 0; i < std::min(calls, count); ++i) out.push_back(1 + i * calls / std::min(calls, count));
+        const auto shift = static_cast<std::int64_t>((seed_from_environment() - 1) % static_cast<std::uint64_t>(calls));
+        for (std::int64_t i = 0; i < count; ++i) out.push_back(1 + (i * calls / count + shift) % calls);
         if (!out.empty()) out.push_back(calls);
         return out;
     }
