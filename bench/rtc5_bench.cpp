@@ -116,7 +116,7 @@ void run_recorded(benchmark::State& state, Work work, bool real_mirrors, bool le
     card.start_loop();
     (void)card.execute_list(1);
     parts::StationSettings settings;
-    settings.galvo.ideal = !real_mirrors;
+    settings.galvo.ideal_mirrors = !real_mirrors;
     if (lens) settings.lens = sim::ScanLens{};
     settings.workpiece.max_points = 100'000;
     Station station(settings);

@@ -24,7 +24,7 @@ struct Trial {
     bool hosts = false;                 ///< all three cards are hosts, without checks
     std::array<double, 3> offset_us{};  ///< of their clocks
     double drift_ppm = 0;               ///< of the clock of card "step"
-    double compute_us = 20;
+    double control_delay_us = 20;
     std::string fault;  ///< of card "step", at 0.25 s
 };
 
@@ -41,11 +41,11 @@ rack::RackConfig with(rack::RackConfig config, const Trial& trial) {
     for (rack::RackCard& card : config.cards) {
         if (card.type != "grating_bus" || !trial.hosts) continue;
         card.grating_bus.role = rack::GratingRole::host;
-        card.grating_bus.checks = false;
+        card.grating_bus.verify_lines = false;
         card.grating_bus.offset_ns = 1e3 * trial.offset_us[host++];
         if (card.name == "step") card.grating_bus.period_us *= 1 + 1e-6 * trial.drift_ppm;
     }
-    for (rack::RackStage& stage : config.stages) stage.servo->compute_us = trial.compute_us;
+    for (rack::RackStage& stage : config.stages) stage.servo->control_delay_us = trial.control_delay_us;
     return config;
 }
 
@@ -134,7 +134,7 @@ int main(int count, char** words) {
     std::array<Trial, 5> trials;
     trials[0].name = "host and two slaves";
     trials[1].name = "host and two slaves, processors that need 180 us";
-    trials[1].compute_us = 180;
+    trials[1].control_delay_us = 180;
     trials[2].name = "host and two slaves, card step 5 us late from 0.25 s on";
     trials[2].fault = "late=5000";
     trials[3].name = "three hosts, clocks 3 and 7 us apart";

@@ -6,7 +6,7 @@ namespace {
 
 parts::DcMotorSettings motor_with(double load) {
     parts::DcMotorSettings settings;
-    settings.load = load;
+    settings.load_inertia_ratio = load;
     return settings;
 }
 
@@ -14,7 +14,7 @@ parts::DcMotorSettings motor_with(double load) {
 
 Bench::Bench(double load, Duration pass)
     : motor_(kernel_, "motor", motor_with(load)),
-      card_(kernel_, "c", {.pass_ticks = static_cast<std::int32_t>(pass / nanoseconds(2'500))}),
+      card_(kernel_, "c", {.firmware_pass_ticks = static_cast<std::int32_t>(pass / nanoseconds(2'500))}),
       port_(kernel_, bus_, bus_.id(), bus_.interrupt_wire(), nanoseconds(250)),
       driver_(port_, port_, {.select = 13, .counts_per_mm = counts_per_mm}) {
     card_.connect_encoder(motor_);

@@ -13,8 +13,12 @@ constexpr double volt = 1e5;                               // counts/s per volt
 
 Bench::Bench() : port_(kernel_, bus_, bus_.id(), bus_.interrupt_wire(), nanoseconds(250)), flex_(port_, port_) {
     bus_.plug(card_);
-    const parts::DcMotorSettings motor{
-        .gain = volt, .saturation_velocity = 1e6, .top_accel = 1e7, .lag_s = 0.01, .friction = 0, .dead_band_v = 0};
+    const parts::DcMotorSettings motor{.gain = volt,
+                                       .saturation_velocity = 1e6,
+                                       .current_limit_accel = 1e7,
+                                       .time_constant_s = 0.01,
+                                       .coulomb_friction = 0,
+                                       .dead_band_v = 0};
     for (int axis = 0; axis < axis_count; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         const std::string name = fmt::format("encoder{}", axis);

@@ -36,7 +36,7 @@ class Bench {
 
   private:
     sim::Kernel kernel_;
-    Card card_{kernel_, "p1", {.loaded = true}};
+    Card card_{kernel_, "p1", {.preloaded = true}};
     ioflex02::Bus bus_{kernel_, "bus"};
     sim::WireConnections junctions_{kernel_};
     sim::VirtualPort port_;

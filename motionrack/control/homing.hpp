@@ -18,15 +18,15 @@ enum class HomingMethod : std::uint8_t {
 };
 
 struct HomingRequest {
-    HomingMethod type = HomingMethod::twice_to_switch;
+    HomingMethod method = HomingMethod::twice_to_switch;
     bool towards_plus = false;   ///< direction of the search
     double search_velocity = 0;  ///< > 0, at most the velocity limit
     double latch_velocity = 0;   ///< for the second approach and the index search, > 0, at most the velocity step limit
-    double position = 0;         ///< home offset: position value assigned at home
+    double home_offset = 0;      ///< position value assigned at home
     /// Switch hysteresis: distance back until release. Edges that it does not explain invalidate the result. Absent:
     /// edges are not compared.
     std::optional<double> hysteresis;
-    double clearance = 0.1;     ///< back-off beyond the release of the switch, mm or degrees, >= 0
+    double backoff = 0.1;       ///< back-off beyond the release of the switch, mm or degrees, >= 0
     double settle_s = 0.005;    ///< debounce: time for which contacts must be stable, 0 .. 10 s
     double travel = 0;          ///< longest search, mm or degrees; 0: 1.2 times the travel of the axis
     bool turn_at_limit = true;  ///< at a limit switch, search in the other direction
@@ -56,7 +56,7 @@ struct HomingStateVisit {
 };
 
 struct HomingResult {
-    HomingMethod type = HomingMethod::twice_to_switch;
+    HomingMethod method = HomingMethod::twice_to_switch;
     bool towards_plus = false;
     bool homed = false;    ///< the position is valid
     std::string sentence;  ///< the outcome as a sentence

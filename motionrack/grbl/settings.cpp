@@ -70,7 +70,7 @@ constexpr std::array<Setting, 22> table = {{
     {23, 0, "homing direction invert, mask: axes that search in - direction",
      [](const RackConfig& c) {
          return mask(c, [&](const RackAxis& axis) {
-             return c.can_home(axis) && axis.homing.direction == rack::HomingDirection::minus;
+             return c.can_home(axis) && axis.homing.search_direction == rack::HomingDirection::minus;
          });
      },
      nullptr},
@@ -94,7 +94,7 @@ constexpr std::array<Setting, 22> table = {{
      nullptr},
     {27, 3, "homing pull-off, mm",
      [](const RackConfig& c) {
-         return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.clearance; });
+         return of_homing(c, [](const control::HomingRequest& order, const RackAxis&) { return order.backoff; });
      },
      nullptr},
     {30, 0, "maximum spindle speed, rpm", nullptr, &SessionSettingValues::max_rpm, 1e6},
@@ -106,7 +106,7 @@ constexpr std::array<AxisSetting, 4> axis_table = {{
     {100, "pulses per mm or degree", [](const RackAxis& axis) { return axis.pulses_per_unit(); }},
     {110, "maximum velocity, mm/min", [](const RackAxis& axis) { return axis.max_velocity * 60; }},
     {120, "acceleration, mm/s2", [](const RackAxis& axis) { return axis.max_accel; }},
-    {130, "travel, mm", [](const RackAxis& axis) { return axis.max_position - axis.min_position; }},
+    {130, "travel, mm", [](const RackAxis& axis) { return axis.max_limit - axis.min_limit; }},
 }};
 
 double axis_value(const RackConfig& config, const AxisSetting& setting, int axis) {

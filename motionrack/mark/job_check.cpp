@@ -82,7 +82,7 @@ void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
         wrong("tracking_error_us",
               "The card compensates tracking errors of encoders only, not of a McBSP source; use offset_us, which is "
               "exact at constant velocity.");
-    if (fly.waits == WaitMode::none) return;
+    if (fly.wait_mode == WaitMode::none) return;
     const double quarter = job.belt.direction_deg / 90;
     if (job.belt.rotary)
         wrong("wait_mode", "Waits need a belt; on a table mark [parts] one after the other.");

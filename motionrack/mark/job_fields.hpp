@@ -15,7 +15,7 @@ using rack::with_lines;
 
 inline constexpr std::array<std::string_view, 2> anchors = {"centre", "origin"};
 inline constexpr std::array<std::string_view, 4> modes = {"off", "encoder", "simulated", "mcbsp"};
-inline constexpr std::array<std::string_view, 2> waits = {"none", "auto"};
+inline constexpr std::array<std::string_view, 2> wait_modes = {"none", "auto"};
 inline constexpr std::array<std::string_view, 2> starts = {"sensor", "equidistant"};
 
 inline constexpr std::array<Field, 10> drawing_fields = {
@@ -42,8 +42,10 @@ inline constexpr std::array<Field, 3> optics_fields = {
     field<&Optics::correction>("correction", 0, 1, "", "false: without a table in the card"),
 };
 inline constexpr std::array<Field, 7> pace_fields = {
-    formerly("mark_mm_s", field<&ProcessSpeeds::mark_mm_s>("mark_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of marks")),
-    formerly("jump_mm_s", field<&ProcessSpeeds::jump_mm_s>("jump_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps")),
+    formerly("mark_mm_s",
+             field<&ProcessSpeeds::mark_speed_mm_s>("mark_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of marks")),
+    formerly("jump_mm_s",
+             field<&ProcessSpeeds::jump_speed_mm_s>("jump_speed_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps")),
     field<&ProcessSpeeds::jump_delay_us>("jump_delay_us", 0, 1e7, "us", "wait after a jump"),
     field<&ProcessSpeeds::mark_delay_us>("mark_delay_us", 0, 1e7, "us", "wait after a stroke"),
     field<&ProcessSpeeds::polygon_delay_us>("polygon_delay_us", 0, 1e7, "us", "wait at a corner"),
@@ -81,10 +83,10 @@ inline constexpr std::array<Field, 7> fly_fields = {
     field<&FlySettings::offset_us>(
         "offset_us", -1e6, 1e6, "us",
         "shifts all marks ahead by the motion of the belt in this time at its first velocity: for a late source"),
-    with_choices(formerly("waits", field<&FlySettings::waits>(
+    with_choices(formerly("waits", field<&FlySettings::wait_mode>(
                                        "wait_mode", 0, 0, "",
                                        "auto: each stroke waits until it is in the field; long strokes are split")),
-                 waits),
+                 wait_modes),
     field<&FlySettings::margin_mm>("margin_mm", 0, 1000, "mm",
                                    "with waits: minimum distance of marks from the field's edge"),
 };

@@ -35,7 +35,7 @@ struct Optics {
 
 /// Settings in the card's list.
 struct ProcessSpeeds {
-    double mark_mm_s = 500, jump_mm_s = 3000;
+    double mark_speed_mm_s = 500, jump_speed_mm_s = 3000;
     double jump_delay_us = 0, mark_delay_us = 0, polygon_delay_us = 0;  ///< multiples of 10 us
     double laser_on_us = 0, laser_off_us = 0;                           ///< multiples of 0.5 us
 };
@@ -61,7 +61,7 @@ struct FlySettings {
     std::optional<double>
         simulated_velocity;  ///< mm/s or degrees/s represented by the simulated encoder; empty: belt velocity
     double offset_us = 0;    ///< shifts all marks by the initial belt velocity times this, to compensate a late source
-    WaitMode waits = WaitMode::none;
+    WaitMode wait_mode = WaitMode::none;
     double margin_mm = 1;  ///< with waits: minimum distance of marks from the field edge
 };
 

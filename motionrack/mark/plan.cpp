@@ -92,7 +92,7 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     const bool words = following.mode == FlyMode::mcbsp;
     if (!following.corrects) {
         // No correction, but the waits need a count from 0.
-        if (job.fly.waits != WaitMode::none && !words) list.put(Op::set_fly_x, {0});
+        if (job.fly.wait_mode != WaitMode::none && !words) list.put(Op::set_fly_x, {0});
         return;
     }
     if (!following.track.rotary) return put_linear(list, job, prepared, following);
@@ -124,8 +124,8 @@ void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& follo
 }
 
 void put_settings(List& list, const MarkingJob& job) {
-    list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
-    list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
+    list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_speed_mm_s);
+    list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_speed_mm_s);
     list.put(Op::set_scanner_delays,
              {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
     list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
@@ -284,14 +284,15 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
 Result<std::vector<rtc5::Command>> list_of(const MarkingJob& job, const Prepared& prepared,
                                            const ConveyorTracking& following, std::size_t marked) {
     const Drawing& drawing = prepared.of(marked).drawing;
-    if (job.fly.waits == WaitMode::none) MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
+    if (job.fly.wait_mode == WaitMode::none)
+        MOTIONRACK_CHECK(check_reaches_field(drawing, prepared.field(), following));
     List list(prepared.bits_per_mm);
     if (job.parts && job.parts->start == PartStart::equidistant && marked + 1 < job.parts->size())
         list.put(Op::simulate_ext_start, {counts_of(job, following, job.parts->spacing), 0});
     put_settings(list, job);
     put_offset(list, job, following);
     put_fly(list, job, prepared, following);
-    if (job.fly.waits != WaitMode::none)
+    if (job.fly.wait_mode != WaitMode::none)
         MOTIONRACK_CHECK(put_batches(list, job, prepared, following, drawing));
     else
         for (const Stroke& stroke : drawing.strokes) put_stroke(list, stroke, {}, true);

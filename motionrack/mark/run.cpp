@@ -147,7 +147,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
     const std::int64_t end = card.tick() - line->begin();
     // The mirrors and the laser settle a little later.
     card.run_until(card.tick() +
-                       static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) +
+                       static_cast<std::int64_t>((job.galvo.ideal_mirrors ? 0 : job.galvo.dead_time_us / 10 + 200) +
                                                  job.laser.off_delay_us / 10) +
                        2,
                    &sink);
@@ -200,7 +200,7 @@ Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, 
     out.elements = element_count(prepared.drawing);
     out.field = prepared.field();
     const Box box = box_of(prepared.drawing);
-    const bool waits = out.waits = job.fly.waits != WaitMode::none;
+    const bool waits = out.waits = job.fly.wait_mode != WaitMode::none;
     out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y &&
                                      box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
     const ConveyorTracking with = following_of(job);

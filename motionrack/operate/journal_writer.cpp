@@ -242,7 +242,7 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
     for (const rack::RackAxis& axis : config.axes)
         if (!intact && std::none_of(out.axes.begin(), out.axes.end(),
                                     [&](const InitialAxisState& one) { return one.letter == axis.letter; }))
-            out.axes.push_back({axis.letter, axis.start_position, axis.start_position, false});
+            out.axes.push_back({axis.letter, axis.initial_position, axis.initial_position, false});
     const auto say = [&](const std::string& sentence) {
         out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);
     };

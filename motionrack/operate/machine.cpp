@@ -40,7 +40,7 @@ Result<void> has_axes(const rack::RackConfig& config, const char* what) {
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
     for (const InitialAxisState& one : standing)
         for (rack::RackAxis& axis : config.axes)
-            if (axis.letter == one.letter) axis.start_position = one.true_position;
+            if (axis.letter == one.letter) axis.initial_position = one.true_position;
     return config;
 }
 
@@ -273,7 +273,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
         return fail(ErrorKind::invalid_input,
                     fmt::format("Not jogged: {} by {} a second is not a motion.", distance, speed));
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
-    const double travel = found->max_position - found->min_position;
+    const double travel = found->max_limit - found->min_limit;
     if (position_valid(*found) && std::fabs(distance) > travel)
         return not_now(
             fmt::format("Not jogged: the distance is {:g} {}, but the travel of axis {} is {:g}. Nothing "

@@ -18,7 +18,7 @@ namespace {
 InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& reported, bool known) {
     for (const InitialAxisState& one : reported)
         if (one.letter == axis.letter) return one;
-    return {axis.letter, axis.start_position, axis.start_position, known};
+    return {axis.letter, axis.initial_position, axis.initial_position, known};
 }
 
 Result<control::AxisGroup*> path_group(rack::Rack& rack, control::NoAxes& none) {

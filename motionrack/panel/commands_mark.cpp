@@ -35,7 +35,7 @@ void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, c
         if (scanner.card != card) continue;
         job.optics.bits_per_mm = scanner.bits_per_mm;
         job.lens = scanner.lens;
-        const rack::RackConveyor* track = scanner.track ? config.track(*scanner.track) : nullptr;
+        const rack::RackConveyor* track = scanner.conveyor ? config.track(*scanner.conveyor) : nullptr;
         if (track == nullptr) return;
         job.belt.velocity = track->velocity;
         job.belt.profile = track->profile;

@@ -20,8 +20,8 @@ json axes_of(const rack::RackConfig& config) {
                        {"unit", axis.unit()},
                        {"card", axis.card},
                        {"channel", axis.channel},
-                       {"min", axis.min_position},
-                       {"max", axis.max_position},
+                       {"min", axis.min_limit},
+                       {"max", axis.max_limit},
                        {"max_velocity", axis.max_velocity},
                        {"max_accel", axis.max_accel},
                        {"pulses_per_unit", axis.pulses_per_unit()},
@@ -48,8 +48,8 @@ json parts_of(const rack::RackConfig& config) {
                        {"output", stage.output},
                        {"input", stage.input},
                        {"servo", stage.servo.has_value()},
-                       {"min", stage.end_minus_mm},
-                       {"max", stage.end_plus_mm}});
+                       {"min", stage.hard_stop_minus_mm},
+                       {"max", stage.hard_stop_plus_mm}});
     for (const rack::RackConveyor& track : config.tracks)
         out.push_back({{"name", track.name},
                        {"kind", track.rotary ? "table" : "belt"},
@@ -60,7 +60,7 @@ json parts_of(const rack::RackConfig& config) {
         out.push_back({{"name", scanner.name},
                        {"kind", "scanner"},
                        {"card", scanner.card},
-                       {"track", scanner.track ? json(*scanner.track) : json()},
+                       {"track", scanner.conveyor ? json(*scanner.conveyor) : json()},
                        {"bits_per_mm", scanner.bits_per_mm}});
     return out;
 }
@@ -135,7 +135,7 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
     if (const auto piece = station.workpiece().collecting())
         out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
     if (const rack::RunningConveyor* track =
-            scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
+            scanner->config.conveyor ? machine.rack().track(*scanner->config.conveyor) : nullptr)
         out["part"] = {{"name", track->config.name},
                        {"unit", track->config.unit()},
                        {"position", track->track().travel(to_seconds(machine.now()))},

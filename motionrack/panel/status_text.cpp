@@ -56,7 +56,7 @@ namespace {
 double near_of(const rack::RackAxis& axis) {
     const double counts = axis.counts_per_unit();
     const double rounding = 2 * std::max(1 / axis.pulses_per_unit(), counts > 0 ? 1 / counts : 0);
-    return std::max(rounding, axis.servo ? axis.servo->hold_within.value_or(0) : 0);
+    return std::max(rounding, axis.servo ? axis.servo->position_window.value_or(0) : 0);
 }
 
 }  // namespace
@@ -100,8 +100,8 @@ StatusWriter::StatusWriter(operate::Machine& machine) {
     for (const rack::RackAxis& axis : config.axes) {
         Facts::Axis one{std::string(axis.unit()),
                         config.can_home(axis),
-                        axis.min_position,
-                        axis.max_position,
+                        axis.min_limit,
+                        axis.max_limit,
                         axis.max_velocity,
                         near_of(axis),
                         {}};

@@ -38,7 +38,7 @@ constexpr std::array<Field, 6> ioflex02_settings = {
     field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
     field<&Ioflex02Settings::configuration_ms>(
         "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
-    formerly("loaded", field<&Ioflex02Settings::loaded>(
+    formerly("loaded", field<&Ioflex02Settings::preloaded>(
                            "preloaded", 0, 0, "", "true: its project runs from the start; false: the host loads it")),
     absent_means(field<&Ioflex02Settings::image>(
                      "image", 0, 2 * ioflex02::max_image_file, "",
@@ -115,8 +115,8 @@ constexpr std::array<Field, 15> grating_bus_settings = {
     with_choices(field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "",
                                                              "direction of the level shifter of addr"),
                  shifter_ways),
-    formerly("checks", field<&GratingBusSettings::checks>("verify_lines", 0, 0, "",
-                                                          "frames with wrong line levels are not published")),
+    formerly("checks", field<&GratingBusSettings::verify_lines>("verify_lines", 0, 0, "",
+                                                                "frames with wrong line levels are not published")),
     field<&GratingBusSettings::seed>("seed", 0, 2'147'483'647, "", "of the jitter that can be injected"),
     field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
                                               "time that one access of the processor takes"),

@@ -59,7 +59,7 @@ constexpr std::array<DefaultWire, 8> mcx314_wires = {{
 constexpr std::array<std::string_view, 2> mcx314_variants = {"mcx314", "mcx314as"};
 constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
 
-constexpr std::array<std::string_view, 2> slow_drives = {"at V", "at SV"};
+constexpr std::array<std::string_view, 2> low_speed_drives = {"at V", "at SV"};
 constexpr std::array<std::string_view, 2> software_limits = {"beyond", "at"};
 
 constexpr std::array<Field, 8> mcx314_settings = {
@@ -67,10 +67,10 @@ constexpr std::array<Field, 8> mcx314_settings = {
                                                  "the chip: the original, or the one with filters, automatic home "
                                                  "search, synchronous actions and wide ranges"),
                  mcx314_variants),
-    with_choices(formerly("slow_drives", field<&Mcx314Settings::slow_drives>(
+    with_choices(formerly("slow_drives", field<&Mcx314Settings::low_speed_drive>(
                                              "low_speed_drive", 0, 0, "",
                                              "the speed of a drive with V <= SV; the sources do not agree")),
-                 slow_drives),
+                 low_speed_drives),
     with_choices(field<&Mcx314Settings::software_limits>(
                      "software_limits", 0, 0, "",
                      "whether + software limits begin beyond COMP+ or at it; the sources do not agree"),
@@ -160,15 +160,15 @@ constexpr std::array<StopPin, 3> databoard4002_stop_pins = {{
 constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "in3"};
 constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, databoard4002_zeros = {"zero"};
 
-constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
-                                                                     "up/down"};
+constexpr std::array<std::string_view, 4> databoard4002_count_modes = {"quadrature x4", "quadrature x2",
+                                                                       "quadrature x1", "up/down"};
 
 constexpr std::array<Field, 11> databoard4002_settings = {
-    formerly("select", field<&Databoard4002Settings::select>("card_number", 0, 31, "",
-                                                             "its number on the bus; the host selects it by port 1")),
-    with_choices(formerly("counting", field<&Databoard4002Settings::counting>("count_mode", 0, 0, "",
-                                                                              "counting of O1 and O2, by the straps")),
-                 databoard4002_countings),
+    formerly("select", field<&Databoard4002Settings::card_number>(
+                           "card_number", 0, 31, "", "its number on the bus; the host selects it by port 1")),
+    with_choices(formerly("counting", field<&Databoard4002Settings::count_mode>(
+                                          "count_mode", 0, 0, "", "counting of O1 and O2, by the straps")),
+                 databoard4002_count_modes),
     field<&Databoard4002Settings::first_pair>(
         "first_pair", 0, 3, "", "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
     field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "",
@@ -182,7 +182,7 @@ constexpr std::array<Field, 11> databoard4002_settings = {
                                         "between, as in \"0.01 13799, 0.025 14051\"; empty: the printed one"),
     field<&Databoard4002Settings::version>("version", 0, 255, "",
                                            "version of the card's program, as the command V returns it"),
-    formerly("pass_ticks", field<&Databoard4002Settings::pass_ticks>(
+    formerly("pass_ticks", field<&Databoard4002Settings::firmware_pass_ticks>(
                                "firmware_pass_ticks", 1, 4'000, "", "ticks of 2.5 us in a pass of the card's program")),
     field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",
                                                 "time that the card's program takes for an access"),
@@ -202,7 +202,7 @@ double any_accel(const RackCard&) {
 // Counts all edges; an up or down pulse counts as one pulse.
 double databoard4002_encoder_hz(const RackCard& card) {
     const Databoard4002Settings& own = card.databoard4002;
-    return (own.single_ended ? 50'000.0 : 100'000.0) * (own.counting == Databoard4002Counting::up_down ? 1 : 4);
+    return (own.single_ended ? 50'000.0 : 100'000.0) * (own.count_mode == Databoard4002CountMode::up_down ? 1 : 4);
 }
 
 void* databoard4002_of(RackCard& card) {
@@ -212,21 +212,21 @@ void* databoard4002_of(RackCard& card) {
 std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const RackCard> before) {
     const Databoard4002Settings& own = card.databoard4002;
     for (const RackCard& other : before)
-        if (other.type == card.type && other.databoard4002.select == own.select)
+        if (other.type == card.type && other.databoard4002.card_number == own.card_number)
             return CardFlaw{
                 "card_number",
                 fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
                             "`card_number` (0 .. 31).",
-                            other.name, card.name, own.select)};
+                            other.name, card.name, own.card_number)};
     if (const auto trim = databoard4002::trim_from_text(own.trim); !trim)
         return CardFlaw{"trim", fmt::format("Card {}: {}", card.name, trim.error().message)};
-    const std::int64_t max_pair = own.counting == Databoard4002Counting::quadrature_2   ? 1
-                                  : own.counting == Databoard4002Counting::quadrature_1 ? 3
-                                                                                        : 0;
+    const std::int64_t max_pair = own.count_mode == Databoard4002CountMode::quadrature_2   ? 1
+                                  : own.count_mode == Databoard4002CountMode::quadrature_1 ? 3
+                                                                                           : 0;
     if (own.first_pair <= max_pair) return std::nullopt;
     return CardFlaw{"first_pair",
                     fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name,
-                                own.first_pair, databoard4002_countings[static_cast<std::size_t>(own.counting)],
+                                own.first_pair, databoard4002_count_modes[static_cast<std::size_t>(own.count_mode)],
                                 max_pair == 0 ? "0" : fmt::format("0 .. {}", max_pair))};
 }
 

@@ -165,7 +165,7 @@ class Mcx314Card final : public MotionCard {
     static mcx314::ChipOptions options_of(const Mcx314Settings& settings) {
         mcx314::ChipOptions options;
         if (settings.variant == Mcx314Variant::mcx314as) options.variant = mcx314::Variant::mcx314as;
-        if (settings.slow_drives == Mcx314SlowDrives::at_sv) options.slow_drive = mcx314::SlowDrive::at_sv;
+        if (settings.low_speed_drive == Mcx314LowSpeedDrive::at_sv) options.slow_drive = mcx314::SlowDrive::at_sv;
         if (settings.software_limits == Mcx314SoftwareLimits::at) options.software_limit = mcx314::SoftwareLimit::at;
         options.offset_after_reset = static_cast<std::uint16_t>(settings.ao_after_reset);
         return options;
@@ -285,7 +285,7 @@ constexpr CardKind kinds[] = {
 }  // namespace
 
 CardBus bus_of(Card& card, const RackCard& config) {
-    return {card.port(), card.byte_port(), &card.host(), static_cast<std::uint8_t>(config.databoard4002.select)};
+    return {card.port(), card.byte_port(), &card.host(), static_cast<std::uint8_t>(config.databoard4002.card_number)};
 }
 
 tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more) {

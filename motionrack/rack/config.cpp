@@ -44,7 +44,7 @@ RackAxis default_axis(char letter) {
     RackAxis axis;
     axis.letter = letter;
     axis.kind = axis.index() < 3 ? AxisKind::linear : AxisKind::rotary;
-    if (axis.kind == AxisKind::rotary) axis.max_position = 360;
+    if (axis.kind == AxisKind::rotary) axis.max_limit = 360;
     return axis;
 }
 
@@ -79,8 +79,8 @@ control::MachineLimits RackConfig::limits() const {
     for (const RackAxis& axis : axes) {
         control::AxisLimits& limits = out[static_cast<std::size_t>(axis.index())];
         limits.present = true;
-        limits.min_position = axis.min_position;
-        limits.max_position = axis.max_position;
+        limits.min_position = axis.min_limit;
+        limits.max_position = axis.max_limit;
         limits.max_velocity = axis.max_velocity;
         limits.max_accel = axis.max_accel;
         limits.max_jerk = axis.max_jerk;

@@ -25,13 +25,13 @@ enum class BusWidth : std::uint8_t { bits16, bits8 };
 /// Chip variants of a card of type mcx314.
 enum class Mcx314Variant : std::uint8_t { mcx314, mcx314as };
 /// Points on which the sources disagree: the velocity of a drive with V <= SV, the start of + software limits.
-enum class Mcx314SlowDrives : std::uint8_t { at_v, at_sv };
+enum class Mcx314LowSpeedDrive : std::uint8_t { at_v, at_sv };
 enum class Mcx314SoftwareLimits : std::uint8_t { beyond, at };
 
 /// Settings of a card of type mcx314.
 struct Mcx314Settings {
     Mcx314Variant variant = Mcx314Variant::mcx314;
-    Mcx314SlowDrives slow_drives = Mcx314SlowDrives::at_v;
+    Mcx314LowSpeedDrive low_speed_drive = Mcx314LowSpeedDrive::at_v;
     Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
     std::int64_t ao_after_reset = 8;     ///< 0 .. 65,535 pulses
     std::int64_t clock_hz = 16'000'000;  ///< this value only: the model's tick is 125 ns
@@ -41,21 +41,21 @@ struct Mcx314Settings {
 };
 
 /// How O1 and O2 of a DataBoard 4002 are counted: edges per period of the encoder.
-enum class Databoard4002Counting : std::uint8_t { quadrature_4, quadrature_2, quadrature_1, up_down };
+enum class Databoard4002CountMode : std::uint8_t { quadrature_4, quadrature_2, quadrature_1, up_down };
 
 /// Settings of a card of type databoard4002: straps, firmware version, bus address.
 struct Databoard4002Settings {
-    std::int64_t select = 13;  ///< card number on the common bus, 0 .. 31
-    Databoard4002Counting counting = Databoard4002Counting::quadrature_4;
-    std::int64_t first_pair = 0;          ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
-    bool single_ended = false;            ///< encoder lines up to 50 kHz instead of 100 kHz
-    bool zeroing = true;                  ///< enabling the zero or reference event arms the zeroing
-    bool quit_zeroes = true;              ///< the command Q zeroes what P and N have set
-    std::string trim;                     ///< see databoard4002::trim_from_text
-    std::int64_t version = 32;            ///< answer to the command V, 0 .. 255
-    std::int64_t pass_ticks = 1;          ///< 1 .. 4,000 ticks of 2.5 us
-    std::int64_t byte_time_ns = 100'000;  ///< 2,500 .. 100,000,000 ns
-    std::int64_t bus_access_ns = 1'000;   ///< 0 .. 100,000 ns
+    std::int64_t card_number = 13;  ///< number on the common bus, 0 .. 31
+    Databoard4002CountMode count_mode = Databoard4002CountMode::quadrature_4;
+    std::int64_t first_pair = 0;           ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
+    bool single_ended = false;             ///< encoder lines up to 50 kHz instead of 100 kHz
+    bool zeroing = true;                   ///< enabling the zero or reference event arms the zeroing
+    bool quit_zeroes = true;               ///< the command Q zeroes what P and N have set
+    std::string trim;                      ///< see databoard4002::trim_from_text
+    std::int64_t version = 32;             ///< answer to the command V, 0 .. 255
+    std::int64_t firmware_pass_ticks = 1;  ///< 1 .. 4,000 ticks of 2.5 us
+    std::int64_t byte_time_ns = 100'000;   ///< 2,500 .. 100,000,000 ns
+    std::int64_t bus_access_ns = 1'000;    ///< 0 .. 100,000 ns
 };
 
 /// Settings of a card of type ioflex02.
@@ -63,7 +63,7 @@ struct Ioflex02Settings {
     std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: address on the common bus
     std::int64_t serial = 1;             ///< 0 .. 65,535
     double configuration_ms = 2'000;     ///< 0 .. 60,000 ms from the image's last byte to the running project
-    bool loaded = true;                  ///< a project runs from power-up, without a download by the host
+    bool preloaded = true;               ///< a project runs from power-up, without a download by the host
     std::string image;                   ///< compressed image in hexadecimal digits; empty: the built-in image
     std::int64_t bus_access_ns = 500;    ///< 0 .. 100,000 ns
 };
@@ -84,7 +84,7 @@ struct GratingBusSettings {
     double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most one period
     GratingShifter clock_shifter = GratingShifter::as_role;
     GratingShifter address_shifter = GratingShifter::as_role;
-    bool checks = true;
+    bool verify_lines = true;
     std::int64_t seed = 1;            ///< 0 .. 2^31 - 1
     std::int64_t bus_access_ns = 40;  ///< 0 .. 100,000 ns
 };
@@ -133,11 +133,12 @@ struct RackServo {
     double velocity_per_volt = 100;             ///< mm/s or degrees/s per volt
     std::optional<double> saturation_velocity;  ///< saturation of the amplifier; absent: the velocity at 10 V
     double current_limit_accel = 5000;          ///< acceleration at the amplifier's current limit, without a load
-    double friction = 50;                       ///< deceleration without current, per second squared
-    double lag_ms = 10;                         ///< time constant of the velocity
+    double coulomb_friction = 50;               ///< deceleration without current, per second squared
+    double time_constant_ms = 10;               ///< time constant of the velocity
     double dead_band_v = 0.005;                 ///< amplifier output is 0 below this voltage, V
-    double load = 0;                            ///< load inertia in units of the motor's own inertia
-    std::optional<double> hold_within;  ///< position window that the card holds after a move; absent: no position hold
+    double load_inertia_ratio = 0;              ///< load inertia in units of the motor's own inertia
+    std::optional<double>
+        position_window;  ///< position window that the card holds after a move; absent: no position hold
 
     /// Maximum velocity.
     double saturation() const { return saturation_velocity.value_or(10 * velocity_per_volt); }
@@ -160,14 +161,14 @@ enum class HomingDirection : std::uint8_t { minus, plus };
 
 /// Homing of an axis; see control/homing.hpp.
 struct RackHoming {
-    std::int64_t type = 2;                               ///< homing method, 1 .. 4: control::HomingMethod
-    HomingDirection direction = HomingDirection::minus;  ///< search direction of the home switch
-    std::optional<double> search_velocity;               ///< search velocity; absent: a quarter of max_velocity
-    std::optional<double> latch_velocity;                ///< latch velocity; absent: a quarter of max_velocity_step
-    std::optional<double> position;                      ///< position of home; absent: position of the switch's edge
+    std::int64_t method = 2;                                    ///< method, 1 .. 4: control::HomingMethod
+    HomingDirection search_direction = HomingDirection::minus;  ///< search direction of the home switch
+    std::optional<double> search_velocity;                      ///< search velocity; absent: a quarter of max_velocity
+    std::optional<double> latch_velocity;  ///< latch velocity; absent: a quarter of max_velocity_step
+    std::optional<double> home_offset;     ///< position of home; absent: position of the switch's edge
     std::optional<double> index_after;  ///< distance from the switch to the index; absent: as found by the first homing
-    double clearance = 0.1;             ///< further travel after the switch is released, mm or degrees
-    std::int64_t order = 0;  ///< axes with the lowest number are homed first, axes with equal numbers together
+    double backoff = 0.1;               ///< further travel after the switch is released, mm or degrees
+    std::int64_t sequence = 0;  ///< axes with the lowest number are homed first, axes with equal numbers together
 };
 
 /// One axis of the machine. Positions are in mm (linear) or degrees (rotary), the axis' "unit"; time is in seconds.
@@ -184,9 +185,9 @@ struct RackAxis {
     double max_accel = 1000;
     double max_jerk = 20'000;  ///< 0: trapezoidal profile
     double max_velocity_step = 2;
-    double min_position = 0;
-    double max_position = 300;
-    double start_position = 0;                   ///< machine position when the rack starts
+    double min_limit = 0;
+    double max_limit = 300;
+    double initial_position = 0;                 ///< machine position when the rack starts
     std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 per line) per motor revolution; 0: no encoder
     bool reversed = false;  ///< the motor is mounted in reverse; the direction signal is inverted to match
     std::optional<double> following_error_warning, following_error_alarm;  ///< see following_warning(); 0: none
@@ -223,10 +224,10 @@ RackAxis default_axis(char letter);
 /// A touch probe and the workpiece that it touches, in machine coordinates, mm. An axis without both bounds does not
 /// limit the workpiece.
 struct RackProbe {
-    std::optional<double> x_from, x_to, y_from, y_to, z_from, z_to;
+    std::optional<double> x_min, x_max, y_min, y_max, z_min, z_max;
 
-    std::optional<double> from(int axis) const { return axis == 0 ? x_from : axis == 1 ? y_from : z_from; }
-    std::optional<double> to(int axis) const { return axis == 0 ? x_to : axis == 1 ? y_to : z_to; }
+    std::optional<double> lower(int axis) const { return axis == 0 ? x_min : axis == 1 ? y_min : z_min; }
+    std::optional<double> upper(int axis) const { return axis == 0 ? x_max : axis == 1 ? y_max : z_max; }
 };
 
 // ---- Stages
@@ -236,10 +237,10 @@ struct RackScale {
     double pitch_um = 20;               ///< 0.001 .. 1000 um, whole pm
     std::int64_t interpolation = 4096;  ///< counts per pitch: 4 .. 65,536, a multiple of 4
     bool reversed = false;              ///< counts down while the stage moves up
-    double zero_mm = 0;                 ///< position of count 0
+    double zero_offset_mm = 0;          ///< position of count 0
     double max_count_rate_mhz = 20;     ///< million counts per second: 0.001 .. 1000
     std::optional<double> index_mm;     ///< position of the reference mark
-    double dirt_at_mm = 0;              ///< start of the dirt of the fault scale.dirt
+    double dirt_position_mm = 0;        ///< start of the dirt of the fault scale.dirt
 };
 
 /// Motion of a stage's servo.
@@ -247,20 +248,20 @@ enum class StageProfile : std::uint8_t { hold, scan, steps };
 
 /// Control loop on the processor of a stage's card, and its motion.
 struct RackStageServo {
-    double bandwidth_hz = 250;     ///< 1 .. 10,000 Hz: crossover of the open loop
-    std::optional<double> p_v_um;  ///< gains; absent: derived from the bandwidth
-    std::optional<double> i_v_um_s;
-    std::optional<double> d_v_s_um;
-    double limit_um = 100;   ///< 0 .. 1e6 um: a greater following error opens the loop; 0: no limit
-    double compute_us = 20;  ///< delay from the frame to the voltage, 0 .. 100,000 us
+    double bandwidth_hz = 250;      ///< 1 .. 10,000 Hz: crossover of the open loop
+    std::optional<double> kp_v_um;  ///< gains; absent: derived from the bandwidth
+    std::optional<double> ki_v_um_s;
+    std::optional<double> kd_v_s_um;
+    double max_following_error_um = 100;  ///< 0 .. 1e6 um: a greater following error opens the loop; 0: no limit
+    double control_delay_us = 20;         ///< delay from the frame to the voltage, 0 .. 100,000 us
     StageProfile profile = StageProfile::hold;
     double from_mm = 0, to_mm = 10;  ///< scan: range of constant velocity
     double step_mm = 1;              ///< steps: not 0
     std::int64_t steps = 4;          ///< steps: number of steps up, and of steps down after them
-    double every_ms = 100;           ///< steps: step period, at least the duration of one step
+    double step_period_ms = 100;     ///< steps: step period, at least the duration of one step
     double max_velocity_mm_s = 80;
-    double accel_mm_s2 = 8'000;
-    double jerk_mm_s3 = 1e6;
+    double max_accel_mm_s2 = 8'000;
+    double max_jerk_mm_s3 = 1e6;
     double delay_ms = 0;  ///< start of the profile
 };
 
@@ -273,12 +274,12 @@ struct RackStage {
     double accel_per_volt_m_s2 = 5;
     double current_limit_accel_m_s2 = 50;
     double saturation_velocity_m_s = 2;
-    double viscous_per_s = 0;
-    double coulomb_m_s2 = 0;
-    double load = 0;
+    double viscous_friction_per_s = 0;
+    double coulomb_friction_m_s2 = 0;
+    double load_mass_ratio = 0;
     std::optional<double> start_mm;  ///< absent: start of the servo's profile
-    double end_minus_mm = -1000;
-    double end_plus_mm = 1000;
+    double hard_stop_minus_mm = -1000;
+    double hard_stop_plus_mm = 1000;
     RackScale scale;
     std::optional<RackStageServo> servo;  ///< absent: the stage is not driven
 };

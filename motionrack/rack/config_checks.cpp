@@ -94,18 +94,18 @@ class AxisCheck {
     void travel() {
         const std::string_view u = axis_.unit();
         if (!source_.sound({"min_limit_{u}", "max_limit_{u}"})) return;
-        if (axis_.min_position >= axis_.max_position) {
+        if (axis_.min_limit >= axis_.max_limit) {
             error("min_limit_{u}", {},
                   fmt::format("min_limit_{0} of axis {1} is {2}, not below max_limit_{0}, which is {3}.", u,
-                              axis_.letter, number_text(axis_.min_position), number_text(axis_.max_position)));
+                              axis_.letter, number_text(axis_.min_limit), number_text(axis_.max_limit)));
             return;
         }
         if (source_.sound({"initial_position_{u}"}) &&
-            !inside(axis_.start_position, axis_.min_position, axis_.max_position)) {
+            !inside(axis_.initial_position, axis_.min_limit, axis_.max_limit)) {
             error("initial_position_{u}", {},
                   fmt::format("initial_position_{0} of axis {1} is {2}, outside its travel {3} .. {4} {0}.", u,
-                              axis_.letter, number_text(axis_.start_position), number_text(axis_.min_position),
-                              number_text(axis_.max_position)));
+                              axis_.letter, number_text(axis_.initial_position), number_text(axis_.min_limit),
+                              number_text(axis_.max_limit)));
         }
     }
 
@@ -113,9 +113,9 @@ class AxisCheck {
         const std::string_view u = axis_.unit();
         const RackSwitches& s = axis_.switches;
         if (!source_.sound({"min_limit_{u}", "max_limit_{u}", "limit_minus_{u}", "limit_plus_{u}", "home_{u}"})) return;
-        if (axis_.min_position >= axis_.max_position) return;  // already reported
-        const double low = s.limit_minus.value_or(axis_.min_position);
-        const double high = s.limit_plus.value_or(axis_.max_position);
+        if (axis_.min_limit >= axis_.max_limit) return;  // already reported
+        const double low = s.limit_minus.value_or(axis_.min_limit);
+        const double high = s.limit_plus.value_or(axis_.max_limit);
         if (low >= high) {
             error(s.limit_minus ? "limit_minus_{u}" : "limit_plus_{u}", "switches",
                   fmt::format("The limit switches of axis {} leave no travel: the lower end is at {} {}, the "
@@ -129,10 +129,10 @@ class AxisCheck {
                               u, axis_.letter, number_text(*s.home), number_text(low), number_text(high)));
         }
         cam();
-        if (s.limit_minus && low >= axis_.min_position)
-            limit_in_travel("limit_minus_{u}", low, "min_limit", axis_.min_position);
-        if (s.limit_plus && high <= axis_.max_position)
-            limit_in_travel("limit_plus_{u}", high, "max_limit", axis_.max_position);
+        if (s.limit_minus && low >= axis_.min_limit)
+            limit_in_travel("limit_minus_{u}", low, "min_limit", axis_.min_limit);
+        if (s.limit_plus && high <= axis_.max_limit)
+            limit_in_travel("limit_plus_{u}", high, "max_limit", axis_.max_limit);
     }
 
     void cam() {
@@ -172,11 +172,11 @@ class AxisCheck {
         };
         above("search_velocity_{u}_s", h.search_velocity, axis_.max_velocity, "max_velocity_{u}_s");
         above("latch_velocity_{u}_s", h.latch_velocity, axis_.max_velocity_step, "max_velocity_step_{u}_s");
-        if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"method", "encoder_counts_per_rev"}))
+        if (h.method >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"method", "encoder_counts_per_rev"}))
             warn("method", "homing",
                  fmt::format("Axis {} is to be homed to its encoder's index (method {}), but it has no encoder.",
-                             axis_.letter, h.type));
-        if (h.type >= 3 && !h.position && !h.index_after && source_.sound({"method"}))
+                             axis_.letter, h.method));
+        if (h.method >= 3 && !h.home_offset && !h.index_after && source_.sound({"method"}))
             warn("method", "homing",
                  fmt::format("Axis {0} needs home_offset_{1} or index_after_{1} to home to its index.", axis_.letter,
                              axis_.unit()));
@@ -255,23 +255,26 @@ class AxisCheck {
         if (!source_.sound({"velocity_per_volt_{u}_s", "saturation_velocity_{u}_s", "current_limit_accel_{u}_s2",
                             "coulomb_friction_{u}_s2", "max_velocity_{u}_s"}))
             return;
-        if (servo.friction >= servo.current_limit_accel)
+        if (servo.coulomb_friction >= servo.current_limit_accel)
             error("coulomb_friction_{u}_s2", "servo",
                   fmt::format("coulomb_friction_{0}_s2 of axis {1} is {2}, not below current_limit_accel_{0}_s2, which "
                               "is {3}: its motor could never start.",
-                              u, axis_.letter, number_text(servo.friction), number_text(servo.current_limit_accel)));
+                              u, axis_.letter, number_text(servo.coulomb_friction),
+                              number_text(servo.current_limit_accel)));
         if (const double counts = servo.saturation() * axis_.pulses_per_unit(); counts > 1e6)
             error("velocity_per_volt_{u}_s", "servo",
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
                               "saturation_velocity_{}_s or encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.saturation()), u, short_text(counts), u));
-        const double min_velocity = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
+        const double min_velocity =
+            servo.coulomb_friction * servo.time_constant_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
         if (axis_.max_velocity_step <= min_velocity)
             warn("max_velocity_step_{u}_s", {},
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
                              u, axis_.letter, number_text(axis_.max_velocity_step), short_text(min_velocity)));
-        if (const double max_accel = servo.current_limit_accel / (1 + servo.load); axis_.max_accel > max_accel)
+        if (const double max_accel = servo.current_limit_accel / (1 + servo.load_inertia_ratio);
+            axis_.max_accel > max_accel)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
@@ -334,7 +337,7 @@ class AxisCheck {
         const auto max_counts = static_cast<double>(type.max_position);
         const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
         for (const auto& [key, position] :
-             {std::pair{"min_limit_{u}", axis_.min_position}, std::pair{"max_limit_{u}", axis_.max_position}}) {
+             {std::pair{"min_limit_{u}", axis_.min_limit}, std::pair{"max_limit_{u}", axis_.max_limit}}) {
             if (std::fabs(position) * per_unit <= max_counts) continue;
             error(key, {},
                   fmt::format("{} of axis {} is {}, that is {} pulses or counts; the position counters hold {:.0f} at "

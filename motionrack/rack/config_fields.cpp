@@ -36,12 +36,10 @@ constexpr std::array<Field, 18> axis_table = {
     field<&RackAxis::max_jerk>("max_jerk_{u}_s3", 0, 1e12, "{u}/s3", "maximum jerk; 0: trapezoids"),
     formerly("start_speed_{u}_s", field<&RackAxis::max_velocity_step>("max_velocity_step_{u}_s", 0.000001, 1e6, "{u}/s",
                                                                       "velocity step that the motor can follow")),
-    formerly("min_{u}",
-             field<&RackAxis::min_position>("min_limit_{u}", -1e7, 1e7, "{u}", "minimum commanded position")),
-    formerly("max_{u}",
-             field<&RackAxis::max_position>("max_limit_{u}", -1e7, 1e7, "{u}", "maximum commanded position")),
-    formerly("start_{u}", field<&RackAxis::start_position>("initial_position_{u}", -1e7, 1e7, "{u}",
-                                                           "initial position of the machine")),
+    formerly("min_{u}", field<&RackAxis::min_limit>("min_limit_{u}", -1e7, 1e7, "{u}", "minimum commanded position")),
+    formerly("max_{u}", field<&RackAxis::max_limit>("max_limit_{u}", -1e7, 1e7, "{u}", "maximum commanded position")),
+    formerly("start_{u}", field<&RackAxis::initial_position>("initial_position_{u}", -1e7, 1e7, "{u}",
+                                                             "initial position of the machine")),
     field<&RackAxis::encoder_counts_per_rev>("encoder_counts_per_rev", 0, 10'000'000, "",
                                              "quadrature counts (4 a line) of a motor turn; 0: no encoder"),
     field<&RackAxis::reversed>("reversed", 0, 1, "",
@@ -72,17 +70,17 @@ constexpr std::array<Field, 8> servo_table = {
     formerly("top_accel_{u}_s2",
              field<&RackServo::current_limit_accel>("current_limit_accel_{u}_s2", 0.001, 1e9, "{u}/s2",
                                                     "acceleration at the amplifier's current limit, without the load")),
-    formerly("friction_{u}_s2",
-             field<&RackServo::friction>("coulomb_friction_{u}_s2", 0, 1e9, "{u}/s2", "deceleration without current")),
-    formerly("lag_ms", field<&RackServo::lag_ms>("time_constant_ms", 0.1, 10'000, "ms",
-                                                 "time constant of the velocity, without the load")),
+    formerly("friction_{u}_s2", field<&RackServo::coulomb_friction>("coulomb_friction_{u}_s2", 0, 1e9, "{u}/s2",
+                                                                    "deceleration without current")),
+    formerly("lag_ms", field<&RackServo::time_constant_ms>("time_constant_ms", 0.1, 10'000, "ms",
+                                                           "time constant of the velocity, without the load")),
     field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does not react"),
-    formerly("load", field<&RackServo::load>("load_inertia_ratio", 0, 1000, "",
-                                             "inertia of the load in units of the motor's own")),
-    absent_means(
-        formerly("hold_within_{u}", field<&RackServo::hold_within>("position_window_{u}", 0, 1e6, "{u}",
-                                                                   "in-position window of the card's position lock")),
-        "no lock"),
+    formerly("load", field<&RackServo::load_inertia_ratio>("load_inertia_ratio", 0, 1000, "",
+                                                           "inertia of the load in units of the motor's own")),
+    absent_means(formerly("hold_within_{u}",
+                          field<&RackServo::position_window>("position_window_{u}", 0, 1e6, "{u}",
+                                                             "in-position window of the card's position lock")),
+                 "no lock"),
 };
 
 constexpr std::array<Field, 7> switch_table = {
@@ -102,13 +100,14 @@ constexpr std::array<std::string_view, 2> directions = {"minus", "plus"};
 
 constexpr std::array<Field, 8> homing_table = {
     formerly("home_type",
-             field<&RackHoming::type>(
+             field<&RackHoming::method>(
                  "method", 1, 4, "",
                  "1 stop at the switch, 2 then again slowly, 3 as 1, then to the index, 4 as 2, then to the index "
                  "(unlike HomeType4, which ends at the switch)")),
-    with_choices(formerly("direction", field<&RackHoming::direction>("search_direction", 0, 0, "",
-                                                                     "direction of the search for the home switch")),
-                 directions),
+    with_choices(
+        formerly("direction", field<&RackHoming::search_direction>("search_direction", 0, 0, "",
+                                                                   "direction of the search for the home switch")),
+        directions),
     absent_means(formerly("speed_{u}_s", field<&RackHoming::search_velocity>("search_velocity_{u}_s", 0.000001, 1e6,
                                                                              "{u}/s", "velocity of the search")),
                  "a quarter of the maximum velocity"),
@@ -116,30 +115,28 @@ constexpr std::array<Field, 8> homing_table = {
                                                   "latch_velocity_{u}_s", 0.000001, 1e6, "{u}/s",
                                                   "velocity of the last approach, at most the velocity step")),
                  "a quarter of the velocity step; of a servo all of it"),
-    absent_means(
-        formerly("position_{u}", field<&RackHoming::position>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
-        "position of the switch edge; methods 3 and 4: plus index_after, and one of both keys is required"),
+    absent_means(formerly("position_{u}",
+                          field<&RackHoming::home_offset>("home_offset_{u}", -1e7, 1e7, "{u}", "position of home")),
+                 "position of the switch edge; methods 3 and 4: plus index_after, and one of both keys is required"),
     absent_means(field<&RackHoming::index_after>("index_after_{u}", 0, 1000, "{u}",
                                                  "distance from the switch to the index (methods 3 and 4); one that is "
                                                  "off by more than a quarter of a motor turn is rejected"),
                  "the first index; in a served machine that of its first search"),
-    formerly("clearance_{u}", field<&RackHoming::clearance>("backoff_{u}", 0, 1000, "{u}",
-                                                            "distance moved after the switch is released")),
-    formerly("order", field<&RackHoming::order>("sequence", 0, 5, "",
-                                                "0 is homed first; axes of the same number home together")),
+    formerly("clearance_{u}",
+             field<&RackHoming::backoff>("backoff_{u}", 0, 1000, "{u}", "distance moved after the switch is released")),
+    formerly("order", field<&RackHoming::sequence>("sequence", 0, 5, "",
+                                                   "0 is homed first; axes of the same number home together")),
 };
 
 constexpr std::array<Field, 6> probe_table = {
-    absent_means(formerly("x_from_mm", field<&RackProbe::x_from>("x_min_mm", -1e7, 1e7, "mm",
-                                                                 "start of the workpiece that the probe touches")),
+    absent_means(formerly("x_from_mm", field<&RackProbe::x_min>("x_min_mm", -1e7, 1e7, "mm",
+                                                                "start of the workpiece that the probe touches")),
                  "no bound"),
-    absent_means(formerly("x_to_mm", field<&RackProbe::x_to>("x_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
-    absent_means(formerly("y_from_mm", field<&RackProbe::y_from>("y_min_mm", -1e7, 1e7, "mm", "from here")),
-                 "no bound"),
-    absent_means(formerly("y_to_mm", field<&RackProbe::y_to>("y_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
-    absent_means(formerly("z_from_mm", field<&RackProbe::z_from>("z_min_mm", -1e7, 1e7, "mm", "from here")),
-                 "no bound"),
-    absent_means(formerly("z_to_mm", field<&RackProbe::z_to>("z_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+    absent_means(formerly("x_to_mm", field<&RackProbe::x_max>("x_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+    absent_means(formerly("y_from_mm", field<&RackProbe::y_min>("y_min_mm", -1e7, 1e7, "mm", "from here")), "no bound"),
+    absent_means(formerly("y_to_mm", field<&RackProbe::y_max>("y_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+    absent_means(formerly("z_from_mm", field<&RackProbe::z_min>("z_min_mm", -1e7, 1e7, "mm", "from here")), "no bound"),
+    absent_means(formerly("z_to_mm", field<&RackProbe::z_max>("z_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
 };
 
 constexpr std::array<std::string_view, 2> profiles = {"trapezoid", "jerk_limited"};

@@ -47,17 +47,17 @@ constexpr std::array<Field, 4> sender_table = {
 };
 
 constexpr std::array<Field, 3> passing_table = {
-    formerly("every_{u}", field<&RackParts::every>("part_pitch_{u}", 0.001, 1e6, "{u}", "from part to part")),
-    formerly("first_{u}", field<&RackParts::first>("first_part_{u}", -1e6, 1e6, "{u}",
-                                                   "travel at which the first part reaches the sensor")),
+    formerly("every_{u}", field<&RackParts::part_pitch>("part_pitch_{u}", 0.001, 1e6, "{u}", "from part to part")),
+    formerly("first_{u}", field<&RackParts::first_part>("first_part_{u}", -1e6, 1e6, "{u}",
+                                                        "travel at which the first part reaches the sensor")),
     field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}",
                               "length of a part, less than the pitch; the sensor is low along it"),
 };
 
 constexpr std::array<Field, 5> scanner_table = {
     required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
-    absent_means(formerly("part_on", field<&RackScanner::track>("conveyor", 1, 32, "",
-                                                                "name of the belt or table that carries the part")),
+    absent_means(formerly("part_on", field<&RackScanner::conveyor>("conveyor", 1, 32, "",
+                                                                   "name of the belt or table that carries the part")),
                  "none: the part does not move"),
     field<&RackScanner::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of the field, without a lens"),
     field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um",
@@ -200,10 +200,10 @@ class MarkingReader {
             return refuse(*node_, "profile", made.error().message + ".");
         if (track.card && check_card(*track.card)) check_pins(track);
         if (track.sender) check_sender(track);
-        if (track.passing && !(track.passing->length < track.passing->every))
+        if (track.passing && !(track.passing->length < track.passing->part_pitch))
             refuse(*node_->find("parts"), with_unit("length_{u}", unit_),
                    fmt::format("a part is {} {} long, but the next one comes after {}.",
-                               number_text(track.passing->length), unit_, number_text(track.passing->every)));
+                               number_text(track.passing->length), unit_, number_text(track.passing->part_pitch)));
         double peak_velocity = std::fabs(track.velocity);
         if (!track.profile.empty()) peak_velocity = 0;
         for (const parts::VelocityPoint& point : track.profile)
@@ -249,8 +249,8 @@ class MarkingReader {
     }
 
     void check(const RackScanner& scanner) {
-        if (scanner.track && config_.track(*scanner.track) == nullptr)
-            refuse(*node_, "conveyor", fmt::format("unknown belt or table {}.", in_quotes(*scanner.track)));
+        if (scanner.conveyor && config_.track(*scanner.conveyor) == nullptr)
+            refuse(*node_, "conveyor", fmt::format("unknown belt or table {}.", in_quotes(*scanner.conveyor)));
         check_card(scanner.card);
         for (const RackScanner& other : config_.scanners)
             if (other.card == scanner.card)

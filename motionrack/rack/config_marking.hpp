@@ -13,9 +13,9 @@ namespace motionrack::rack {
 
 /// Parts that a conveyor carries past a light barrier, at equal distances; mm or degrees.
 struct RackParts {
-    double every = 100;  ///< part pitch
-    double first = 0;    ///< travel at which the first part's edge is at the sensor
-    double length = 10;  ///< length of a part, less than `every`
+    double part_pitch = 100;  ///< part pitch
+    double first_part = 0;    ///< travel at which the first part's edge is at the sensor
+    double length = 10;       ///< length of a part, less than `every`
 };
 
 /// Conveyor under a scan head: a belt (mm) or a rotary table (degrees); see parts::ConveyorSettings.
@@ -49,9 +49,9 @@ inline constexpr double max_track_counts = 1e7, max_parts = 1e5;
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {
     std::string name;
-    std::string card;                  ///< an rtc5 card
-    std::optional<std::string> track;  ///< conveyor that carries the part; absent: a stationary part
-    double bits_per_mm = 8656;         ///< scale without a lens
+    std::string card;                     ///< an rtc5 card
+    std::optional<std::string> conveyor;  ///< conveyor that carries the part; absent: a stationary part
+    double bits_per_mm = 8656;            ///< scale without a lens
     double tolerance_um = 0.2;
     std::int64_t max_points = 200'000;
     std::optional<RackLens> lens;

@@ -10,17 +10,18 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     const auto refused = read_fields(node, probe_fields(), &probe, {"probe", "", "", {}}, problems);
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = control::axis_letters[static_cast<std::size_t>(axis)];
-        const std::string key = fmt::format("{}_from_mm", static_cast<char>(letter - 'A' + 'a'));
-        const std::optional<double> from = probe.from(axis), to = probe.to(axis);
-        if (from && to && *from >= *to) {
+        const char small = static_cast<char>(letter - 'A' + 'a');
+        const std::string key = fmt::format("{}_from_mm", small);
+        const std::optional<double> lower = probe.lower(axis), upper = probe.upper(axis);
+        if (lower && upper && *lower >= *upper) {
             problems.error(
                 node.place_of(key),
                 fmt::format(
                     "The workpiece of the probe goes from {} to {} mm along {}; its first end must be below the other.",
-                    *from, *to, letter));
+                    *lower, *upper, letter));
         }
-        if ((from || to) && config.axis(letter) == nullptr) {
-            problems.error(node.place_of(from ? key : fmt::format("{}_to_mm", static_cast<char>(letter - 'A' + 'a'))),
+        if ((lower || upper) && config.axis(letter) == nullptr) {
+            problems.error(node.place_of(lower ? key : fmt::format("{}_to_mm", small)),
                            fmt::format("The workpiece of the probe has an end along {}, but the rack has no axis {}.",
                                        letter, letter));
         }

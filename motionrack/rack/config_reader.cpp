@@ -260,8 +260,8 @@ class RackReader {
             axis.max_velocity = max_pulse_hz / axis.pulses_per_unit();
             axis.max_accel = 100'000;
             axis.max_jerk = 0;
-            axis.min_position = -2'000'000;
-            axis.max_position = 2'000'000;
+            axis.min_limit = -2'000'000;
+            axis.max_limit = 2'000'000;
             axis.motor = {max_pulse_hz, max_pulse_hz};
             config_.axes.push_back(std::move(axis));
             sources_.emplace_back();

@@ -26,58 +26,63 @@ constexpr std::array<Field, 12> stage_table = {
                                                          "acceleration at the current limit, without the load")),
     formerly("top_speed_m_s", field<&RackStage::saturation_velocity_m_s>("saturation_velocity_m_s", 0.001, 10, "m/s",
                                                                          "velocity at which the amplifier saturates")),
-    formerly("viscous_per_s", field<&RackStage::viscous_per_s>("viscous_friction_per_s", 0, 100, "1/s",
-                                                               "viscous friction, m/s2 per m/s")),
+    formerly("viscous_per_s", field<&RackStage::viscous_friction_per_s>("viscous_friction_per_s", 0, 100, "1/s",
+                                                                        "viscous friction, m/s2 per m/s")),
     formerly("coulomb_m_s2",
-             field<&RackStage::coulomb_m_s2>("coulomb_friction_m_s2", 0, 1'000, "m/s2", "Coulomb friction")),
-    formerly("load", field<&RackStage::load>("load_mass_ratio", 0, 1'000, "", "mass on the stage in units of its own")),
+             field<&RackStage::coulomb_friction_m_s2>("coulomb_friction_m_s2", 0, 1'000, "m/s2", "Coulomb friction")),
+    formerly("load", field<&RackStage::load_mass_ratio>("load_mass_ratio", 0, 1'000, "",
+                                                        "mass on the stage in units of its own")),
     absent_means(field<&RackStage::start_mm>("start_mm", -1e4, 1e4, "mm", "initial position"),
                  "start of its servo's profile"),
-    formerly("end_minus_mm", field<&RackStage::end_minus_mm>("hard_stop_minus_mm", -1e4, 1e4, "mm", "end of travel")),
-    formerly("end_plus_mm", field<&RackStage::end_plus_mm>("hard_stop_plus_mm", -1e4, 1e4, "mm", "end of travel")),
+    formerly("end_minus_mm",
+             field<&RackStage::hard_stop_minus_mm>("hard_stop_minus_mm", -1e4, 1e4, "mm", "end of travel")),
+    formerly("end_plus_mm",
+             field<&RackStage::hard_stop_plus_mm>("hard_stop_plus_mm", -1e4, 1e4, "mm", "end of travel")),
 };
 
 constexpr std::array<Field, 7> scale_table = {
     field<&RackScale::pitch_um>("pitch_um", 0.001, 1'000, "um", "period of the grating, whole picometres"),
     field<&RackScale::interpolation>("interpolation", 4, 65'536, "", "counts of a pitch, a multiple of 4"),
     field<&RackScale::reversed>("reversed", 0, 1, "", "it counts down while the stage moves up"),
-    formerly("zero_mm", field<&RackScale::zero_mm>("zero_offset_mm", -1e4, 1e4, "mm", "position of count 0")),
+    formerly("zero_mm", field<&RackScale::zero_offset_mm>("zero_offset_mm", -1e4, 1e4, "mm", "position of count 0")),
     formerly("fastest_mhz", field<&RackScale::max_count_rate_mhz>("max_count_rate_mhz", 0.001, 1'000, "MHz",
                                                                   "million counts a second; faster counts are lost")),
     absent_means(field<&RackScale::index_mm>("index_mm", -1e4, 1e4, "mm", "position of the reference mark"),
                  "no such mark"),
-    formerly("dirt_at_mm", field<&RackScale::dirt_at_mm>("dirt_position_mm", -1e4, 1e4, "mm",
-                                                         "start of the dirty part of the fault scale.dirt")),
+    formerly("dirt_at_mm", field<&RackScale::dirt_position_mm>("dirt_position_mm", -1e4, 1e4, "mm",
+                                                               "start of the dirty part of the fault scale.dirt")),
 };
 
 constexpr std::array<Field, 16> stage_servo_table = {
     field<&RackStageServo::bandwidth_hz>("bandwidth_hz", 1, 10'000, "Hz",
                                          "frequency at which the open loop has gain 1"),
-    absent_means(formerly("p_v_um", field<&RackStageServo::p_v_um>("kp_v_um", 0, 1e6, "V/um", "proportional gain")),
+    absent_means(formerly("p_v_um", field<&RackStageServo::kp_v_um>("kp_v_um", 0, 1e6, "V/um", "proportional gain")),
                  "by the bandwidth"),
     absent_means(
-        formerly("i_v_um_s", field<&RackStageServo::i_v_um_s>("ki_v_um_s", 0, 1e9, "V/(um s)", "integral gain")),
+        formerly("i_v_um_s", field<&RackStageServo::ki_v_um_s>("ki_v_um_s", 0, 1e9, "V/(um s)", "integral gain")),
         "by the bandwidth"),
     absent_means(
-        formerly("d_v_s_um", field<&RackStageServo::d_v_s_um>("kd_v_s_um", 0, 1e6, "V s/um", "differential gain")),
+        formerly("d_v_s_um", field<&RackStageServo::kd_v_s_um>("kd_v_s_um", 0, 1e6, "V s/um", "differential gain")),
         "by the bandwidth"),
-    formerly("limit_um", field<&RackStageServo::limit_um>("max_following_error_um", 0, 1e6, "um",
-                                                          "following error above which the loop opens; 0: none")),
+    formerly("limit_um",
+             field<&RackStageServo::max_following_error_um>("max_following_error_um", 0, 1e6, "um",
+                                                            "following error above which the loop opens; 0: none")),
     formerly("compute_us",
-             field<&RackStageServo::compute_us>("control_delay_us", 0, 100'000, "us",
-                                                "delay from the frame to the voltage, less than a period")),
+             field<&RackStageServo::control_delay_us>("control_delay_us", 0, 100'000, "us",
+                                                      "delay from the frame to the voltage, less than a period")),
     with_choices(field<&RackStageServo::profile>("profile", 0, 0, "", "where it goes"), stage_profiles),
     field<&RackStageServo::from_mm>("from_mm", -1e4, 1e4, "mm", "scan: start of the constant velocity"),
     field<&RackStageServo::to_mm>("to_mm", -1e4, 1e4, "mm", "end of the constant velocity; then back"),
     field<&RackStageServo::step_mm>("step_mm", -1e4, 1e4, "mm", "steps: length of a step"),
     field<&RackStageServo::steps>("steps", 1, 1'000'000, "", "number of steps up, then the same number down"),
     formerly("every_ms",
-             field<&RackStageServo::every_ms>("step_period_ms", 0.1, 1e6, "ms", "steps: time between two steps")),
+             field<&RackStageServo::step_period_ms>("step_period_ms", 0.1, 1e6, "ms", "steps: time between two steps")),
     formerly("speed_mm_s",
              field<&RackStageServo::max_velocity_mm_s>("max_velocity_mm_s", 0.001, 10'000, "mm/s", "maximum velocity")),
     formerly("accel_mm_s2",
-             field<&RackStageServo::accel_mm_s2>("max_accel_mm_s2", 0.001, 1e6, "mm/s2", "maximum acceleration")),
-    formerly("jerk_mm_s3", field<&RackStageServo::jerk_mm_s3>("max_jerk_mm_s3", 0.001, 1e12, "mm/s3", "maximum jerk")),
+             field<&RackStageServo::max_accel_mm_s2>("max_accel_mm_s2", 0.001, 1e6, "mm/s2", "maximum acceleration")),
+    formerly("jerk_mm_s3",
+             field<&RackStageServo::max_jerk_mm_s3>("max_jerk_mm_s3", 0.001, 1e12, "mm/s3", "maximum jerk")),
     field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "start time of the profile"),
 };
 
@@ -177,25 +182,25 @@ class StageReader {
     bool check_servo(const RackStage& stage, const TomlNode& node) {
         if (!stage.servo) return true;
         const TomlNode& table = *node.find("servo");
-        if (stage.servo->compute_us >= config_.card(stage.card)->grating_bus.period_us)
+        if (stage.servo->control_delay_us >= config_.card(stage.card)->grating_bus.period_us)
             refuse(table, "control_delay_us",
                    fmt::format("computing takes {} us, but the frame period is {} us.",
-                               number_text(stage.servo->compute_us),
+                               number_text(stage.servo->control_delay_us),
                                number_text(config_.card(stage.card)->grating_bus.period_us)));
         const std::string flaw = profile_flaw(stage);
         if (!flaw.empty()) refuse(table, "profile", flaw);
         return flaw.empty();
     }
     void check_place(const RackStage& stage, const TomlNode& node) {
-        if (!(stage.end_minus_mm < stage.end_plus_mm))
+        if (!(stage.hard_stop_minus_mm < stage.hard_stop_plus_mm))
             return refuse(node, "hard_stop_plus_mm",
                           fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.",
-                                      number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
+                                      number_text(stage.hard_stop_minus_mm), number_text(stage.hard_stop_plus_mm)));
         const double start = motor_settings(stage).start_nm * 1e-6;
-        if (start < stage.end_minus_mm || start > stage.end_plus_mm)
+        if (start < stage.hard_stop_minus_mm || start > stage.hard_stop_plus_mm)
             refuse(node, "start_mm",
                    fmt::format("it starts at {} mm, beyond its ends of travel at {} and {} mm.", number_text(start),
-                               number_text(stage.end_minus_mm), number_text(stage.end_plus_mm)));
+                               number_text(stage.hard_stop_minus_mm), number_text(stage.hard_stop_plus_mm)));
     }
 
     RackConfig& config_;

@@ -30,33 +30,34 @@ db::Settings settings_of(const Databoard4002Settings& s) {
                                                {db::Counting::quadrature, sim::Edges::rising_a},
                                                {db::Counting::up_down, sim::Edges::all}}};
     db::Settings out;
-    out.pass_ticks = static_cast<std::int32_t>(s.pass_ticks);
+    out.firmware_pass_ticks = static_cast<std::int32_t>(s.firmware_pass_ticks);
     out.byte_time = nanoseconds(s.byte_time_ns);
     out.version = static_cast<std::uint8_t>(s.version);
     out.zeroing = s.zeroing;
     out.quit_zeroes = s.quit_zeroes;
     out.trim = *db::trim_from_text(s.trim);
-    out.counting = straps[static_cast<std::size_t>(s.counting)].counting;
-    out.folding = straps[static_cast<std::size_t>(s.counting)].folding;
+    out.counting = straps[static_cast<std::size_t>(s.count_mode)].counting;
+    out.folding = straps[static_cast<std::size_t>(s.count_mode)].folding;
     out.first_pair = static_cast<std::int32_t>(s.first_pair);
     out.single_ended = s.single_ended;
     return out;
 }
 
 /// Converts the axis to the card's own counts: edges that the straps pass, velocities by voltage or frequency.
-db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis& axis, Databoard4002Counting counting) {
+db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis& axis,
+                                       Databoard4002CountMode count_mode) {
     constexpr std::array<double, 4> counts_of_edge = {1, 0.5, 0.25, 1};
     db::PositionAxisSettings out;
     out.name = std::string(1, axis.letter);
     out.unit = axis.unit();
     out.limits = config.limits()[static_cast<std::size_t>(axis.index())];
-    out.counts_per_unit = axis.counts_per_unit() * counts_of_edge[static_cast<std::size_t>(counting)];
+    out.counts_per_unit = axis.counts_per_unit() * counts_of_edge[static_cast<std::size_t>(count_mode)];
     if (axis.servo) {
         out.scale.trim = *db::trim_from_text(config.card(axis.card)->databoard4002.trim);
         out.scale.analog = true;
         out.scale.counts_per_volt = axis.servo->velocity_per_volt * out.counts_per_unit;
-        out.lag_s = axis.servo->lag_ms * 1e-3 * (1 + axis.servo->load);
-        out.hold_window = axis.servo->hold_within;
+        out.lag_s = axis.servo->time_constant_ms * 1e-3 * (1 + axis.servo->load_inertia_ratio);
+        out.position_window = axis.servo->position_window;
     } else {
         out.scale.counts_per_pulse = out.counts_per_unit / axis.pulses_per_unit();
     }
@@ -91,12 +92,12 @@ class Databoard4002Card final : public MotionCard {
   public:
     Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
         : name_(config.name),
-          select_(config.databoard4002.select),
+          card_number_(config.databoard4002.card_number),
           card_(kernel, config.name, settings_of(config.databoard4002)),
           bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
           port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns),
                 &log) {
-        bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.select));
+        bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.card_number));
     }
 
     const std::shared_ptr<db::Bus>& bus() const { return bus_; }
@@ -120,7 +121,7 @@ class Databoard4002Card final : public MotionCard {
             if (value.name == name) return static_cast<std::int64_t>(value.get(card_));
             more.push_back(value.name);
         }
-        if (name == own_number) return select_;
+        if (name == own_number) return card_number_;
         more.push_back(own_number);
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write && reg.bank.empty())
@@ -174,9 +175,9 @@ class Databoard4002Card final : public MotionCard {
         MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
         const Databoard4002Settings& own = config.card(name_)->databoard4002;
         db::DriverSettings settings;
-        settings.select = static_cast<std::uint8_t>(own.select);
+        settings.select = static_cast<std::uint8_t>(own.card_number);
         auto driver = std::make_unique<db::Driver>(port_, port_, settings);
-        auto made = std::make_unique<db::PositionAxis>(*driver, port_, axis_settings(config, *found, own.counting));
+        auto made = std::make_unique<db::PositionAxis>(*driver, port_, axis_settings(config, *found, own.count_mode));
         MOTIONRACK_CHECK(made->set_up());
         axis_ = std::move(made);
         driver_ = std::move(driver);
@@ -186,7 +187,7 @@ class Databoard4002Card final : public MotionCard {
     std::span<const FunctionInfo> library_functions() const override { return db::library_functions(); }
     std::unique_ptr<FunctionLibrary> take_library() override {
         given_away_ = true;  // the axis group keeps this axis until the next one is made
-        return std::make_unique<db::CommandLibrary>(port_, port_, static_cast<std::uint8_t>(select_));
+        return std::make_unique<db::CommandLibrary>(port_, port_, static_cast<std::uint8_t>(card_number_));
     }
     double accel_reserve() const override { return 0; }
     double jump_hz(const RackConfig&) const override { return std::numeric_limits<double>::infinity(); }
@@ -208,7 +209,7 @@ class Databoard4002Card final : public MotionCard {
 
   private:
     std::string name_;
-    std::int64_t select_;
+    std::int64_t card_number_;
     db::Card card_;
     std::shared_ptr<db::Bus> bus_;
     sim::VirtualBytePort port_;

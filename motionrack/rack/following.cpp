@@ -33,12 +33,12 @@ sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::
 
 /// Integrates the velocity of a servo over `seconds`, a short time: see parts::DcMotor.
 double velocity_after(const parts::DcMotorSettings& servo, double velocity, double volts, double seconds) {
-    const double inertia = 1 + servo.load, max_change = servo.top_accel / inertia * seconds;
+    const double inertia = 1 + servo.load_inertia_ratio, max_change = servo.current_limit_accel / inertia * seconds;
     const double above = std::max(std::fabs(volts) - servo.dead_band_v, 0.0);
     const double wanted = std::copysign(std::min(above * servo.gain, servo.saturation_velocity), volts);
-    const double push =
-        std::clamp((wanted - velocity) * std::min(seconds / (servo.lag_s * inertia), 1.0), -max_change, max_change);
-    const double friction = servo.friction / inertia * seconds;
+    const double push = std::clamp((wanted - velocity) * std::min(seconds / (servo.time_constant_s * inertia), 1.0),
+                                   -max_change, max_change);
+    const double friction = servo.coulomb_friction / inertia * seconds;
     if (velocity == 0 && std::fabs(push) <= friction) return 0;
     const double direction = std::copysign(1.0, velocity != 0 ? velocity : push);
     const double after = velocity + push - direction * friction;

@@ -79,7 +79,7 @@ gb::CardSettings grating_settings(const RackCard& card, bool first) {
     out.offset = ns(s.offset_ns);
     out.clock_shifter = shifter(s.clock_shifter);
     out.address_shifter = shifter(s.address_shifter);
-    out.checks = s.checks;
+    out.verify_lines = s.verify_lines;
     out.seed = static_cast<std::uint32_t>(s.seed);
     return out;
 }

@@ -59,7 +59,7 @@ class Homing {
             began_ = rack_.kernel().now();
             rack_.set_stop_flag(settings_.stop);
             std::vector<std::int64_t> orders;
-            for (const Work& work : works_) orders.push_back(work.running->config.homing.order);
+            for (const Work& work : works_) orders.push_back(work.running->config.homing.sequence);
             std::sort(orders.begin(), orders.end());
             orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
             for (const std::int64_t order : orders) {
@@ -139,9 +139,9 @@ class Homing {
             Work work;
             work.running = running;
             RackAxis config = running->config;
-            if (settings_.type) config.homing.type = *settings_.type;
+            if (settings_.method) config.homing.method = *settings_.method;
             MOTIONRACK_TRY(work.order, home_order(rack_.config(), config));
-            if (settings_.seen_indexes != nullptr && config.homing.type >= 3 && !work.order.index_after)
+            if (settings_.seen_indexes != nullptr && config.homing.method >= 3 && !work.order.index_after)
                 work.order.index_after = (*settings_.seen_indexes)[static_cast<std::size_t>(config.index())];
             works_.push_back(std::move(work));
         }
@@ -159,7 +159,7 @@ class Homing {
     void home_group(std::int64_t order) {
         std::vector<Work*> group;
         for (Work& work : works_)
-            if (work.running->config.homing.order == order) group.push_back(&work);
+            if (work.running->config.homing.sequence == order) group.push_back(&work);
         if (group.front()->running->card->host().stop_requested()) {
             out_.ended = fail(ErrorKind::stopped, "The search for home was stopped before it began.");
             return;
@@ -309,14 +309,15 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
         return refuse(
             fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
                         type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
-    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing method is {}; it must be 1 to 4", h.type));
-    const bool plus = h.direction == HomingDirection::plus;
+    if (h.method < 1 || h.method > 4)
+        return refuse(fmt::format("its homing method is {}; it must be 1 to 4", h.method));
+    const bool plus = h.search_direction == HomingDirection::plus;
     if (type.position_loop && plus && !cam)
         return refuse(
             "its home switch is active at and below its position, so its edge must be searched in - direction; give it "
             "a cam, or the other direction");
     control::HomingRequest order;
-    order.type = static_cast<control::HomingMethod>(h.type);
+    order.method = static_cast<control::HomingMethod>(h.method);
     order.towards_plus = plus;
     order.search_velocity = h.search_velocity.value_or(
         std::max(axis.max_velocity / 4, std::min(axis.max_velocity_step, axis.max_velocity)));
@@ -325,28 +326,28 @@ Result<control::HomingRequest> home_order(const RackConfig& config, const RackAx
     // The switch is active at and below its position, so a search upwards ends at its release.
     const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
                             : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
-    if (h.type >= 3 && !h.position && !h.index_after)
+    if (h.method >= 3 && !h.home_offset && !h.index_after)
         return refuse(
-            fmt::format("type {0} ends at the encoder's index, whose position is unknown; give it home_offset_{1} "
+            fmt::format("method {0} ends at the encoder's index, whose position is unknown; give it home_offset_{1} "
                         "(position of the index) or index_after_{1} (distance behind the switch)",
-                        h.type, axis.unit()));
-    const double to_home = h.type < 3 ? 0 : h.index_after.value_or(0);
-    order.position = h.position.value_or(plus ? edge + to_home : edge - to_home);
+                        h.method, axis.unit()));
+    const double to_home = h.method < 3 ? 0 : h.index_after.value_or(0);
+    order.home_offset = h.home_offset.value_or(plus ? edge + to_home : edge - to_home);
     order.hysteresis = cam ? 0 : axis.switches.hysteresis;
-    order.clearance = h.clearance;
+    order.backoff = h.backoff;
     order.switch_active_high = plus;
     order.switch_input = input_of(config, axis, cam ? "cam" : "home", type.home_pins);
     if (order.switch_input < 0)
         return refuse(fmt::format("its home {} is not wired to a stop input of its channel ({})",
                                   cam ? "cam" : "switch", inputs_text(axis, type.home_pins)));
-    if (h.type < 3) return order;
+    if (h.method < 3) return order;
     order.index_after = h.index_after;
     order.index_input = input_of(config, axis, "enc_z", type.index_pins);
     if (order.index_input < 0)
         return refuse(
             fmt::format("method {} needs the encoder's index, which does not exist or is not wired to a stop input of "
                         "its channel ({}); home it with method 1 or 2",
-                        h.type, inputs_text(axis, type.index_pins)));
+                        h.method, inputs_text(axis, type.index_pins)));
     return order;
 }
 

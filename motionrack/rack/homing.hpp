@@ -30,7 +30,7 @@ using SeenIndexes = std::array<std::optional<double>, control::axis_count>;
 
 struct HomingSettings {
     std::string axes;                         ///< letters; "": every axis with a home switch
-    std::optional<int> type;                  ///< 1 .. 4 for all axes, instead of the rack file's method
+    std::optional<int> method;                ///< 1 .. 4 for all axes, instead of the rack file's method
     Duration timeout = whole_seconds(3600);   ///< timeout of each group
     const std::atomic<bool>* stop = nullptr;  ///< Ctrl-C
     SeenIndexes* seen_indexes = nullptr;      ///< earlier results, binding for an index without a position key

@@ -28,7 +28,7 @@ double rounded(double value) {
 std::string head_line(const HomedAxis& axis) {
     const control::HomingResult& o = axis.outcome;
     std::string out = fmt::format("axis {}  method {}, {} direction, search at {:.4g} {}/s, latch at {:.4g} {}/s\n",
-                                  axis.letter, static_cast<int>(axis.order.type), axis.order.towards_plus ? "+" : "-",
+                                  axis.letter, static_cast<int>(axis.order.method), axis.order.towards_plus ? "+" : "-",
                                   axis.order.search_velocity, axis.unit, axis.order.latch_velocity, axis.unit);
     if (!axis.begun) return out + "  not begun\n";
     return out + fmt::format("  {} after {:.3f} s, {}\n", o.homed ? "homed" : "not homed", o.took_s,
@@ -68,7 +68,7 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
     const control::HomingResult& o = axis.outcome;
     nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)},
                                 {"unit", axis.unit},
-                                {"method", static_cast<int>(axis.order.type)},
+                                {"method", static_cast<int>(axis.order.method)},
                                 {"search_direction", axis.order.towards_plus ? "plus" : "minus"},
                                 {"search_velocity", axis.order.search_velocity},
                                 {"latch_velocity", axis.order.latch_velocity},
@@ -136,7 +136,7 @@ std::string homing_picture(const HomedAxis& axis) {
     }
     return trace::svg_timeline(
         fmt::format("Axis {} {}, method {}", axis.letter, axis.outcome.homed ? "is homed" : "fails to home",
-                    static_cast<int>(axis.order.type)),
+                    static_cast<int>(axis.order.method)),
         charts, spans, {720, 560, true});
 }
 

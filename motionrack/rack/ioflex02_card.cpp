@@ -17,7 +17,7 @@ io::Settings settings_of(const Ioflex02Settings& s) {
     out.base_address = static_cast<std::uint32_t>(s.base_address);
     out.serial = static_cast<std::uint16_t>(s.serial);
     out.configuration_time = from_seconds(s.configuration_ms * 1e-3);
-    out.loaded = s.loaded;
+    out.preloaded = s.preloaded;
     if (!s.image.empty()) out.image = *io::unpacked(*io::bytes_of_hex(s.image));
     return out;
 }

@@ -42,7 +42,7 @@ std::vector<WatchedAxis> watched_axes(Rack& rack) {
         one.servo = axis.servo.get();
         one.real = &axis.machine->rotor();
         one.pulses_per_unit = axis.config.pulses_per_unit();
-        one.origin = axis.config.start_position;
+        one.origin = axis.config.initial_position;
         one.jump_hz = axis.card->jump_hz(rack.config());
         one.full_step = static_cast<double>(axis.config.microsteps);
         one.accel_hz = axis.config.max_accel * one.pulses_per_unit;
@@ -64,7 +64,7 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
     settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
     for (const RackAxis& axis : config.axes) {
         const auto i = static_cast<std::size_t>(axis.index());
-        settings.start[i] = settings.g28[i] = settings.g30[i] = axis.start_position;
+        settings.start[i] = settings.g28[i] = settings.g30[i] = axis.initial_position;
     }
     return settings;
 }
@@ -377,7 +377,7 @@ std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
         one.planned_end = rack_.config().positions_alone(axis.config)
                               ? sent_to[static_cast<std::size_t>(one.index)]
                               : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
-        one.actual_end = axis.machine->position(now) + (reference_.real_origin(i) - axis.config.start_position);
+        one.actual_end = axis.machine->position(now) + (reference_.real_origin(i) - axis.config.initial_position);
         one.top = monitor_->statistics(one.index);
         out.push_back(std::move(one));
     }

@@ -81,7 +81,7 @@ void JobRecorder::add_axes() {
         const control::AxisLimits& limit = limits[static_cast<std::size_t>(config.index())];
         const std::string name(1, config.letter);
         head_.axes.push_back({name, std::string(config.unit()), axis.servo != nullptr, config.pulses_per_unit(),
-                              config.counts_per_unit(), config.start_position, limit.min_position, limit.max_position,
+                              config.counts_per_unit(), config.initial_position, limit.min_position, limit.max_position,
                               limit.max_velocity, limit.max_accel});
         axis_indexes_.push_back(config.index());
         const std::string folder = "axes/" + lower_letter(config.letter);

@@ -43,7 +43,7 @@ parts::ConveyorSettings RackConveyor::settings() const {
 double RackConveyor::max_velocity() const {
     double out = parts::max_track_velocity;
     if (has_encoder()) out = std::min(out, max_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
-    if (passing) out = std::min(out, max_parts * passing->every);
+    if (passing) out = std::min(out, max_parts * passing->part_pitch);
     return out;
 }
 
@@ -102,7 +102,7 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
         out.place =
             std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".place", out.track(), places_per_unit);
         out.drive->add(*out.place);
-        const parts::PartSensorSettings sensor{places(config.passing->first), places(config.passing->every),
+        const parts::PartSensorSettings sensor{places(config.passing->first_part), places(config.passing->part_pitch),
                                                places(config.passing->length)};
         out.sensor = std::make_unique<parts::PartSensor>(kernel, config.name + ".sensor", config.name + ".sensor_n",
                                                          *out.place, sensor);

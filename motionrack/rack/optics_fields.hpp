@@ -26,12 +26,12 @@ inline constexpr std::array<Field, 6> lens_keys = {
 };
 
 inline constexpr std::array<Field, 5> galvo_keys = {
-    formerly("ideal", field<&parts::GalvoSettings::ideal>("ideal_mirrors", 0, 1, "", "mirrors without lag")),
-    formerly("dead_us", field<&parts::GalvoSettings::dead_us>("dead_time_us", 0, parts::max_dead_us, "us",
-                                                              "dead time, rounded down to 10 us")),
-    formerly("natural_hz",
-             field<&parts::GalvoSettings::natural_hz>("natural_frequency_hz", 10, 20'000, "Hz", "natural frequency")),
-    formerly("damping", field<&parts::GalvoSettings::damping>("damping_ratio", 0.1, 10, "", "1: no overshoot")),
+    formerly("ideal", field<&parts::GalvoSettings::ideal_mirrors>("ideal_mirrors", 0, 1, "", "mirrors without lag")),
+    formerly("dead_us", field<&parts::GalvoSettings::dead_time_us>("dead_time_us", 0, parts::max_dead_time_us, "us",
+                                                                   "dead time, rounded down to 10 us")),
+    formerly("natural_hz", field<&parts::GalvoSettings::natural_frequency_hz>("natural_frequency_hz", 10, 20'000, "Hz",
+                                                                              "natural frequency")),
+    formerly("damping", field<&parts::GalvoSettings::damping_ratio>("damping_ratio", 0.1, 10, "", "1: no overshoot")),
     formerly("greatest_speed", field<&parts::GalvoSettings::max_velocity_bits_ms>("max_velocity_bits_ms", 1, 1e9,
                                                                                   "bits/ms", "velocity limit")),
 };

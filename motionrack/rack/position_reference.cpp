@@ -20,11 +20,11 @@ std::int64_t PositionReference::commanded(std::size_t axis) const {
 }
 
 double PositionReference::reference_position(std::size_t axis) const {
-    return axes_[axis].homed ? axes_[axis].position : rack_.axes()[axis].config.start_position;
+    return axes_[axis].homed ? axes_[axis].position : rack_.axes()[axis].config.initial_position;
 }
 
 control::Point PositionReference::position() const {
-    control::Point out = rack_.start_position();
+    control::Point out = rack_.initial_position();
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const RackAxis& config = rack_.axes()[i].config;
         double& at = out[static_cast<std::size_t>(config.index())];

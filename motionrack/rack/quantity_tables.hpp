@@ -91,7 +91,9 @@ inline constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
     {"drive_v", "the voltage at its amplifier", [](RunningStage& stage, Instant) { return stage.motor->volts(); },
      measures},
     {"scale_mm", "its position by its scale",
-     [](RunningStage& stage, Instant now) { return stage.config.scale.zero_mm + stage.scale->position_nm(now) * mm; },
+     [](RunningStage& stage, Instant now) {
+         return stage.config.scale.zero_offset_mm + stage.scale->position_nm(now) * mm;
+     },
      measures},
     {"scale_counts", "counts of its scale",
      [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, whole},

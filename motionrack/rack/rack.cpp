@@ -68,17 +68,17 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     parts::DcMotorSettings out;
     out.gain = servo.velocity_per_volt * counts;
     out.saturation_velocity = servo.saturation() * counts;
-    out.top_accel = servo.current_limit_accel * counts;
-    out.friction = servo.friction * counts;
-    out.lag_s = servo.lag_ms * 1e-3;
+    out.current_limit_accel = servo.current_limit_accel * counts;
+    out.coulomb_friction = servo.coulomb_friction * counts;
+    out.time_constant_s = servo.time_constant_ms * 1e-3;
     out.dead_band_v = servo.dead_band_v;
-    out.load = servo.load;
+    out.load_inertia_ratio = servo.load_inertia_ratio;
     return out;
 }
 
 /// Returns the rotor position, in pulses from the start, for that machine position.
 std::int64_t rotor_at(const RackAxis& axis, double position) {
-    return static_cast<std::int64_t>(std::floor((position - axis.start_position) * axis.pulses_per_unit() + 0.5));
+    return static_cast<std::int64_t>(std::floor((position - axis.initial_position) * axis.pulses_per_unit() + 0.5));
 }
 
 /// The rotor of a servo is its encoder, which follows the source of its motion.
@@ -98,7 +98,7 @@ void Rack::build_axis(const RackAxis& axis) {
     settings.motor = motor_settings(axis);
     settings.axle.travel_per_rev =
         axis.kind == AxisKind::linear ? parts::linear_travel(axis.lead_mm) : parts::rotary_travel(axis.gear_ratio);
-    settings.axle.start_position = axis.start_position;
+    settings.axle.initial_position = axis.initial_position;
     settings.encoder.counts_per_rev = axis.encoder_counts_per_rev;
     auto set = [&](parts::LimitSwitchSettings& which, const std::optional<double>& position) {
         which.position = position;
@@ -161,10 +161,10 @@ void Rack::build_probe() {
     for (RunningAxis& axis : axes_) {
         const int index = axis.config.index();
         if (index > 2) continue;
-        const std::optional<double> from = config_.probe->from(index), to = config_.probe->to(index);
-        if (!from && !to) continue;
-        probe_->add_range(axis.machine->rotor(), from ? rotor_at(axis.config, *from) : sim::unwatched_below + 1,
-                          to ? rotor_at(axis.config, *to) : sim::unwatched_above - 1);
+        const std::optional<double> lower = config_.probe->lower(index), upper = config_.probe->upper(index);
+        if (!lower && !upper) continue;
+        probe_->add_range(axis.machine->rotor(), lower ? rotor_at(axis.config, *lower) : sim::unwatched_below + 1,
+                          upper ? rotor_at(axis.config, *upper) : sim::unwatched_above - 1);
     }
 }
 
@@ -223,7 +223,7 @@ void Rack::build_stages() {
         if (config.servo) {
             stage.processor = &processor_of(config.card);
             stage.processor->add(static_cast<int>(config.output), StageSetup(config), loop_settings(config),
-                                 from_seconds(config.servo->compute_us * 1e-6), stage.scale->count(Instant{0}));
+                                 from_seconds(config.servo->control_delay_us * 1e-6), stage.scale->count(Instant{0}));
         }
         stages_.push_back(std::move(stage));
     }
@@ -232,7 +232,7 @@ void Rack::build_stages() {
 void Rack::build_scanners() {
     for (const RackScanner& scanner : config_.scanners)
         scanners_.push_back(
-            build_scanner(kernel_, scanner, scanner.track ? &track(*scanner.track)->drive->track() : nullptr));
+            build_scanner(kernel_, scanner, scanner.conveyor ? &track(*scanner.conveyor)->drive->track() : nullptr));
 }
 
 /// Returns the wire of an output. The tracks of an encoder become wires when the first card needs them.
@@ -337,9 +337,9 @@ void Rack::set_stop_flag(const std::atomic<bool>* stop) {
     for (const auto& card : cards_) card->host().set_stop_flag(stop);
 }
 
-control::Point Rack::start_position() const {
+control::Point Rack::initial_position() const {
     control::Point out = {};
-    for (const RackAxis& axis : config_.axes) out[static_cast<std::size_t>(axis.index())] = axis.start_position;
+    for (const RackAxis& axis : config_.axes) out[static_cast<std::size_t>(axis.index())] = axis.initial_position;
     return out;
 }
 

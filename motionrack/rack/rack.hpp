@@ -98,13 +98,13 @@ class Rack {
     /// position must agree with it. Without `position` the axes continue from their counters. Errors: refused if the
     /// rack has both kinds, or an axis does not agree. The rack must be started.
     Result<control::AxisGroup*> path_axes(const std::optional<control::Point>& position);
-    Result<control::AxisGroup*> path_axes() { return path_axes(start_position()); }
+    Result<control::AxisGroup*> path_axes() { return path_axes(initial_position()); }
     Result<control::AxisGroup*> path_axes_here() { return path_axes(std::nullopt); }
     /// Call-back for progress, draining and Ctrl-C: see VirtualPort. The stop latch is checked after each call.
     void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
 
-    control::Point start_position() const;
+    control::Point initial_position() const;
     /// Returns a condition as a sentence.
     std::string describe(const sim::Condition& condition);
 

@@ -18,7 +18,7 @@ constexpr double nm_per_mm = 1e6;
 constexpr Duration settles = milliseconds(50);
 
 gb::MotionLimits limits_of(const RackStageServo& s) {
-    return {s.max_velocity_mm_s * nm_per_mm, s.accel_mm_s2 * nm_per_mm, s.jerk_mm_s3 * nm_per_mm};
+    return {s.max_velocity_mm_s * nm_per_mm, s.max_accel_mm_s2 * nm_per_mm, s.max_jerk_mm_s3 * nm_per_mm};
 }
 
 }  // namespace
@@ -35,9 +35,9 @@ std::string profile_flaw(const RackStage& stage) {
     if (s.step_mm == 0) return "step_mm is 0; it must be other than 0.";
     const double way = std::fabs(s.step_mm) * nm_per_mm;
     const double move = gb::StepProfile(0, way, 1, 1e9, limits_of(s)).move_s();
-    if (move > s.every_ms * 1e-3)
+    if (move > s.step_period_ms * 1e-3)
         return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but step_period_ms is {}.",
-                           number_text(s.step_mm), move * 1e3, number_text(s.every_ms));
+                           number_text(s.step_mm), move * 1e3, number_text(s.step_period_ms));
     return {};
 }
 
@@ -50,7 +50,7 @@ StageSetup::StageSetup(const RackStage& stage) : profile_(gb::HoldProfile{stage.
         profile_ = gb::ScanProfile(s.from_mm * nm_per_mm, s.to_mm * nm_per_mm, limits_);
     if (s.profile == StageProfile::steps)
         profile_ = gb::StepProfile(stage.start_mm.value_or(0) * nm_per_mm, s.step_mm * nm_per_mm,
-                                   static_cast<int>(s.steps), s.every_ms * 1e-3, limits_);
+                                   static_cast<int>(s.steps), s.step_period_ms * 1e-3, limits_);
 }
 
 gb::Setpoint StageSetup::at(double seconds) const {
@@ -60,14 +60,14 @@ gb::Setpoint StageSetup::at(double seconds) const {
 parts::LinearStageSettings motor_settings(const RackStage& stage) {
     parts::LinearStageSettings out;
     out.accel_per_volt = stage.accel_per_volt_m_s2;
-    out.top_accel = stage.current_limit_accel_m_s2;
+    out.current_limit_accel = stage.current_limit_accel_m_s2;
     out.saturation_velocity = stage.saturation_velocity_m_s;
-    out.viscous = stage.viscous_per_s;
-    out.coulomb = stage.coulomb_m_s2;
-    out.load = stage.load;
+    out.viscous_friction = stage.viscous_friction_per_s;
+    out.coulomb_friction = stage.coulomb_friction_m_s2;
+    out.load_mass_ratio = stage.load_mass_ratio;
     out.start_nm = stage.start_mm ? *stage.start_mm * nm_per_mm : StageSetup(stage).start_nm();
-    out.end_minus_nm = stage.end_minus_mm * nm_per_mm;
-    out.end_plus_nm = stage.end_plus_mm * nm_per_mm;
+    out.hard_stop_minus_nm = stage.hard_stop_minus_mm * nm_per_mm;
+    out.hard_stop_plus_nm = stage.hard_stop_plus_mm * nm_per_mm;
     return out;
 }
 
@@ -77,10 +77,10 @@ parts::LinearScaleSettings scale_settings(const RackStage& stage) {
     out.pitch_pm = static_cast<std::int64_t>(std::floor(s.pitch_um * 1e6 + 0.5));
     out.interpolation = s.interpolation;
     out.reversed = s.reversed;
-    out.zero_nm = s.zero_mm * nm_per_mm;
+    out.zero_offset_nm = s.zero_offset_mm * nm_per_mm;
     out.max_count_rate = s.max_count_rate_mhz * 1e6;
     if (s.index_mm) out.index_nm = *s.index_mm * nm_per_mm;
-    out.dirt_at_nm = s.dirt_at_mm * nm_per_mm;
+    out.dirt_position_nm = s.dirt_position_mm * nm_per_mm;
     return out;
 }
 
@@ -91,12 +91,12 @@ gb::ServoSettings loop_settings(const RackStage& stage) {
     out.scale = static_cast<std::uint64_t>(stage.input);
     out.nm_per_count =
         stage.scale.pitch_um * 1e3 / static_cast<double>(stage.scale.interpolation) * (stage.scale.reversed ? -1 : 1);
-    out.zero_nm = stage.scale.zero_mm * nm_per_mm;
-    out.gains = gb::tuned(s.bandwidth_hz, stage.accel_per_volt_m_s2, stage.viscous_per_s);
-    if (s.p_v_um) out.gains.p = *s.p_v_um * um;
-    if (s.i_v_um_s) out.gains.i = *s.i_v_um_s * um;
-    if (s.d_v_s_um) out.gains.d = *s.d_v_s_um * um;
-    out.limit_nm = s.limit_um * 1e3;
+    out.zero_offset_nm = stage.scale.zero_offset_mm * nm_per_mm;
+    out.gains = gb::tuned(s.bandwidth_hz, stage.accel_per_volt_m_s2, stage.viscous_friction_per_s);
+    if (s.kp_v_um) out.gains.p = *s.kp_v_um * um;
+    if (s.ki_v_um_s) out.gains.i = *s.ki_v_um_s * um;
+    if (s.kd_v_s_um) out.gains.d = *s.kd_v_s_um * um;
+    out.max_following_error_nm = s.max_following_error_um * 1e3;
     return out;
 }
 
@@ -205,7 +205,7 @@ std::string describe_loop(const sim::Condition& condition, const RackStage& stag
     return fmt::format(
         "stage {}: at {:.6f} s its following error was {} nm, more than max_following_error_um = {}; card {} opened "
         "its loop: 0 V",
-        stage.name, at, condition.b, number_text(stage.servo->limit_um), stage.card);
+        stage.name, at, condition.b, number_text(stage.servo->max_following_error_um), stage.card);
 }
 
 void CardProcessor::schedule() {

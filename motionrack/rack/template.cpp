@@ -21,7 +21,7 @@ RackAxis linear_axis(char letter, char channel, double travel) {
     RackAxis axis = default_axis(letter);
     axis.card = "motion";
     axis.channel = channel;
-    axis.max_position = travel;
+    axis.max_limit = travel;
     axis.switches.limit_minus = -2;
     axis.switches.limit_plus = travel + 2;
     axis.switches.home = 1;
@@ -35,12 +35,12 @@ RackConfig router() {
     RackAxis& z = out.axes[2];
     z.max_velocity = 50;
     z.max_accel = 500;
-    z.start_position = 80;  // the tool is above the work piece
+    z.initial_position = 80;  // the tool is above the work piece
     RackAxis& a = out.axes[3];
     a.card = "motion";
     a.channel = "u";
-    a.min_position = -3600;
-    a.max_position = 3600;
+    a.min_limit = -3600;
+    a.max_limit = 3600;
     a.switches.home = 0;
     return out;
 }
@@ -72,14 +72,14 @@ RackConfig carriage() {
     axis.lead_mm = 10;
     axis.encoder_counts_per_rev = 1000;
     axis.max_velocity = 500;
-    axis.min_position = -200;
-    axis.max_position = 2900;
+    axis.min_limit = -200;
+    axis.max_limit = 2900;
     axis.switches.limit_minus = -300;
     axis.switches.limit_plus = 3000;
     axis.switches.cam_from = 126;
     axis.switches.cam_to = 132;
     axis.servo.emplace();
-    axis.servo->hold_within = 0.25;
+    axis.servo->position_window = 0.25;
     out.axes = {axis};
     return out;
 }
@@ -182,7 +182,7 @@ std::string marking() {
     line.card = "scan";
     RackScanner head;
     head.card = "scan";
-    head.track = "line";
+    head.conveyor = "line";
     const RackConveyor line_defaults;
     const RackScanner head_defaults;
     const RackParts parts;

@@ -37,7 +37,7 @@ TomlNode drawn(const VariedParameter& parameter, std::uint64_t luck) {
 std::vector<TomlNode> Sweep::values(std::int64_t i) const {
     std::vector<TomlNode> out;
     const std::vector<VariedParameter>& parameters = file_.parameters;
-    if (file_.settings.order == Order::random) {
+    if (file_.settings.sampling == Sampling::random) {
         for (std::size_t p = 0; p < parameters.size(); ++p)
             out.push_back(drawn(parameters[p], mixed(static_cast<std::uint64_t>(file_.settings.seed),
                                                      static_cast<std::uint64_t>(i), p)));

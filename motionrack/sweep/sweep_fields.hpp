@@ -6,7 +6,7 @@
 
 namespace motionrack::sweep {
 
-inline constexpr std::array<std::string_view, 2> order_names = {"grid", "random"};
+inline constexpr std::array<std::string_view, 2> sampling_names = {"grid", "random"};
 
 inline constexpr std::array<rack::Field, 7> sweep_fields = {
     rack::required(rack::field<&SweepSettings::program>(
@@ -17,9 +17,9 @@ inline constexpr std::array<rack::Field, 7> sweep_fields = {
                        "none"),
     rack::field<&SweepSettings::block_delete>("block_delete", 0, 0, "", "skip lines that begin with '/'"),
     rack::with_choices(
-        rack::formerly("order", rack::field<&SweepSettings::order>("sampling", 0, 0, "",
-                                                                   "all combinations of the values, or random points")),
-        order_names),
+        rack::formerly("order", rack::field<&SweepSettings::sampling>(
+                                    "sampling", 0, 0, "", "all combinations of the values, or random points")),
+        sampling_names),
     rack::absent_means(rack::field<&SweepSettings::points>("points", 1, static_cast<double>(max_points), "",
                                                            "number of random points"),
                        "required with random, else none"),
@@ -32,7 +32,7 @@ inline constexpr std::array<rack::Field, 7> sweep_fields = {
 struct RangeSettings {
     double from = 0, to = 0;
     std::optional<std::int64_t> steps;
-    bool whole = false;
+    bool integer = false;
 };
 inline constexpr std::array<rack::Field, 4> range_fields = {
     rack::required(rack::field<&RangeSettings::from>("from", -1e15, 1e15, "", "the first number"), "required"),
@@ -40,7 +40,7 @@ inline constexpr std::array<rack::Field, 4> range_fields = {
     rack::absent_means(rack::field<&RangeSettings::steps>("steps", 2, static_cast<double>(max_steps), "",
                                                           "number of values, at equal distances, including both ends"),
                        "required with grid; with random any value between"),
-    rack::formerly("whole", rack::field<&RangeSettings::whole>("integer", 0, 0, "", "rounded to whole numbers")),
+    rack::formerly("whole", rack::field<&RangeSettings::integer>("integer", 0, 0, "", "rounded to whole numbers")),
 };
 
 }  // namespace motionrack::sweep

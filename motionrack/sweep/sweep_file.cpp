@@ -65,7 +65,7 @@ class Reader {
     void read_sweep(const TomlNode& node) {
         SweepSettings& settings = file_.settings;
         const auto refused = rack::read_fields(node, sweep_fields, &settings, {"[sweep]", "", "", {}}, problems_);
-        random_ = settings.order == Order::random;
+        random_ = settings.sampling == Sampling::random;
         if (!refused.empty()) return;
         if (random_ && !settings.points)
             problems_.error(node.place_of("sampling"),
@@ -203,13 +203,13 @@ class Reader {
             return refuse(node.value_place,
                           fmt::format("{} has no steps: give the number of values from {} to {}.", parameter.name,
                                       rack::number_text(settings.from), rack::number_text(settings.to)));
-        const NumberRange range{settings.from, settings.to, settings.whole};
-        if (range.whole && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))
+        const NumberRange range{settings.from, settings.to, settings.integer};
+        if (range.integer && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))
             return refuse(node.value_place,
                           fmt::format("{} is to be whole, so from and to must be, but they are {} and {}.",
                                       parameter.name, rack::number_text(range.from), rack::number_text(range.to)));
         if (const double numbers = std::fabs(range.to - range.from) + 1;
-            range.whole && settings.steps && static_cast<double>(*settings.steps) > numbers)
+            range.integer && settings.steps && static_cast<double>(*settings.steps) > numbers)
             return refuse(node.place_of("steps"),
                           fmt::format("{} has {} steps, but there are only {} whole numbers.", parameter.name,
                                       *settings.steps, rack::number_text(numbers)));
@@ -243,7 +243,7 @@ bool VariedParameter::numeric() const {
 }
 
 std::int64_t SweepFile::points() const {
-    if (settings.order == Order::random) return settings.points.value_or(0);
+    if (settings.sampling == Sampling::random) return settings.points.value_or(0);
     std::int64_t out = 1;
     for (const VariedParameter& parameter : parameters)
         if (__builtin_mul_overflow(out, static_cast<std::int64_t>(parameter.values.size()), &out))
@@ -254,7 +254,7 @@ std::int64_t SweepFile::points() const {
 double tidied(double value, const NumberRange& range) {
     const double span = std::fabs(range.to - range.from);
     double scale = 1;
-    for (double unit = 1; !range.whole && unit > span / 10'000 && scale < 1e15; unit /= 10) scale *= 10;
+    for (double unit = 1; !range.integer && unit > span / 10'000 && scale < 1e15; unit /= 10) scale *= 10;
     const double rounded = std::floor(value * scale + 0.5) / scale;
     return std::clamp(rounded, std::min(range.from, range.to), std::max(range.from, range.to));
 }

@@ -21,13 +21,13 @@ inline constexpr std::int64_t max_points = 100'000;
 inline constexpr std::size_t max_parameters = 16;
 inline constexpr std::int64_t max_steps = 10'000;
 
-enum class Order : std::uint8_t { grid, random };
+enum class Sampling : std::uint8_t { grid, random };
 
 struct SweepSettings {
     std::string program;
     std::optional<std::string> rack, tools;
     bool block_delete = false;
-    Order order = Order::grid;
+    Sampling sampling = Sampling::grid;
     std::optional<std::int64_t> points;
     std::int64_t seed = 1;
 };
@@ -41,7 +41,7 @@ enum class ParameterKind : std::uint8_t {
 /// Range of numbers.
 struct NumberRange {
     double from = 0, to = 0;
-    bool whole = false;
+    bool integer = false;
 };
 
 /// A varied parameter.

@@ -33,10 +33,10 @@ void bind_homing(py::module_& m) {
         "home",
         [](RackHandle& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
             if (type && (*type < 1 || *type > 4))
-                refuse("The type of homing is " + std::to_string(*type) + "; it must be 1 to 4. Nothing was moved.");
+                refuse("The homing method is " + std::to_string(*type) + "; it must be 1 to 4. Nothing was moved.");
             rack::HomingSettings settings;
             settings.axes = axes;
-            settings.type = type;
+            settings.method = type;
             settings.timeout = ticks(timeout);
             return reported(run_exclusive(world, [&] { return world.home(settings); }));
         },

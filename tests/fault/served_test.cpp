@@ -94,7 +94,7 @@ class Served {
         if (now >= milliseconds(100) && !std::exchange(declared_, true))
             for (const rack::RackAxis& axis : machine->rack().config().axes)
                 if (!machine->position_valid(axis)) {
-                    EXPECT_TRUE(machine->set_position(axis.letter, axis.start_position));
+                    EXPECT_TRUE(machine->set_position(axis.letter, axis.initial_position));
                 }
         if (now < milliseconds(200)) return;
         if (begun_ == never) {

@@ -31,13 +31,13 @@ void check_config(const RackConfig& config) {
         MOTIONRACK_ASSERT(config.card(axis.card) != nullptr);
         MOTIONRACK_ASSERT(std::isfinite(axis.pulses_per_unit()) && axis.pulses_per_unit() > 0);
         MOTIONRACK_ASSERT(std::isfinite(axis.counts_per_unit()) && axis.max_pulse_hz() >= 1);
-        MOTIONRACK_ASSERT(axis.min_position < axis.max_position);
-        MOTIONRACK_ASSERT(axis.start_position >= axis.min_position && axis.start_position <= axis.max_position);
+        MOTIONRACK_ASSERT(axis.min_limit < axis.max_limit);
+        MOTIONRACK_ASSERT(axis.initial_position >= axis.min_limit && axis.initial_position <= axis.max_limit);
     }
     for (const RackConveyor& track : config.tracks) MOTIONRACK_ASSERT(parts::Conveyor::make(track.settings()));
     for (const RackScanner& scanner : config.scanners) {
         MOTIONRACK_ASSERT(config.card(scanner.card) != nullptr &&
-                          (!scanner.track || config.track(*scanner.track) != nullptr));
+                          (!scanner.conveyor || config.track(*scanner.conveyor) != nullptr));
         MOTIONRACK_ASSERT(parts::MarkingStation::make(scanner.settings()));
     }
     std::set<std::string> driven;

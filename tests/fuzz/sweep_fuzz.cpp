@@ -94,7 +94,7 @@ void check_file(const SweepFile& file) {
         check_parameter(file, parameter);
         if (combinations <= max_points) combinations *= static_cast<std::int64_t>(parameter.values.size());
     }
-    const bool is_random = file.settings.order == Order::random;
+    const bool is_random = file.settings.sampling == Sampling::random;
     require(is_random == file.settings.points.has_value(), "a random sweep alone says how many points it has");
     require(file.points() == (is_random ? *file.settings.points : combinations),
             "there are as many points as the file says");

@@ -16,7 +16,7 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
     for (const rack::RunningAxis& axis : rack.axes()) {
         const rack::RackAxis& config = axis.config;
         out.push_back({config.letter, axis.servo != nullptr, config.pulses_per_unit(), config.max_velocity,
-                       config.max_accel, config.max_velocity_step, config.min_position, config.max_position,
+                       config.max_accel, config.max_velocity_step, config.min_limit, config.max_limit,
                        config.following_alarm()});
     }
     return out;

@@ -71,7 +71,7 @@ int home(const HomeOptions& options) {
     rack::HomingSettings settings;
     for (const char c : options.axes)
         if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (options.method != 0) settings.type = options.method;
+    if (options.method != 0) settings.method = options.method;
     settings.stop = &stop_asked;
     ProgressLine progress(options.quiet || options.json);
     settings.progress = [&progress](const rack::HomingProgress& p) {

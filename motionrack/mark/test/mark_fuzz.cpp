@@ -47,7 +47,7 @@ std::string picture_problem(const std::string& text) {
 
 /// Runs the job for a short time.
 std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::string_view text) {
-    if (length_of(prepared.drawing) > max_run_s * job.pace.mark_mm_s) return "";
+    if (length_of(prepared.drawing) > max_run_s * job.pace.mark_speed_mm_s) return "";
     const Result<MarkingOutcome> out = run_job(job, prepared, {{}, [] { return true; }});
     if (!out) return error_problem(out.error(), text);
     for (const Marked* m : {&out->on, out->off ? &*out->off : nullptr}) {

@@ -149,7 +149,7 @@ TEST(RackKeys, KeepsNumbersBitForBit) {
             rack_with(fmt::format("lead_mm = {}\nmax_limit_mm = {}\nmax_velocity_mm_s = 2\n", lead, travel)));
         RC_ASSERT(reading.config.has_value());
         RC_ASSERT(reading.config->axes[0].lead_mm == lead);
-        RC_ASSERT(reading.config->axes[0].max_position == travel);
+        RC_ASSERT(reading.config->axes[0].max_limit == travel);
         RC_ASSERT(reading.config->axes[0].pulses_per_unit() == 3200 / lead);
     }));
 }

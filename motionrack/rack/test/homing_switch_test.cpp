@@ -24,7 +24,7 @@ HomingOutcome homed(const std::string& text, const std::string& target, int type
     Rack rack(good(text));
     rack.start();
     HomingSettings settings;
-    settings.type = type;
+    settings.method = type;
     std::size_t next = 0;
     int looks = 0;
     settings.progress = [&](const HomingProgress& p) {

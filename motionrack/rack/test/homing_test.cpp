@@ -151,7 +151,7 @@ TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
     EXPECT_TRUE(path);
     HomingSettings again;
     again.axes = "Y";
-    again.type = 1;
+    again.method = 1;
     EXPECT_TRUE(home_axes(rack, again).all_homed());
 }
 

@@ -263,7 +263,7 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
                                               type >= 3 ? "home_offset_mm = 128\n" : ""))));
             rack.start();
             HomingSettings settings;
-            settings.type = type;
+            settings.method = type;
             const HomingOutcome out = home_axes(rack, settings);
             ASSERT_TRUE(out.all_homed()) << out.axes[0].outcome.sentence;
             // The index pulses are at whole revolutions from the start at 100 mm; the one under the cam is at 130 mm.

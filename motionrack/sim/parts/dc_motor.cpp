@@ -49,8 +49,8 @@ double DcMotor::wanted_velocity() const {
 /// Law of motion from `velocity` on with the present voltage and load.
 DcMotorModel DcMotor::law_from(double velocity) const {
     const double inertia = 1 + state_.load;
-    const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia,
-                 lag = settings_.lag_s * inertia;
+    const double limit = settings_.current_limit_accel / inertia, friction = settings_.coulomb_friction / inertia,
+                 lag = settings_.time_constant_s * inertia;
     const double wanted = wanted_velocity(), error = wanted - velocity;
     int direction = sign_of(velocity);
     if (direction == 0) {
@@ -90,12 +90,13 @@ DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSett
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
     MOTIONRACK_ASSERT(settings.gain > 0 && settings.saturation_velocity > 0 && settings.saturation_velocity <= 1e6 &&
-                      settings.friction >= 0);
-    MOTIONRACK_ASSERT(settings.top_accel > settings.friction && settings.lag_s >= 1e-4 && settings.lag_s <= 10);
-    MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load >= 0);
+                      settings.coulomb_friction >= 0);
+    MOTIONRACK_ASSERT(settings.current_limit_accel > settings.coulomb_friction && settings.time_constant_s >= 1e-4 &&
+                      settings.time_constant_s <= 10);
+    MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load_inertia_ratio >= 0);
     MOTIONRACK_ASSERT(settings.end_minus.value_or(0) <= 0 && settings.end_plus.value_or(0) >= 0);
     kernel.listen(drive_, id_, 0);
-    state_.load = settings.load;
+    state_.load = settings.load_inertia_ratio;
     state_.law.end = DcMotorModel::endless;
 }
 

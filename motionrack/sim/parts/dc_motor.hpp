@@ -29,11 +29,11 @@ namespace motionrack::parts {
 struct DcMotorSettings {
     double gain = 10'000;                  ///< > 0: counts/s per volt
     double saturation_velocity = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
-    double top_accel = 2e6;                ///< counts/s2 at the current limit; greater than the friction
-    double lag_s = 0.01;                   ///< 0.0001 .. 10: time constant of the velocity
-    double friction = 20'000;              ///< counts/s2, >= 0: deceleration without current
-    double dead_band_v = 0.005;  ///< V, 0 .. 5: smaller voltages have no effect; larger ones are reduced by it
-    double load = 0;             ///< 0 .. 1000: inertia of the load relative to the motor
+    double current_limit_accel = 2e6;      ///< counts/s2 at the current limit; greater than the friction
+    double time_constant_s = 0.01;         ///< 0.0001 .. 10: time constant of the velocity
+    double coulomb_friction = 20'000;      ///< counts/s2, >= 0: deceleration without current
+    double dead_band_v = 0.005;     ///< V, 0 .. 5: smaller voltages have no effect; larger ones are reduced by it
+    double load_inertia_ratio = 0;  ///< 0 .. 1000: inertia of the load relative to the motor
     std::optional<std::int64_t> end_minus{};  ///< counts of the end of travel; 0 lies between the ends
     std::optional<std::int64_t> end_plus{};
 };

@@ -38,17 +38,17 @@ Result<void> check(const GalvoSettings& s) {
         return fail(ErrorKind::refused,
                     fmt::format("mirrors with {} {}: {} to {} are possible", name, value, min, max));
     };
-    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, max_dead_us));
-    MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
-    MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
+    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_time_us, 0, max_dead_time_us));
+    MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_frequency_hz, 10, 20'000));
+    MOTIONRACK_CHECK(range("a damping of", s.damping_ratio, 0.1, 10));
     return range("a maximum velocity in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
 }
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    const double w = 2 * pi * settings.natural_hz * galvo_tick_s;  // radians per tick
-    over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping * w});
-    dead_ = static_cast<std::int64_t>(settings.dead_us / 10);
+    const double w = 2 * pi * settings.natural_frequency_hz * galvo_tick_s;  // radians per tick
+    over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping_ratio * w});
+    dead_ = static_cast<std::int64_t>(settings.dead_time_us / 10);
 }
 
 void GalvoPair::reset(double x, double y) {
@@ -61,8 +61,9 @@ void GalvoPair::reset(double x, double y) {
 }
 
 double GalvoPair::lag_us() const {
-    if (settings_.ideal) return 0;
-    return static_cast<double>(dead_) * 10 + 1e6 * 2 * settings_.damping / (2 * pi * settings_.natural_hz);
+    if (settings_.ideal_mirrors) return 0;
+    return static_cast<double>(dead_) * 10 +
+           1e6 * 2 * settings_.damping_ratio / (2 * pi * settings_.natural_frequency_hz);
 }
 
 double GalvoPair::step(Mirror& m, double reported) const {
@@ -81,7 +82,7 @@ double GalvoPair::step(Mirror& m, double reported) const {
 void GalvoPair::run(std::span<const std::int32_t> x, std::span<const std::int32_t> y, std::span<double> to_x,
                     std::span<double> to_y) {
     const std::size_t n = x.size();
-    if (settings_.ideal) {
+    if (settings_.ideal_mirrors) {
         std::copy(x.begin(), x.end(), to_x.begin());
         std::copy(y.begin(), y.end(), to_y.begin());
         if (n > 0) mirrors_[0].position = to_x[n - 1], mirrors_[1].position = to_y[n - 1];

@@ -13,13 +13,13 @@
 
 namespace motionrack::parts {
 
-inline constexpr int max_dead_us = 10'000;
+inline constexpr int max_dead_time_us = 10'000;
 
 struct GalvoSettings {
-    bool ideal = true;
-    double dead_us = 0;                    ///< 0 .. 10000, rounded down to 10 us
-    double natural_hz = 2000;              ///< 10 .. 20000
-    double damping = 0.8;                  ///< 0.1 .. 10; 1: no overshoot
+    bool ideal_mirrors = true;
+    double dead_time_us = 0;               ///< 0 .. 10000, rounded down to 10 us
+    double natural_frequency_hz = 2000;    ///< 10 .. 20000
+    double damping_ratio = 0.8;            ///< 0.1 .. 10; 1: no overshoot
     double max_velocity_bits_ms = 800000;  ///< bits/ms, 1 .. 1e9
 };
 
@@ -45,7 +45,7 @@ class GalvoPair {
     struct Mirror {
         double position = 0, velocity = 0;  ///< bits, bits/tick
         std::int64_t head = 0;
-        std::array<double, max_dead_us / 10> late{};  ///< commanded values during the dead time
+        std::array<double, max_dead_time_us / 10> late{};  ///< commanded values during the dead time
     };
     double step(Mirror& mirror, double reported) const;
 

@@ -54,15 +54,15 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Posi
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.pitch_pm >= 1'000 && s.pitch_pm <= 1'000'000'000);
     MOTIONRACK_ASSERT(s.interpolation >= 4 && s.interpolation <= 65'536 && s.interpolation % 4 == 0);
-    MOTIONRACK_ASSERT(s.max_count_rate >= 1 && s.max_count_rate <= 1e9 && std::fabs(s.zero_nm) <= 1e10);
+    MOTIONRACK_ASSERT(s.max_count_rate >= 1 && s.max_count_rate <= 1e9 && std::fabs(s.zero_offset_nm) <= 1e10);
     MOTIONRACK_ASSERT(s.places >= 1 && s.places <= 1'000'000'000 && s.places_nm >= 1 && s.places_nm <= 1'000'000'000);
     const auto place_of = [&s](double nm) {
         return nearest(nm * static_cast<double>(s.places) / static_cast<double>(s.places_nm));
     };
-    state_.zero = place_of(s.zero_nm);
+    state_.zero = place_of(s.zero_offset_nm);
     state_.direction = s.reversed ? -1 : 1;
     set_ratio(0);
-    dirt_at_ = grating(place_of(s.dirt_at_nm));
+    dirt_at_ = grating(place_of(s.dirt_position_nm));
     index_at_ = s.index_nm ? grating(place_of(*s.index_nm)) : 0;
     place.watch_rate(s.max_count_rate / counts_per_place());
     constexpr const char* names[] = {".a", ".b", ".z"};

@@ -37,10 +37,10 @@ struct LinearScaleSettings {
     std::int64_t pitch_pm = 20'000'000;   ///< 1000 .. 1e9 (1 nm to 1 mm): the grating's period, picometres
     std::int64_t interpolation = 4'096;   ///< 4 .. 65536, a multiple of 4: counts per pitch
     bool reversed = false;                ///< counts down while the position increases
-    double zero_nm = 0;                   ///< position of count 0, within 10 m
+    double zero_offset_nm = 0;            ///< position of count 0, within 10 m
     double max_count_rate = 20e6;         ///< counts/s, 1 .. 1e9: maximum rate that is counted
     std::optional<double> index_nm;       ///< position of the reference mark: Z is high for its count
-    double dirt_at_nm = 0;                ///< start of the dirt of the fault
+    double dirt_position_nm = 0;          ///< start of the dirt of the fault
     std::int64_t places = places_per_nm;  ///< 1 .. 1e9: this number of position counts ...
     std::int64_t places_nm = 1;           ///< ... corresponds to this number of nm, 1 .. 1e9
 };

@@ -56,20 +56,23 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
     : kernel_(kernel),
       settings_(s),
       saturation_velocity_(fine_velocity(s.saturation_velocity)),
-      end_minus_(count_of_nm(s.end_minus_nm)),
-      end_plus_(count_of_nm(s.end_plus_nm)),
+      end_minus_(count_of_nm(s.hard_stop_minus_nm)),
+      end_plus_(count_of_nm(s.hard_stop_plus_nm)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
     static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * std::size_t{8} + slots * sizeof(Range) + 6 * std::size_t{4},
                   "padding would get into the state's hash");
-    MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.top_accel > 0 && s.top_accel <= 1'000);
-    MOTIONRACK_ASSERT(s.saturation_velocity > 0 && s.saturation_velocity <= 10 && s.viscous >= 0 && s.viscous <= 100);
-    MOTIONRACK_ASSERT(s.coulomb >= 0 && s.coulomb <= 1'000 && s.load >= 0 && s.load <= 1'000);
-    MOTIONRACK_ASSERT(s.end_minus_nm >= -1e10 && s.end_minus_nm <= s.start_nm && s.start_nm <= s.end_plus_nm &&
-                      s.end_plus_nm <= 1e10);
+    MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.current_limit_accel > 0 &&
+                      s.current_limit_accel <= 1'000);
+    MOTIONRACK_ASSERT(s.saturation_velocity > 0 && s.saturation_velocity <= 10 && s.viscous_friction >= 0 &&
+                      s.viscous_friction <= 100);
+    MOTIONRACK_ASSERT(s.coulomb_friction >= 0 && s.coulomb_friction <= 1'000 && s.load_mass_ratio >= 0 &&
+                      s.load_mass_ratio <= 1'000);
+    MOTIONRACK_ASSERT(s.hard_stop_minus_nm >= -1e10 && s.hard_stop_minus_nm <= s.start_nm &&
+                      s.start_nm <= s.hard_stop_plus_nm && s.hard_stop_plus_nm <= 1e10);
     kernel.listen(drive_, id_, 0);
     state_.place = fine_place(count_of_nm(s.start_nm));
-    state_.load = s.load;
+    state_.load = s.load_mass_ratio;
     begin_law();
 }
 
@@ -108,8 +111,8 @@ int LinearStage::direction() const {
 
 /// Half the acceleration in `direction` with a driving acceleration `push`, m/s2.
 std::int64_t LinearStage::accel_law(double push, int direction) const {
-    const double mass = 1 + state_.load, viscous = settings_.viscous / mass;
-    const double rubbing = (settings_.coulomb + state_.rubbing) / mass;
+    const double mass = 1 + state_.load, viscous = settings_.viscous_friction / mass;
+    const double rubbing = (settings_.coulomb_friction + state_.rubbing) / mass;
     const double accel =
         (push - direction * rubbing - viscous * in_m_s(state_.velocity)) / (1 + viscous * viscous_piece_s / 2);
     return static_cast<std::int64_t>(
@@ -121,7 +124,8 @@ void LinearStage::begin_law() {
     State& s = state_;
     const double mass = 1 + s.load;
     const double push =
-        std::clamp(volts() * settings_.accel_per_volt, -settings_.top_accel, settings_.top_accel) / mass;
+        std::clamp(volts() * settings_.accel_per_volt, -settings_.current_limit_accel, settings_.current_limit_accel) /
+        mass;
     s.half_accel = 0;
     s.length = endless;
     if (s.held) s.velocity = 0;
@@ -132,13 +136,13 @@ void LinearStage::begin_law() {
         const Wide change = 2 * Wide{s.half_accel} * sign(s.velocity);
         if (change < 0 && s.velocity * sign(s.velocity) < -change) {  // it reverses within a tick
             s.length = 1;
-            if (settings_.coulomb + s.rubbing == 0) return;
+            if (settings_.coulomb_friction + s.rubbing == 0) return;
             s.velocity = 0;
         }
     }
     if (s.velocity == 0) {
         const bool stands =
-            s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb + s.rubbing;
+            s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb_friction + s.rubbing;
         s.half_accel = stands ? 0 : accel_law(push, sign(push));
         s.length = endless;
         if (s.half_accel == 0) return;
@@ -151,7 +155,7 @@ void LinearStage::begin_law() {
 /// Ticks until the parabola reverses, reaches the saturation velocity or a marked velocity, or reaches its maximum
 /// length.
 std::int64_t LinearStage::law_length() const {
-    std::int64_t length = settings_.viscous > 0 ? viscous_piece : max_parabola;
+    std::int64_t length = settings_.viscous_friction > 0 ? viscous_piece : max_parabola;
     if (state_.half_accel == 0) return length;
     const Wide velocity = state_.velocity * direction(), change = 2 * Wide{state_.half_accel} * direction();
     const auto ends = [&](std::int64_t at) { length = std::min(length, std::max<std::int64_t>(at, 1)); };

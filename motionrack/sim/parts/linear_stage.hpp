@@ -31,15 +31,16 @@ namespace motionrack::parts {
 inline constexpr std::int64_t places_per_nm = 1024;
 
 struct LinearStageSettings {
-    double accel_per_volt = 5;       ///< m/s2 per volt, > 0, at most 1000; without load
-    double top_accel = 50;           ///< m/s2, > 0, at most 1000: at the current limit; without load
-    double saturation_velocity = 2;  ///< m/s, > 0, at most 10: limit by the amplifier's voltage
-    double viscous = 0;              ///< 1/s, 0 .. 100: deceleration proportional to the velocity, m/s2 per m/s
-    double coulomb = 0;   ///< m/s2, 0 .. 1000: deceleration by dry friction; a smaller force does not move the stage
-    double load = 0;      ///< 0 .. 1000: mass on the stage relative to its own
-    double start_nm = 0;  ///< initial position, within the ends
-    double end_minus_nm = -1e9;  ///< ends of travel, -1e10 .. 1e10
-    double end_plus_nm = 1e9;
+    double accel_per_volt = 5;        ///< m/s2 per volt, > 0, at most 1000; without load
+    double current_limit_accel = 50;  ///< m/s2, > 0, at most 1000: at the current limit; without load
+    double saturation_velocity = 2;   ///< m/s, > 0, at most 10: limit by the amplifier's voltage
+    double viscous_friction = 0;      ///< 1/s, 0 .. 100: deceleration proportional to the velocity, m/s2 per m/s
+    double coulomb_friction =
+        0;  ///< m/s2, 0 .. 1000: deceleration by dry friction; a smaller force does not move the stage
+    double load_mass_ratio = 0;        ///< 0 .. 1000: mass on the stage relative to its own
+    double start_nm = 0;               ///< initial position, within the ends
+    double hard_stop_minus_nm = -1e9;  ///< ends of travel, -1e10 .. 1e10
+    double hard_stop_plus_nm = 1e9;
 };
 
 class LinearStage final : public sim::DeferringDevice, public sim::PositionFunction {

@@ -50,7 +50,7 @@ Transmission::Transmission(const TransmissionSettings& settings, std::int64_t pu
 }
 
 std::int64_t Transmission::first_at_or_above(double position) const {
-    const double guess = std::floor((position - settings_.start_position) / num_ * den_);
+    const double guess = std::floor((position - settings_.initial_position) / num_ * den_);
     auto table = static_cast<std::int64_t>(std::fmin(std::fmax(guess, -farthest_microsteps), farthest_microsteps));
     // The division may be off by a rounding; position_of decides.
     while (position_of(table) < position && table < static_cast<std::int64_t>(farthest_microsteps)) ++table;

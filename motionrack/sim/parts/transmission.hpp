@@ -26,7 +26,7 @@ Ratio rotary_travel(double gear_ratio);
 
 struct TransmissionSettings {
     Ratio travel_per_rev{5, 1};       ///< mm or degrees per motor revolution
-    double start_position = 0;        ///< mm or degrees at the start
+    double initial_position = 0;      ///< mm or degrees at the start
     double backlash = 0;              ///< mm or degrees of play, >= 0; rounded to microsteps
     std::optional<double> end_minus;  ///< mm or degrees: hard ends of travel; absent: unlimited
     std::optional<double> end_plus;
@@ -51,7 +51,7 @@ class Transmission {
 
     /// mm or degrees for the table at `table` microsteps: two roundings, the same on every machine.
     double position_of(std::int64_t table) const {
-        return settings_.start_position + static_cast<double>(table) * num_ / den_;
+        return settings_.initial_position + static_cast<double>(table) * num_ / den_;
     }
     double position(std::int64_t rotor) const { return position_of(table(rotor)); }
     double units_per_pulse() const { return num_ / den_; }

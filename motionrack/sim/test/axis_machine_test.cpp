@@ -74,7 +74,7 @@ TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
 TEST(AxisMechanics, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
     AxisMechanicsSettings s = plain();
     s.axle.travel_per_rev = rotary_travel(7);
-    s.axle.start_position = -10;
+    s.axle.initial_position = -10;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
     w.run(milliseconds(320 * 7));
@@ -183,8 +183,8 @@ RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPlace
     AxisMechanicsSettings s = plain();
     s.axle.travel_per_rev =
         *rc::gen::element(linear_travel(5), linear_travel(5.08), rotary_travel(7), rotary_travel(90));
-    s.axle.start_position = *rc::gen::inRange(-1000, 1000) / 10.0;
-    s.limit_plus.position = s.axle.start_position + *rc::gen::inRange(1, 100) / 100.0;
+    s.axle.initial_position = *rc::gen::inRange(-1000, 1000) / 10.0;
+    s.limit_plus.position = s.axle.initial_position + *rc::gen::inRange(1, 100) / 100.0;
     s.limit_plus.bounce = Duration{0};
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();

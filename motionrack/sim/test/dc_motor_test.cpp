@@ -33,13 +33,13 @@ struct SteppedMotor {
     DcMotorSettings s;
     double volts = 0, velocity = 0, place = 0.5;
     void run(double seconds) {
-        const double h = 1e-6, inertia = 1 + s.load;
+        const double h = 1e-6, inertia = 1 + s.load_inertia_ratio;
         for (auto steps = static_cast<std::int64_t>(std::lround(seconds / h)); steps > 0; --steps) {
             const double drive = std::max(0.0, std::fabs(volts) - s.dead_band_v) * s.gain;
             const double wanted = std::copysign(std::min(drive, s.saturation_velocity), volts);
-            const double torque =
-                std::clamp((wanted - velocity) / (s.lag_s * inertia), -s.top_accel / inertia, s.top_accel / inertia);
-            const double friction = s.friction / inertia;
+            const double torque = std::clamp((wanted - velocity) / (s.time_constant_s * inertia),
+                                             -s.current_limit_accel / inertia, s.current_limit_accel / inertia);
+            const double friction = s.coulomb_friction / inertia;
             if (velocity == 0 && std::fabs(torque) <= friction) continue;
             const double before = velocity;
             velocity += h * (torque - (velocity > 0 || (velocity == 0 && torque > 0) ? friction : -friction));
@@ -51,9 +51,9 @@ struct SteppedMotor {
 
 RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
     DcMotorSettings s;
-    s.lag_s = *rc::gen::element(0.002, 0.01, 0.05);
-    s.load = *rc::gen::element(0.0, 1.0, 9.0);
-    s.friction = *rc::gen::element(1'000.0, 20'000.0);
+    s.time_constant_s = *rc::gen::element(0.002, 0.01, 0.05);
+    s.load_inertia_ratio = *rc::gen::element(0.0, 1.0, 9.0);
+    s.coulomb_friction = *rc::gen::element(1'000.0, 20'000.0);
     s.dead_band_v = *rc::gen::element(0.0, 0.01);
     MotorRig rig(s);
     rig.kernel.start();
@@ -73,7 +73,7 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
 
 TEST(DcMotor, VelocityIsProportionalToTheVoltageUpToSaturation) {
     DcMotorSettings s;
-    s.friction = 0;
+    s.coulomb_friction = 0;
     MotorRig rig(s);
     rig.kernel.start();
     rig.volts(2.005);

@@ -86,7 +86,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
     s.pitch_pm = *rc::gen::element<std::int64_t>(20'000'000, 512'000, 8'123'457, 1'000'000'000);
     s.interpolation = *rc::gen::element<std::int64_t>(4, 1'024, 4'096, 65'536);
     s.reversed = *rc::gen::arbitrary<bool>();
-    s.zero_nm = *rc::gen::element(0.0, -1e6, 3e8);
+    s.zero_offset_nm = *rc::gen::element(0.0, -1e6, 3e8);
     s.max_count_rate = 1e9;
     LinearStageSettings stage;
     stage.start_nm = *rc::gen::element(0.0, -9e8, 9e8);
@@ -97,7 +97,7 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
         rig.volts(*rc::gen::inRange(-100, 101) * 0.01);
         rig.run(1e-4 * *rc::gen::inRange(1, 200));
         const std::int64_t place = rig.stage.count(rig.kernel.now());
-        const long double nm = static_cast<long double>(place) / 1024 - s.zero_nm;
+        const long double nm = static_cast<long double>(place) / 1024 - s.zero_offset_nm;
         const long double counts = nm * 1'000 * s.interpolation / s.pitch_pm;
         const auto expected = static_cast<std::int64_t>(std::floor(counts));
         RC_ASSERT(rig.scale.lost() == 0);
@@ -244,7 +244,7 @@ TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
 
 TEST(LinearScale, FaultsChangeTheMeasureAndNothingElse) {
     LinearScaleSettings s;
-    s.dirt_at_nm = 1e6;
+    s.dirt_position_nm = 1e6;
     s.index_nm = 2e6;
     ScaleRig rig(s);
     rig.kernel.start();

@@ -34,16 +34,18 @@ struct Stepped {
     double volts = 0;
     long double velocity = 0, place = 0, peak_velocity = 0;
     void run(double seconds) {
-        const long double h = 0.25e-6L, mass = 1 + s.load;
+        const long double h = 0.25e-6L, mass = 1 + s.load_mass_ratio;
         for (auto steps = std::llround(seconds / 0.25e-6); steps > 0; --steps) {
-            const long double push = std::clamp(volts * s.accel_per_volt, -s.top_accel, s.top_accel);
-            if (velocity == 0 && std::fabs(push) <= s.coulomb) continue;
-            const long double brake = velocity > 0 || (velocity == 0 && push > 0) ? s.coulomb : -s.coulomb;
+            const long double push =
+                std::clamp(volts * s.accel_per_volt, -s.current_limit_accel, s.current_limit_accel);
+            if (velocity == 0 && std::fabs(push) <= s.coulomb_friction) continue;
+            const long double brake =
+                velocity > 0 || (velocity == 0 && push > 0) ? s.coulomb_friction : -s.coulomb_friction;
             const long double before = velocity;
-            long double accel = (push - brake - s.viscous * velocity) / mass;
-            accel = (push - brake - s.viscous * (velocity + accel * h / 2)) / mass;
+            long double accel = (push - brake - s.viscous_friction * velocity) / mass;
+            accel = (push - brake - s.viscous_friction * (velocity + accel * h / 2)) / mass;
             velocity = std::clamp<long double>(velocity + h * accel, -s.saturation_velocity, s.saturation_velocity);
-            if (before * velocity < 0 && s.coulomb > 0) velocity = 0;
+            if (before * velocity < 0 && s.coulomb_friction > 0) velocity = 0;
             peak_velocity = std::max(peak_velocity, std::fabs(velocity));
             place += h * (before + velocity) / 2;
         }
@@ -52,9 +54,9 @@ struct Stepped {
 
 RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
     LinearStageSettings s;
-    s.viscous = *rc::gen::element(0.0, 2.0, 50.0);
-    s.coulomb = *rc::gen::element(0.0, 0.3);
-    s.load = *rc::gen::element(0.0, 2.0);
+    s.viscous_friction = *rc::gen::element(0.0, 2.0, 50.0);
+    s.coulomb_friction = *rc::gen::element(0.0, 0.3);
+    s.load_mass_ratio = *rc::gen::element(0.0, 2.0);
     s.saturation_velocity = *rc::gen::element(0.2, 2.0);
     Rig rig(s);
     rig.kernel.start();
@@ -70,15 +72,15 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         // for the rest of the run.
         RC_ASSERT(std::fabs(rig.velocity() - static_cast<double>(stepped.velocity)) < 5e-5);
         RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
-        if (s.coulomb == 0 && s.viscous == 0 && stepped.peak_velocity < s.saturation_velocity)
+        if (s.coulomb_friction == 0 && s.viscous_friction == 0 && stepped.peak_velocity < s.saturation_velocity)
             RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 0.01);
     }
 }
 
 RC_GTEST_PROP(LinearStage, IsWhereItIsHoweverOftenItIsAsked, ()) {
     LinearStageSettings s;
-    s.viscous = *rc::gen::element(0.0, 7.0);
-    s.coulomb = *rc::gen::element(0.0, 0.1);
+    s.viscous_friction = *rc::gen::element(0.0, 7.0);
+    s.coulomb_friction = *rc::gen::element(0.0, 0.1);
     Rig seldom(s), often(s);
     seldom.kernel.start();
     often.kernel.start();
@@ -103,7 +105,7 @@ RC_GTEST_PROP(LinearStage, IsWhereItIsHoweverOftenItIsAsked, ()) {
 
 TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
     LinearStageSettings s;
-    s.coulomb = 0.5;
+    s.coulomb_friction = 0.5;
     Rig rig(s);
     rig.kernel.start();
     rig.volts(2);
@@ -124,7 +126,7 @@ TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
 
 TEST(LinearStage, ViscousFrictionEndsInTheVelocityAtWhichItBrakesAsMuch) {
     LinearStageSettings s;
-    s.viscous = 20;
+    s.viscous_friction = 20;
     Rig rig(s);
     rig.kernel.start();
     rig.volts(1);
@@ -168,7 +170,7 @@ struct RecordingListener final : sim::PositionListener, sim::EdgeListener {
 
 RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
     LinearStageSettings s;
-    s.viscous = *rc::gen::element(0.0, 30.0);
+    s.viscous_friction = *rc::gen::element(0.0, 30.0);
     Rig rig(s);
     RecordingListener listener;
     const int slot = rig.stage.add_listener(listener);
@@ -262,8 +264,8 @@ TEST(LinearStage, MarkedRatesAreReportedAtTheirTick) {
 
 TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
     LinearStageSettings s;
-    s.end_plus_nm = 1'000'000;
-    s.end_minus_nm = -200'000;
+    s.hard_stop_plus_nm = 1'000'000;
+    s.hard_stop_minus_nm = -200'000;
     Rig rig(s);
     rig.kernel.start();
     rig.volts(1);
@@ -318,8 +320,8 @@ TEST(LinearStage, AcceptsFaultsThatStallPushBrakeAndLoadIt) {
 
 TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
     LinearStageSettings s;
-    s.viscous = 3;
-    s.coulomb = 0.1;
+    s.viscous_friction = 3;
+    s.coulomb_friction = 0.1;
     Rig rig(s);
     RecordingListener listener;
     listener.at.reserve(100);

@@ -25,7 +25,7 @@ TEST(GalvoPair, IdealMirrorsAreAtTheCommandedPosition) {
 }
 
 TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
-    GalvoPair galvo({.ideal = false, .dead_us = 50, .natural_hz = 2000, .damping = 0.9});
+    GalvoPair galvo({.ideal_mirrors = false, .dead_time_us = 50, .natural_frequency_hz = 2000, .damping_ratio = 0.9});
     std::vector<std::int32_t> ramp(3000);
     for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::int32_t>(i) * 40;
     const auto x = driven(galvo, ramp);
@@ -34,7 +34,8 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
 }
 
 TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheVelocityLimit) {
-    GalvoPair galvo({.ideal = false, .natural_hz = 1000, .damping = 1, .max_velocity_bits_ms = 20'000});
+    GalvoPair galvo(
+        {.ideal_mirrors = false, .natural_frequency_hz = 1000, .damping_ratio = 1, .max_velocity_bits_ms = 20'000});
     const auto x = driven(galvo, std::vector<std::int32_t>(2000, 10'000));
     double before = 0;
     for (const double at : x) {
@@ -43,8 +44,8 @@ TEST(GalvoPair, AStepSettlesOnItsTargetAndKeepsTheVelocityLimit) {
         before = at;
     }
     EXPECT_NEAR(x.back(), 10'000, 1e-6);
-    EXPECT_FALSE(check({.ideal = false, .dead_us = nan}));
-    EXPECT_FALSE(check({.ideal = false, .natural_hz = 1}));
+    EXPECT_FALSE(check({.ideal_mirrors = false, .dead_time_us = nan}));
+    EXPECT_FALSE(check({.ideal_mirrors = false, .natural_frequency_hz = 1}));
 }
 
 TEST(Conveyor, TravelIsTheIntegralOfTheProfile) {

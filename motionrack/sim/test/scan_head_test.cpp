@@ -66,8 +66,8 @@ TEST(ScanHead, AllTheSameHowARunIsCut) {
 
 TEST(ScanHead, NothingIsAllocatedInARunAndPointsBeyondTheRoomAreCounted) {
     StationSettings settings = plain_head();
-    settings.galvo.ideal = false;
-    settings.galvo.dead_us = 70;
+    settings.galvo.ideal_mirrors = false;
+    settings.galvo.dead_time_us = 70;
     settings.laser.on_delay_us = 20;
     settings.laser.off_delay_us = 30;
     settings.workpiece.max_points = 100;

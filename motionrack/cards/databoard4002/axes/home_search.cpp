@@ -32,7 +32,7 @@ void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& fra
     order_ = order;
     frame_ = frame;
     outcome_ = {};
-    outcome_.type = order.type;
+    outcome_.method = order.method;
     outcome_.towards_plus = order.towards_plus;
     outcome_.from = now;
     error_ = {};
@@ -84,12 +84,12 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
     outcome_.homed = state == State::homed;
     outcome_.sentence = std::move(sentence);
     outcome_.took_s = since(now);
-    const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.position : frame_.offset;
+    const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.home_offset : frame_.offset;
     const auto place_of = [&](double way) { return called + (way - zero) / frame_.counts_per_unit; };
     for (control::HomingStateVisit& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
     for (control::HomingEdge& edge : outcome_.edges) edge.position = place_of(edge.position);
     outcome_.position = place_of(way_);
-    if (zeroed_) outcome_.moved_by = order_.position - place(home_way_);
+    if (zeroed_) outcome_.moved_by = order_.home_offset - place(home_way_);
 }
 
 // ---- entering a state
@@ -97,8 +97,8 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
 /// Events that set the counter to 0 in the present state.
 std::uint8_t HomeSearch::marks() const {
     if (!marking()) return 0;
-    const bool index = order_.type == control::HomingMethod::index_after_switch ||
-                       (order_.type == control::HomingMethod::twice_and_index && state_ == State::slow);
+    const bool index = order_.method == control::HomingMethod::index_after_switch ||
+                       (order_.method == control::HomingMethod::twice_and_index && state_ == State::slow);
     return static_cast<std::uint8_t>(event::REF | (index ? event::ZERO : 0));
 }
 
@@ -240,7 +240,7 @@ Result<void> HomeSearch::look_back(Instant now) {
                                   std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
                                   std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     }
-    if (!off_ || std::fabs(way_ - off_way_) < order_.clearance * frame_.counts_per_unit) return {};
+    if (!off_ || std::fabs(way_ - off_way_) < order_.backoff * frame_.counts_per_unit) return {};
     return enter(State::back_stop, now);
 }
 

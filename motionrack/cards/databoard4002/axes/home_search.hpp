@@ -44,7 +44,7 @@ class HomeSearch {
     bool homed() const { return state_ == State::homed; }
     std::string_view state_name() const;
     /// Position of the counter's 0 after homing.
-    double home_position() const { return order_.position; }
+    double home_position() const { return order_.home_offset; }
     const control::HomingResult& outcome() const { return outcome_; }
     /// Reason of the failure. Requires that the search ended without success.
     const Error& error() const { return error_; }
@@ -53,8 +53,8 @@ class HomeSearch {
     enum class State : std::uint8_t { idle, back, back_stop, search, search_stop, slow, slow_stop, homed, failed };
 
     bool twice() const {
-        return order_.type == control::HomingMethod::twice_to_switch ||
-               order_.type == control::HomingMethod::twice_and_index;
+        return order_.method == control::HomingMethod::twice_to_switch ||
+               order_.method == control::HomingMethod::twice_and_index;
     }
     bool marking() const { return state_ == State::search || state_ == State::slow; }
     std::uint8_t marks() const;

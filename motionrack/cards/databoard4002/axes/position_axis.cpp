@@ -290,9 +290,9 @@ Result<void> PositionAxis::home(const control::HomingRequest& order, Instant now
     MOTIONRACK_TRY(const int rate, rate_of("Homing", order.search_velocity));
     MOTIONRACK_TRY(const int slow, rate_of("Homing", order.latch_velocity));
     if (busy()) return refuse("Homing", "it moves; stop it and wait for standstill");
-    if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) &&
-          order.travel >= 0 && std::isfinite(order.travel)))
-        return refuse("Homing", "clearance, travel and position must be numbers, the first two 0 or more");
+    if (!(order.backoff >= 0 && std::isfinite(order.backoff) && std::isfinite(order.home_offset) && order.travel >= 0 &&
+          std::isfinite(order.travel)))
+        return refuse("Homing", "backoff, travel and home offset must be numbers, the first two 0 or more");
     const control::AxisLimits& limits = settings_.limits;
     const double travel = order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position);
     HomeFrame frame;

@@ -24,13 +24,13 @@ struct PositionAxisSettings {
     std::string_view unit = "mm";
     control::AxisLimits
         limits;  ///< max_accel applies to both ramps, max_velocity_step is the creep velocity at their ends
-    double counts_per_unit = 100;  ///< scale of the card's counter, > 0
-    SpeedScale scale;              ///< counts/s at a rate
-    double lag_s = 0;              ///< the motor's time constant, with its load
-    std::optional<double>
-        hold_window;  ///< mm or degrees: in-position window of the card's position lock after a move; absent: no lock
-    Duration settle = milliseconds(20);  ///< the axis is at standstill after this time without a count
-    Duration hold = milliseconds(250);   ///< a jog ends after this time without renewal
+    double counts_per_unit = 100;           ///< scale of the card's counter, > 0
+    SpeedScale scale;                       ///< counts/s at a rate
+    double lag_s = 0;                       ///< the motor's time constant, with its load
+    std::optional<double> position_window;  ///< mm or degrees: in-position window of the card's position lock after a
+                                            ///< move; absent: no lock
+    Duration settle = milliseconds(20);     ///< the axis is at standstill after this time without a count
+    Duration hold = milliseconds(250);      ///< a jog ends after this time without renewal
 };
 
 class PositionAxis final : public control::Axis {

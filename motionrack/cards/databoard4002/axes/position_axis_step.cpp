@@ -70,8 +70,9 @@ void PositionAxis::settle(Instant now) {
         if (const Result<void> begun = begin_jog(speed, now); !begun) error_ = begun.error();
         return;
     }
-    if (!hold_after_ || error_ || !settings_.hold_window) return;
-    const auto window = static_cast<std::int64_t>(std::floor(*settings_.hold_window * settings_.counts_per_unit + 0.5));
+    if (!hold_after_ || error_ || !settings_.position_window) return;
+    const auto window =
+        static_cast<std::int64_t>(std::floor(*settings_.position_window * settings_.counts_per_unit + 0.5));
     Result<void> held = driver_.set_deviation(window);
     if (held) held = driver_.lock();
     if (!held) error_ = held.error();

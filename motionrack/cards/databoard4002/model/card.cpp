@@ -24,7 +24,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
 // ---- time
 
 Instant Card::pass_from(Instant t) const {
-    const std::int64_t period = settings_.pass_ticks * tick.count();
+    const std::int64_t period = settings_.firmware_pass_ticks * tick.count();
     return Duration{(t.count() + period - 1) / period * period};
 }
 

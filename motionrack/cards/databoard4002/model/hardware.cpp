@@ -51,7 +51,7 @@ std::span<const std::string_view> Card::fault_names() {
 bool Card::fault(std::string_view name, double value, Instant now) {
     begin();
     if (name == "watchdog.hang") {
-        const std::int64_t period = settings_.pass_ticks * tick.count();
+        const std::int64_t period = settings_.firmware_pass_ticks * tick.count();
         const bool hang = value != 0;
         if (hang && !state_.hung) state_.watchdog_at = Duration{now.count() / period * period} + watchdog_time;
         if (!hang) state_.watchdog_at = never;

@@ -6,9 +6,10 @@
 namespace motionrack::databoard4002 {
 
 Result<void> check(const Settings& s) {
-    if (s.pass_ticks < 1 || s.pass_ticks > 4'000)
-        return fail(ErrorKind::refused,
-                    fmt::format("A pass of the firmware is {} ticks of 2.5 us; it must be 1 to 4,000.", s.pass_ticks));
+    if (s.firmware_pass_ticks < 1 || s.firmware_pass_ticks > 4'000)
+        return fail(
+            ErrorKind::refused,
+            fmt::format("A pass of the firmware is {} ticks of 2.5 us; it must be 1 to 4,000.", s.firmware_pass_ticks));
     if (s.byte_time < nanoseconds(2'500) || s.byte_time > milliseconds(100))
         return fail(ErrorKind::refused,
                     fmt::format("The firmware takes {} ns for a byte, but that is 2,500 to 100,000,000.",

@@ -16,7 +16,7 @@ enum class Counting : std::int32_t {
 };
 
 struct Settings {
-    std::int32_t pass_ticks = 1;               ///< one pass of the firmware, in ticks of 2.5 us, 1 .. 4,000
+    std::int32_t firmware_pass_ticks = 1;      ///< one pass of the firmware, in ticks of 2.5 us, 1 .. 4,000
     Duration byte_time = microseconds(100);    ///< firmware time for an access, 2.5 us .. 100 ms
     std::uint8_t version = 0x20;               ///< answer to V
     bool zeroing = true;                       ///< enabling the zero or reference event arms the counter's zeroing

@@ -50,7 +50,7 @@ class Run {
         Settings settings;
         constexpr std::array<std::int32_t, 4> passes = {1, 1, 7, 400};
         constexpr std::array<std::int64_t, 4> byte_us = {100, 100, 3, 2'000};
-        settings.pass_ticks = passes[feed.below(4)];
+        settings.firmware_pass_ticks = passes[feed.below(4)];
         settings.byte_time = microseconds(byte_us[feed.below(4)]);
         settings.zeroing = feed.below(4) != 0;
         return settings;
@@ -59,7 +59,7 @@ class Run {
     int level(sim::WireId id) { return host_.kernel.level(id); }
     Duration max_access_time() const {
         const Settings& s = host_.card.settings();
-        return s.byte_time + nanoseconds(2'500) * (s.pass_ticks + 1);
+        return s.byte_time + nanoseconds(2'500) * (s.firmware_pass_ticks + 1);
     }
 
     // ---- actions

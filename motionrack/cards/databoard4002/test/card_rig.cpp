@@ -12,7 +12,7 @@ constexpr Duration slice_time = nanoseconds(500);
 
 Settings settings_of(const Strapping& s) {
     Settings out;
-    out.pass_ticks = s.pass_ticks;
+    out.firmware_pass_ticks = s.firmware_pass_ticks;
     out.byte_time = slice_time * s.byte_slices;
     out.version = static_cast<std::uint8_t>(s.version);
     out.zeroing = s.zeroing;

@@ -205,7 +205,7 @@ TEST(Databoard4002Machine, TheZeroPulseUnderTheCamBecomesTheZeroOfTheCounter) {
 
 TEST(Databoard4002Machine, AHeavierCarriageNeedsAGentlerSlope) {
     parts::DcMotorSettings heavy;
-    heavy.load = 8;
+    heavy.load_inertia_ratio = 8;
     Machine m(heavy);
     double overrun[2] = {};
     for (int gentle = 0; gentle < 2; ++gentle) {

@@ -24,7 +24,7 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
         const Outcome twin = run_on_twin(program), card = run_on_card(program, way_of(program));
         const std::string fault = difference(program, twin, card);
         ASSERT_EQ(fault, "") << "program " << number << ", source " << static_cast<int>(program.strapping.source)
-                             << ", pass " << program.strapping.pass_ticks << " ticks, byte "
+                             << ", pass " << program.strapping.firmware_pass_ticks << " ticks, byte "
                              << program.strapping.byte_slices << " slices, folding " << program.strapping.folding
                              << " from " << program.strapping.first_pair
                              << (program.strapping.up_down ? ", up/down" : "");

@@ -16,7 +16,7 @@ class Maker {
         program_.seed = seed;
         program_.number = number;
         Strapping& s = program_.strapping;
-        s.pass_ticks = pick({1, 1, 1, 2, 7, 40});
+        s.firmware_pass_ticks = pick({1, 1, 1, 2, 7, 40});
         s.byte_slices = pick({5, 20, 20, 200});
         s.zeroing = !one_in(5);
         s.quit_zeroes = !one_in(3);
@@ -49,7 +49,8 @@ class Maker {
     /// Usually long enough for Ready.
     void after_access() {
         const Strapping& s = program_.strapping;
-        const std::uint64_t busy = static_cast<std::uint64_t>(s.byte_slices + s.pass_ticks * slices_of_tick) + 1;
+        const std::uint64_t busy =
+            static_cast<std::uint64_t>(s.byte_slices + s.firmware_pass_ticks * slices_of_tick) + 1;
         wait(one_in(40) ? below(busy) : busy + (one_in(4) ? below(300) : 0));
     }
     void write(int port, std::int64_t value) {

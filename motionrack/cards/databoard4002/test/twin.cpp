@@ -99,13 +99,13 @@ void Twin::slice() {
         note(14);
         reset();
     }
-    if (now_ % (slices_of_tick * s_.pass_ticks) == 0 && !hung_) firmware();
+    if (now_ % (slices_of_tick * s_.firmware_pass_ticks) == 0 && !hung_) firmware();
     drive();
 }
 
 void Twin::hang(bool on) {
     if (on && !hung_) {
-        const std::int64_t period = slices_of_tick * s_.pass_ticks;
+        const std::int64_t period = slices_of_tick * s_.firmware_pass_ticks;
         watchdog_at_ = now_ / period * period + 2'000'000;
     }
     hung_ = on;

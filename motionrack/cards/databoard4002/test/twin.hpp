@@ -17,7 +17,7 @@ inline constexpr std::int64_t slices_of_tick = 5;  // a slice is 0.5 us, a tick 
 
 /// Straps of the card, and the drive of its encoder.
 struct Strapping {
-    int pass_ticks = 1;
+    int firmware_pass_ticks = 1;
     std::int64_t byte_slices = 200;
     int version = 0x20;
     bool zeroing = true;

@@ -97,8 +97,10 @@ std::uint16_t Card::peek(std::uint32_t at) const {
         case offset("SIGNATURE"):
             return signature;
         case offset("ROLE"):
-            return flags(
-                {{HOST, is_host()}, {CLOCK_OUT, s.clock_out()}, {ADDRESS_OUT, s.address_out()}, {CHECKS, s.checks}});
+            return flags({{HOST, is_host()},
+                          {CLOCK_OUT, s.clock_out()},
+                          {ADDRESS_OUT, s.address_out()},
+                          {CHECKS, s.verify_lines}});
         case offset("STATUS"):
             return flags({{FRAME, state_.fresh != 0},
                           {CLAIMED, state_.buffers.held() != nullptr},

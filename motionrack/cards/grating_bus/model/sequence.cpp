@@ -35,7 +35,7 @@ void Card::sample(const Lines& lines, Instant now) {
     const bool read_off = lines.level(Line::read_n) != 0;
     const std::uint32_t address = lines.level(Line::addr);
     if (takes && !read_off) put_word(state_.buffers.current(), state_.word, address, lines.level(Line::data));
-    if (!settings_.checks) return;
+    if (!settings_.verify_lines) return;
     const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
     const bool line_wrong = clock_wrong || (takes ? lines.level(Line::hold) == 0 : !read_off);
     if (!takes) {

@@ -26,7 +26,7 @@ struct CardSettings {
     Duration offset{0};                          ///< host: instant of its first pulse, 0 .. period
     Shifter clock_shifter = Shifter::as_role;    ///< direction for clk, hold and read_n
     Shifter address_shifter = Shifter::as_role;  ///< direction for addr
-    bool checks = true;                          ///< frames with wrong line levels are not published
+    bool verify_lines = true;                    ///< frames with wrong line levels are not published
     std::uint32_t seed = 1;                      ///< seed of the jitter
 
     /// Address of the scale of word `k` (0 .. N - 1).

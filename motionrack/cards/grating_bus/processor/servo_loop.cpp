@@ -29,7 +29,7 @@ ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
                       sizeof(ServoLoop) == sizeof(ServoSettings) + sizeof(FollowingError) + 8 * 7,
                   "padding would get into the hash of what holds it");
     MOTIONRACK_ASSERT(settings.scale < max_scales && settings.nm_per_count != 0);
-    MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.limit_nm >= 0);
+    MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.max_following_error_nm >= 0);
 }
 
 void ServoLoop::close(std::int64_t count) {
@@ -72,7 +72,8 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     error_.peak_nm = std::max(error_.peak_nm, std::fabs(error));
     error_.squares += error * error;
     ++error_.frames;
-    if (settings_.limit_nm > 0 && std::fabs(error) > settings_.limit_nm) return open(LoopState::too_far);
+    if (settings_.max_following_error_nm > 0 && std::fabs(error) > settings_.max_following_error_nm)
+        return open(LoopState::too_far);
     return volts_;
 }
 

@@ -31,13 +31,14 @@ struct ServoGains {
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
-    std::uint64_t scale = 0;  ///< address of the scale, 0 .. 127; selects the word in the frame
-    double nm_per_count = 1;  ///< not 0; negative: the scale counts in the opposite direction
-    double zero_nm = 0;       ///< position at which the scale's count is 0
+    std::uint64_t scale = 0;    ///< address of the scale, 0 .. 127; selects the word in the frame
+    double nm_per_count = 1;    ///< not 0; negative: the scale counts in the opposite direction
+    double zero_offset_nm = 0;  ///< position at which the scale's count is 0
     ServoGains gains;
     double limit_v = 10;   ///< > 0: limit of the output
     double limit_i_v = 5;  ///< >= 0: limit of the integral part
-    double limit_nm = 0;   ///< >= 0: limit of the following error, beyond which the loop opens; 0: unlimited
+    double max_following_error_nm =
+        0;  ///< >= 0: limit of the following error, beyond which the loop opens; 0: unlimited
 };
 
 enum class LoopState : std::uint32_t {
@@ -78,7 +79,9 @@ class ServoLoop {
     LoopState state() const { return state_; }
     double volts() const { return volts_; }
     /// Actual position at the last frame.
-    double position_nm() const { return settings_.zero_nm + static_cast<double>(count_) * settings_.nm_per_count; }
+    double position_nm() const {
+        return settings_.zero_offset_nm + static_cast<double>(count_) * settings_.nm_per_count;
+    }
     std::int64_t count() const { return count_; }
     const FollowingError& error() const { return error_; }
     void reset_error() { error_ = {}; }

@@ -63,7 +63,7 @@ TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
 TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
     std::vector<CardSettings> settings(2, host_settings(2));
     settings[0].addresses = {1, 2}, settings[1].addresses = {2, 1};
-    for (CardSettings& s : settings) s.checks = false;
+    for (CardSettings& s : settings) s.verify_lines = false;
     Crate crate(settings);
     crate.run(10 * frame_period - nanoseconds(1));
     for (const Line line : {Line::clk, Line::hold, Line::read_n})
@@ -76,7 +76,7 @@ TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
         for (const std::size_t k : {0, 1})
             EXPECT_EQ(heard.frame.counts[k], static_cast<std::uint32_t>(crate.truth(0, heard.frame.instant())))
                 << "1 and 2 give 0: a scale that neither wants";
-    for (CardSettings& s : settings) s.checks = true;
+    for (CardSettings& s : settings) s.verify_lines = true;
     Crate careful(settings);
     careful.run(10 * frame_period);
     EXPECT_TRUE(careful.heard(0).empty() && careful.heard(1).empty());

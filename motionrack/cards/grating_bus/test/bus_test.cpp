@@ -78,7 +78,7 @@ TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
     std::vector<CardSettings> settings(3, host_settings());
     settings[1].offset = nanoseconds(37);
     settings[2].offset = nanoseconds(1'300);
-    for (CardSettings& s : settings) s.checks = false;
+    for (CardSettings& s : settings) s.verify_lines = false;
     Crate crate(settings);
     crate.run(10 * period);
     int wrong = 0, different = 0;

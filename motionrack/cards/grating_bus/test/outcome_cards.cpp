@@ -55,7 +55,7 @@ grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t se
     out.period = Duration{from.period}, out.offset = Duration{from.offset};
     out.clock_shifter = from.clock_out ? Shifter::out : Shifter::in;
     out.address_shifter = from.address_out ? Shifter::out : Shifter::in;
-    out.checks = from.checks;
+    out.verify_lines = from.verify_lines;
     out.seed = seed;
     return out;
 }

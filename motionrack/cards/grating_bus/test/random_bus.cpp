@@ -69,7 +69,7 @@ void Maker::add_cards() {
         card.clock_out = card.address_out = card.host;
         if (!healthy_ && one_in(15)) card.clock_out = !card.clock_out;
         if (!healthy_ && one_in(15)) card.address_out = !card.address_out;
-        card.checks = !one_in(3);
+        card.verify_lines = !one_in(3);
         const BusTiming own = alike || one_in(2) ? common : timing();
         set(card, own);
         card.words = alike || one_in(2) ? words : static_cast<int>(1 + below(6));
@@ -232,7 +232,7 @@ std::string text_of(const Program& program) {
     };
     for (const CardSettings& card : program.cards) {
         out += card.host ? "host " : "slave";
-        add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.checks),
+        add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.verify_lines),
             add("first", card.first);
         for (const int address : card.list) add("listed", address);
         add("words", card.words), add("t1", card.t1), add("t2", card.t2), add("t3", card.t3), add("t", card.clock);

@@ -101,7 +101,7 @@ struct Axis {
         ServoSettings out;
         out.scale = 7;
         out.nm_per_count = scale.nm_per_count();
-        out.gains = tuned(bandwidth_hz, s.accel_per_volt, s.viscous);
+        out.gains = tuned(bandwidth_hz, s.accel_per_volt, s.viscous_friction);
         return out;
     }
     Frame latch(Instant time) {
@@ -167,8 +167,8 @@ TEST(ServoLoop, FollowsAScanWithinAFewTensOfNanometres) {
 
 TEST(ServoLoop, SettlesAfterAStepAndHoldsAgainstFriction) {
     parts::LinearStageSettings s;
-    s.viscous = 2;
-    s.coulomb = 0.02;
+    s.viscous_friction = 2;
+    s.coulomb_friction = 0.02;
     Axis axis(250, s);
     const StepProfile steps(0, 1e6, 2, 0.2, limits);
     for (int i = 0; i < 5; ++i) {
@@ -245,7 +245,7 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
 TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
     Axis axis;
     ServoSettings s = axis.loop.settings();
-    s.limit_nm = 2'000;
+    s.max_following_error_nm = 2'000;
     axis.loop = ServoLoop(s);
     EXPECT_EQ(axis.loop.state(), LoopState::not_begun);
     axis.loop.close();

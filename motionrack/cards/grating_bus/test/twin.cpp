@@ -242,7 +242,7 @@ void Twin::sample(Card& card) {
         frame.counts[word] = before_[data];
         frame.addresses[word] = static_cast<std::uint8_t>(before_[addr]);
     }
-    if (!card.settings.checks) return;
+    if (!card.settings.verify_lines) return;
     if (before_[read_n] != 0) return bad_word(card, card.counters.missed_words);
     const bool wanted = before_[addr] == card.settings.address(card.word);
     const bool takes = card.settings.host ? wanted : card.taken.insert(before_[addr]).second;
@@ -253,7 +253,7 @@ void Twin::sample(Card& card) {
 }
 
 void Twin::check_read_ended(Card& card) {
-    if (!card.settings.checks) return;
+    if (!card.settings.verify_lines) return;
     if (before_[read_n] != 1 || (card.settings.host && before_[clk] != (card.own_clock_before ? 1u : 0u)))
         bad_word(card, card.counters.lines);
 }

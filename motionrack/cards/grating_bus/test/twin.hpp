@@ -25,7 +25,7 @@ inline constexpr std::array<std::uint32_t, line_count> rest{0, 0, 1, 0x7F, 0xFFF
 using Levels = std::array<std::uint32_t, line_count>;
 
 struct CardSettings {
-    bool host = false, clock_out = false, address_out = false, checks = true;
+    bool host = false, clock_out = false, address_out = false, verify_lines = true;
     int first = 0, words = 1;
     std::vector<int> list;  ///< addresses of the words; empty: from `first` on
     Ticks t1 = 200, t2 = 300, t3 = 300, clock = 100, period = 2'000'000, offset = 0;

@@ -23,8 +23,8 @@ const std::string folder = source_dir() + "/hdl/grating_bus/";
 
 struct System {
     int words = 4, cards = 3, period = 2000, frames = 4, hosts = 1, apart = 0;  ///< period and apart in clocks
-    bool checks = false, slots = false;  ///< slots: whole cards with the pins of their connector
-    int stride = 1, shift = 0;           ///< word k of host h is that of scale (k stride + h shift) mod words
+    bool verify_lines = false, slots = false;  ///< slots: whole cards with the pins of their connector
+    int stride = 1, shift = 0;                 ///< word k of host h is that of scale (k stride + h shift) mod words
 };
 
 /// Results of both, as text: "clock state", "clock" of good frames, the counters, and "card sequence time crc, then
@@ -59,7 +59,7 @@ Shown run_verilog(const System& system) {
     parameter("N", system.words), parameter("CARDS", system.cards), parameter("PERIOD", system.period),
         parameter("FRAMES", system.frames);
     parameter("HOSTS", system.hosts), parameter("APART", system.apart);
-    parameter("CHECKS", system.checks ? 1 : 0);
+    parameter("CHECKS", system.verify_lines ? 1 : 0);
     parameter("STRIDE", system.stride), parameter("SHIFT", system.shift);
     command += files_of(system.slots ? "slots" : "system") + " " + folder + "bench/grating_system_tb.sv";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
@@ -102,7 +102,7 @@ std::size_t conflicting(const Twin& twin, const std::set<Line>& lines) {
 Shown run_twin(const System& system) {
     CardSettings card;
     card.words = system.words;
-    card.checks = system.checks;
+    card.verify_lines = system.verify_lines;
     card.period = system.period * clock_ticks;
     card.offset = first_s1 * clock_ticks;
     for (int k = 0; k < system.words; ++k) card.list.push_back(k * system.stride % system.words);
@@ -172,7 +172,7 @@ std::size_t compare(const std::vector<System>& systems) {
             EXPECT_EQ(verilog.states[card], twin.states[card]);
             EXPECT_EQ(verilog.published[card], twin.published[card]);
             EXPECT_EQ(verilog.counters[card], twin.counters[card]);
-            if (system.checks && system.hosts > 1) continue;  // some periods have no frame to claim
+            if (system.verify_lines && system.hosts > 1) continue;  // some periods have no frame to claim
             EXPECT_EQ(twin.frames[card].size(), static_cast<std::size_t>(system.frames));
             EXPECT_EQ(verilog.frames[card], twin.frames[card]);
             for (std::size_t i = 0; i < verilog.frames[card].size(); ++i)
@@ -216,14 +216,14 @@ TEST(GratingVerilog, CountsWhatIsWrongAndPublishesOnlyGoodFramesAsTheTwin) {
     for (const int late : {0, 1, 2, 3, 5, 9, 11, 13, 44}) systems.push_back({4, 5, 500, 3, 3, late});
     systems.push_back({8, 4, 1000, 3, 2, 0});
     systems.back().stride = 3, systems.back().shift = 2;
-    for (System& system : systems) system.checks = true;
+    for (System& system : systems) system.verify_lines = true;
     compare(systems);
 }
 
 TEST(GratingVerilog, WholeCardsOnTheirConnectorsReadTheSameFrames) {
     if (no_referee()) GTEST_SKIP() << no_iverilog;
     System system{8, 5};
-    system.slots = system.checks = true, system.stride = 3;
+    system.slots = system.verify_lines = true, system.stride = 3;
     EXPECT_EQ(compare({system}), 0u);
 }
 

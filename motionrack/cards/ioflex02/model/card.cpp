@@ -46,7 +46,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
         if (i < line_pins) kernel.listen(wires_[i], id_, static_cast<int>(i));
     }
     kernel.schedule(id_, Instant{0});
-    if (settings.loaded) preload(settings.image.empty() ? *raw_image({}) : settings.image);
+    if (settings.preloaded) preload(settings.image.empty() ? *raw_image({}) : settings.image);
 }
 
 /// State of the wires at power-up.

@@ -13,7 +13,7 @@ struct Settings {
     std::uint16_t serial = 1;             ///< unique on a bus
     Duration configuration_time =
         milliseconds(2'000);               ///< time from the image's last byte to the running project, 0 .. 60 s
-    bool loaded = false;                   ///< a project runs from power-up without a load by the host
+    bool preloaded = false;                ///< a project runs from power-up without a load by the host
     std::vector<std::uint8_t> image = {};  ///< its image, uncompressed; empty: the built-in "position"
 };
 

@@ -35,7 +35,7 @@ class Run {
   private:
     static Settings settings_from(Feed& feed) {
         Settings out;
-        out.loaded = feed.below(4) != 0;
+        out.preloaded = feed.below(4) != 0;
         constexpr std::array<std::int64_t, 4> us = {0, 7, 130, 2'000'000};
         out.configuration_time = microseconds(us[feed.below(4)]);
         return out;

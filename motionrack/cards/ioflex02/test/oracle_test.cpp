@@ -22,7 +22,7 @@ struct Op {
 };
 
 struct Program {
-    bool loaded = false;
+    bool preloaded = false;
     std::int64_t configuration_halves = 0;
     std::vector<Op> ops;
 };
@@ -33,11 +33,11 @@ class Maker {
 
     Program make() {
         Program out;
-        out.loaded = below(3) != 0;
+        out.preloaded = below(3) != 0;
         out.configuration_halves = static_cast<std::int64_t>(below(4) == 0 ? 0 : below(300));
         program_ = &out;
         activity_ = 1 + below(60);
-        if (!out.loaded) configure();
+        if (!out.preloaded) configure();
         const std::size_t length = 30 + below(300);
         while (out.ops.size() < length) one();
         op(Op::look);
@@ -129,7 +129,7 @@ void look(std::vector<int>& out, Read read, Write write) {
 }
 
 Outcome on_twin(const Program& program) {
-    twin::Twin twin(program.loaded, position_ident, 7, program.configuration_halves);
+    twin::Twin twin(program.preloaded, position_ident, 7, program.configuration_halves);
     Outcome out;
     const auto read = [&](int at) { return twin.read(at); };
     const auto write = [&](int at, int value) { twin.write(at, value); };
@@ -150,7 +150,7 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
     sim::Kernel kernel;
     Settings settings;
     settings.serial = 7;
-    settings.loaded = program.loaded;
+    settings.preloaded = program.preloaded;
     settings.configuration_time = half * program.configuration_halves;
     Card card(kernel, "c", settings);
     kernel.start();

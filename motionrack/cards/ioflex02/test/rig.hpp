@@ -20,7 +20,7 @@ inline int lines_of_phase(std::int64_t phase) {
 
 inline Settings loaded_settings() {
     Settings out;
-    out.loaded = true;
+    out.preloaded = true;
     return out;
 }
 

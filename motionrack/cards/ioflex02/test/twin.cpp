@@ -25,9 +25,9 @@ unsigned number(const std::vector<int>& bytes, std::size_t at) {
 
 }  // namespace
 
-Twin::Twin(bool loaded, int ident, int serial, std::int64_t configuration_halves)
+Twin::Twin(bool preloaded, int ident, int serial, std::int64_t configuration_halves)
     : serial_(serial), configuration_(configuration_halves) {
-    if (!loaded) return;
+    if (!preloaded) return;
     phase_ = running;
     known_ = true;
     ident_ = ident;

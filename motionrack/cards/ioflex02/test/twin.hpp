@@ -21,7 +21,7 @@ struct Note {
 
 class Twin {
   public:
-    Twin(bool loaded, int ident, int serial, std::int64_t configuration_halves);
+    Twin(bool preloaded, int ident, int serial, std::int64_t configuration_halves);
 
     /// Advances to that half; a sample at it is not taken yet.
     void run_to(std::int64_t half);

@@ -166,14 +166,14 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         return refuse("Homing", fmt::format("{} is {}; it must be {} to {}", what, value, min, max));
     };
     const double max_way = max_pulses / limits.pulses_per_unit, max_home = max_place / limits.pulses_per_unit;
-    MOTIONRACK_CHECK(outside("the home position", order.position, -max_home, max_home));
-    MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, max_way));
+    MOTIONRACK_CHECK(outside("the home offset", order.home_offset, -max_home, max_home));
+    MOTIONRACK_CHECK(outside("the backoff", order.backoff, 0, max_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, max_way));
     MOTIONRACK_CHECK(outside("the latch velocity", order.latch_velocity, 1e-9,
                              std::min(order.search_velocity, limits.max_velocity_step)));
-    const bool index =
-        order.type == control::HomingMethod::index_after_switch || order.type == control::HomingMethod::twice_and_index;
+    const bool index = order.method == control::HomingMethod::index_after_switch ||
+                       order.method == control::HomingMethod::twice_and_index;
     if (index && !(settings_.counts_per_unit > 0))
         return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting,
@@ -183,7 +183,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
     };
     const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
-    out.type = static_cast<int>(order.type);
+    out.type = static_cast<int>(order.method);
     out.negative = !order.towards_plus;
     out.input = order.switch_input;
     out.active_high = order.switch_active_high;
@@ -206,11 +206,11 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         out.hysteresis = pulses(*order.hysteresis) + 1;
         out.repeats = pulses(contacts_repeat) + 2;
     }
-    out.clearance = std::min(out.travel, pulses(order.clearance));
+    out.backoff = std::min(out.travel, pulses(order.backoff));
     out.settle = from_seconds(order.settle_s);
     out.turn_at_limit = order.turn_at_limit;
-    out.home_position = nearest_pulse(order.position, limits.pulses_per_unit);
-    out.home_counts = nearest_pulse(order.position, settings_.counts_per_unit);
+    out.home_position = nearest_pulse(order.home_offset, limits.pulses_per_unit);
+    out.home_counts = nearest_pulse(order.home_offset, settings_.counts_per_unit);
     out.name = settings_.name;
     out.unit = settings_.unit;
     out.pulses_per_unit = limits.pulses_per_unit;
@@ -236,7 +236,7 @@ control::HomingResult SingleAxis::home_outcome() const {
     };
     const auto since = [&](Instant at) { return to_seconds(at - report.from); };
     control::HomingResult out;
-    out.type = static_cast<control::HomingMethod>(report.type);
+    out.method = static_cast<control::HomingMethod>(report.type);
     out.towards_plus = !report.negative;
     out.homed = report.homed;
     out.sentence = report.sentence;

@@ -220,7 +220,7 @@ void Home::drive(const PollData& look, Instant now) {
     if (state_->until == HomingStopInput::index && look.index_on && settings_.type != 5)
         return fail(HomeFault::index_at_switch, look, now);
     if (state_->until == HomingStopInput::distance) {
-        planned_ = settings_.clearance;
+        planned_ = settings_.backoff;
         if (settings_.type == 1 || settings_.type == 3) planned_ = std::max(planned_, run_up());
         planned_ = std::min(planned_, settings_.travel);
     } else {

@@ -36,7 +36,7 @@ struct HomeSettings {
     std::int64_t turn = 0;         ///< pulses of a motor revolution: maximum distance of the index search; 0: `travel`
     std::int64_t hysteresis = -1;  ///< switch hysteresis, pulses; -1: unknown, edges are not compared
     std::int64_t repeats = 2;      ///< repeatability of its edges, pulses
-    std::int64_t clearance = 50;   ///< distance driven after the switch is released, 0 .. travel
+    std::int64_t backoff = 50;     ///< distance driven after the switch is released, 0 .. travel
     Duration settle = milliseconds(5);      ///< time without a change after which contacts have settled, 0 .. 10 s
     Duration timeout = whole_seconds(600);  ///< limit for one state, > 0; less if distance and speed imply less
     bool turn_at_limit = true;              ///< at the limit switch, reverse the search

@@ -43,7 +43,7 @@ constexpr HomeState back_start = drive("BACK_START", "away, off the switch, at c
                                        SearchDirection::away, HomingSpeed::back, HomingStopInput::off);
 constexpr HomeState back_wait =
     wait("BACK_WAIT", "the input's release ends the drive", back_start, {{{done, "CLEAR_START"}}});
-constexpr HomeState clear_start = drive("CLEAR_START", "on, by the clearance, so that contacts stay open", "CLEAR_WAIT",
+constexpr HomeState clear_start = drive("CLEAR_START", "on, by the backoff, so that contacts stay open", "CLEAR_WAIT",
                                         SearchDirection::away, HomingSpeed::fast, HomingStopInput::distance);
 constexpr HomeState clear_wait =
     wait("CLEAR_WAIT", "the pulses end the drive", clear_start, {{{done, "SETTLE_START"}, {limit, "SETTLE_START"}}});

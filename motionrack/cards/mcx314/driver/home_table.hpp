@@ -25,7 +25,7 @@ enum class HomingAction : std::uint8_t {
 };
 enum class SearchDirection : std::uint8_t { towards, away };  ///< relative to the switch
 enum class HomingSpeed : std::uint8_t { fast, back, slow };   ///< fast has ramps; back and slow are constant speeds
-enum class HomingStopInput : std::uint8_t { distance, on, off, index };  ///< distance: the clearance, no stop input
+enum class HomingStopInput : std::uint8_t { distance, on, off, index };  ///< distance: the backoff, no stop input
 
 /// Condition of a transition.
 enum class HomingTransition : std::uint8_t {

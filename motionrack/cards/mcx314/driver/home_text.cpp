@@ -47,7 +47,7 @@ Result<void> HomeReport::result() const {
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
     if (type < 1 || type > 4)
         return motionrack::fail(ErrorKind::refused,
-                                fmt::format("The type of homing is {}; it must be 1 to 4. Nothing was moved.", type));
+                                fmt::format("The homing method is {}; it must be 1 to 4. Nothing was moved.", type));
     HomeSettings out;
     const bool to_index = type >= 3;
     out.type = type == 4 ? 5 : type;
@@ -97,7 +97,7 @@ Result<void> Home::check_ready() {
         {"the pulses per revolution", s.turn, 0, param::pulses.max},
         {"the hysteresis of the switch (-1: not known)", s.hysteresis, -1, param::pulses.max},
         {"the repeatability of the switch", s.repeats, 0, param::pulses.max},
-        {"the clearance", s.clearance, 0, s.travel},
+        {"the backoff", s.backoff, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
         {"the distance from the switch to the index (-1: any)", s.index_after, -1, param::pulses.max},

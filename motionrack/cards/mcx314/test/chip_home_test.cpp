@@ -28,7 +28,7 @@ parts::AxisMechanicsSettings machine_settings(double start_mm, double in1_mm) {
     parts::AxisMechanicsSettings s;
     s.motor.start_stop_hz = 8'000;
     s.encoder.counts_per_rev = 4000;
-    s.axle.start_position = start_mm;
+    s.axle.initial_position = start_mm;
     s.home.position = 20;
     s.limit_minus.position = in1_mm;
     return s;

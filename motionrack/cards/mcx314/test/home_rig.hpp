@@ -37,7 +37,7 @@ struct RigAxis {
         parts::AxisMechanicsSettings s;
         s.motor = {200, 16, start_stop_hz, 200'000};
         s.axle.travel_per_rev = parts::linear_travel(5);
-        s.axle.start_position = start_mm;
+        s.axle.initial_position = start_mm;
         s.encoder.counts_per_rev = 4000;
         s.home.position = home_mm;
         s.home.active_level = home_level;

@@ -152,7 +152,7 @@ TEST(Homing, WithoutSettlingBounceCostsNoMoreThanTheHysteresis) {
     rig.start();
     HomeSettings s = rig_settings(2);
     s.settle = Duration{0};
-    s.clearance = 0;
+    s.backoff = 0;
     const std::int64_t away[] = {500, 7000, 333};
     const Result<HomeSpread> done = repeat_home(rig.driver, 0, s, 12, away);
     ASSERT_TRUE(done) << done.error().message;

@@ -23,10 +23,10 @@ SingleAxisSettings settings() {
 
 control::HomingRequest order(int type = 2) {
     control::HomingRequest o;
-    o.type = static_cast<control::HomingMethod>(type);
+    o.method = static_cast<control::HomingMethod>(type);
     o.search_velocity = 15;
     o.latch_velocity = 0.5;
-    o.position = 1;
+    o.home_offset = 1;
     return o;
 }
 
@@ -124,10 +124,10 @@ TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
         EXPECT_FALSE(rig.x.set_position(bad));
         EXPECT_FALSE(rig.x.jog(bad, rig.port.now()));
         control::HomingRequest o = order();
-        o.position = bad;
+        o.home_offset = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
         o = order();
-        o.clearance = bad;
+        o.backoff = bad;
         EXPECT_FALSE(rig.x.home(o, rig.port.now()));
         o = order();
         o.travel = bad;

@@ -79,7 +79,11 @@ TEST(Rtc5Station, LineSpeedMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
 
 TEST(Rtc5Station, TheTrackingErrorTakesTheMirrorsLagOffTheBelt) {
     auto settings = belt(500);
-    settings.galvo = {.ideal = false, .dead_us = 50, .natural_hz = 3183.1, .damping = 1, .max_velocity_bits_ms = 1e7};
+    settings.galvo = {.ideal_mirrors = false,
+                      .dead_time_us = 50,
+                      .natural_frequency_hz = 3183.1,
+                      .damping_ratio = 1,
+                      .max_velocity_bits_ms = 1e7};
     settings.track.counts_per_unit = 20'000;
     const auto start = *list_command(Op::set_fly_x, {station_k / 20'000});
     Machine plain(settings), ahead(settings);
