@@ -11,7 +11,7 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = control::axis_letters[static_cast<std::size_t>(axis)];
         const char small = static_cast<char>(letter - 'A' + 'a');
-        const std::string key = fmt::format("{}_from_mm", small);
+        const std::string key = fmt::format("{}_min_mm", small);
         const std::optional<double> lower = probe.lower(axis), upper = probe.upper(axis);
         if (lower && upper && *lower >= *upper) {
             problems.error(
@@ -21,7 +21,7 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
                     *lower, *upper, letter));
         }
         if ((lower || upper) && config.axis(letter) == nullptr) {
-            problems.error(node.place_of(lower ? key : fmt::format("{}_to_mm", small)),
+            problems.error(node.place_of(lower ? key : fmt::format("{}_max_mm", small)),
                            fmt::format("The workpiece of the probe has an end along {}, but the rack has no axis {}.",
                                        letter, letter));
         }

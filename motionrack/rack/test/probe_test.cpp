@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <motionrack/control/stream_executor.hpp>
@@ -196,6 +197,21 @@ TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
     EXPECT_THAT(bad("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\n"),
                 HasSubstr("cannot catch positions"));
     EXPECT_THAT(bad(rack_text("x_min_mm = 5\nx_max_mm = 4\n")), HasSubstr("its first end must be below the other"));
+}
+
+TEST(Probing, ErrorsOfBoundsNameTheLineOfTheKey) {
+    const RackReading order = read_rack_text(rack_text("x_max_mm = 4\nx_min_mm = 5\n"));
+    ASSERT_EQ(order.errors.size(), 1u) << all_texts(order.errors);
+    const std::string text = rack_text("");
+    const int heading = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+    EXPECT_EQ(order.errors[0].place, (TextPosition{heading + 2, 12}));
+
+    const std::string no_axis =
+        "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n"
+        "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\nx_min_mm = 1\ny_max_mm = 4\n";
+    const RackReading missing = read_rack_text(no_axis);
+    ASSERT_EQ(missing.errors.size(), 1u) << all_texts(missing.errors);
+    EXPECT_EQ(missing.errors[0].place, (TextPosition{9, 12}));
 }
 
 /// Feeds lines one by one, each only when there is room.
