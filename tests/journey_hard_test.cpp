@@ -34,7 +34,7 @@ TEST(Journey, AWrongFirstLineMovesNothing) {
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
-    EXPECT_EQ(outcome.ended.error().place, (TextPosition{2, 1}));
+    EXPECT_EQ(outcome.ended.error().location, (TextPosition{2, 1}));
     for (const AxisOutcome& axis : outcome.axes) EXPECT_EQ(axis.pulses_sent, 0) << axis.index;
 }
 
@@ -43,7 +43,7 @@ TEST(Journey, AWrongLineLaterEndsTheStreamWhereTheLineBeforeItEnds) {
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::invalid_input);
-    EXPECT_EQ(outcome.ended.error().place.line, 3);
+    EXPECT_EQ(outcome.ended.error().location.line, 3);
     EXPECT_TRUE(outcome.position_valid);
     EXPECT_EQ(outcome.axes[0].pulses_net, 8000);
     EXPECT_EQ(outcome.axes[1].pulses_net, 4480);
@@ -65,7 +65,7 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
     const JobOutcome outcome = running.job.run();
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::stopped);
-    EXPECT_EQ(outcome.ended.error().place.line, 3);
+    EXPECT_EQ(outcome.ended.error().location.line, 3);
     ASSERT_GT(asked, 0) << "the stop was asked for on the way";
     // From 30 mm/s at 1000 mm/s2 in less than 0.1 s.
     EXPECT_LT(to_seconds(outcome.time), asked + 0.2);

@@ -68,7 +68,7 @@ TEST(Journey, ALimitSwitchStopsTheJobAndSaysWhere) {
     const Done done = drive(config, "G21 G90\nG1 X100 F3000\nG1 X0\n");
     ASSERT_FALSE(done.outcome.ended);
     EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::machine);
-    EXPECT_EQ(done.outcome.ended.error().place.line, 2);
+    EXPECT_EQ(done.outcome.ended.error().location.line, 2);
     EXPECT_NE(done.outcome.ended.error().message.find("axis X: the + limit switch"), std::string::npos);
     EXPECT_GT(done.outcome.axes[0].actual_end, 40.0);
     EXPECT_LT(done.outcome.axes[0].actual_end, 43.0);

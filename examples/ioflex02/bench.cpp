@@ -25,7 +25,8 @@ Bench::Bench() : port_(kernel_, bus_, bus_.id(), bus_.interrupt_wire(), nanoseco
         motors_[i] = std::make_unique<parts::DcMotor>(kernel_, fmt::format("motor{}", axis), motor);
         encoders_[i] = std::make_unique<parts::LineEncoder>(
             kernel_, name, *motors_[i],
-            parts::LineEncoderSettings{.counts_per_turn = counts_per_turn, .place_per_turn = fine * counts_per_turn});
+            parts::LineEncoderSettings{.counts_per_turn = counts_per_turn,
+                                       .position_per_turn = fine * counts_per_turn});
         for (const char* line : {"a", "b", "z"})
             junctions_.join(kernel_.find_wire(fmt::format("{}.{}", name, line)),
                             kernel_.find_wire(fmt::format("p1.{}{}", line, axis)));

@@ -29,15 +29,15 @@ struct Error {
     ErrorKind kind = ErrorKind::invalid_input;
     std::string message;
     std::string file = {};
-    TextPosition place = {};
+    TextPosition location = {};
 
     /// "file:line:column: message" without unknown parts.
     std::string text() const {
         std::string out = file;
-        if (place.line > 0) {
+        if (location.line > 0) {
             if (!out.empty()) out += ':';
-            out += std::to_string(place.line);
-            if (place.column > 0) out += ':' + std::to_string(place.column);
+            out += std::to_string(location.line);
+            if (location.column > 0) out += ':' + std::to_string(location.column);
         }
         return out.empty() ? message : out + ": " + message;
     }
@@ -47,8 +47,9 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Shorthand for returning an error.
-inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, TextPosition place = {}, std::string file = {}) {
-    return tl::unexpected<Error>(Error{kind, std::move(message), std::move(file), place});
+inline tl::unexpected<Error> fail(ErrorKind kind, std::string message, TextPosition location = {},
+                                  std::string file = {}) {
+    return tl::unexpected<Error>(Error{kind, std::move(message), std::move(file), location});
 }
 
 /// Prints an internal error of the program and aborts; used by MOTIONRACK_ASSERT.

@@ -109,7 +109,7 @@ Result<void> PointToPointAxes::follow(const PlannedMove& move) {
     if (done && move.move.kind != MoveKind::dwell) done = wait();
     if (done) return done;
     known_ = false;  // they stop somewhere on the way
-    if (done.error().place.line == 0) done.error().place.line = move.move.line;
+    if (done.error().location.line == 0) done.error().location.line = move.move.line;
     return done;
 }
 

@@ -23,12 +23,12 @@ struct WeighedPart {
 };
 
 /// By the axes beside the plane of an arc.
-WeighedPart part_beside_plane(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+WeighedPart part_beside_plane(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     WeighedPart out;
-    for (std::size_t i = 0; i < place.size(); ++i) {
+    for (std::size_t i = 0; i < position.size(); ++i) {
         if (i == path.first || i == path.second) continue;
         const double way = (path.end[i] - path.start[i]) * pulses[i];
-        out.part += (place[i] - path.start[i]) * pulses[i] * way;
+        out.part += (position[i] - path.start[i]) * pulses[i] * way;
         out.weight += way * way;
     }
     if (out.weight > 0) out.part /= out.weight;
@@ -37,14 +37,14 @@ WeighedPart part_beside_plane(const Geometry& path, const Point& place, const Pu
 
 /// By the angle in the plane, and in proportion to the pulses by the other axes: where a helix is steep its angle tells
 /// little.
-double length_on_arc(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+double length_on_arc(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     const double x0 = path.start[path.first] - path.centre_first, y0 = path.start[path.second] - path.centre_second;
-    const double x = place[path.first] - path.centre_first, y = place[path.second] - path.centre_second;
+    const double x = position[path.first] - path.centre_first, y = position[path.second] - path.centre_second;
     const double whole = std::fabs(path.sweep);
     double angle = motionrack::atan2(x0 * y - y0 * x, x0 * x + y0 * y);
     if (path.sweep < 0) angle = -angle;
     if (angle < 0) angle += 2 * pi;
-    const WeighedPart beside = part_beside_plane(path, place, pulses);
+    const WeighedPart beside = part_beside_plane(path, position, pulses);
     const double along = path.radius * whole * std::max(pulses[path.first], pulses[path.second]);
     const double in_plane = std::max(along * along, min_length_mm);
     double best = 0, min_off = std::numeric_limits<double>::infinity();
@@ -61,11 +61,11 @@ double length_on_arc(const Geometry& path, const Point& place, const PulsesPerUn
     return path.length * best;
 }
 
-double length_on_straight(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+double length_on_straight(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     double along = 0, square = 0;
-    for (std::size_t i = 0; i < place.size(); ++i) {
+    for (std::size_t i = 0; i < position.size(); ++i) {
         const double tangent = path.tangent_in[i] * pulses[i];
-        along += (place[i] - path.start[i]) * pulses[i] * tangent;
+        along += (position[i] - path.start[i]) * pulses[i] * tangent;
         square += tangent * tangent;
     }
     return square > 0 ? std::clamp(along / square, 0.0, path.length) : 0;
@@ -85,26 +85,26 @@ Move sub_move(const Move& move, const Geometry& path, double from, double to) {
     return part;
 }
 
-NearestPoint nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
+NearestPoint nearest_point(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     NearestPoint out;
     if (path.shape == PathShape::arc)
-        out.length = length_on_arc(path, place, pulses);
+        out.length = length_on_arc(path, position, pulses);
     else if (path.shape != PathShape::nothing)
-        out.length = length_on_straight(path, place, pulses);
+        out.length = length_on_straight(path, position, pulses);
     const Point nearest = position_at(path, out.length);
-    for (std::size_t i = 0; i < place.size(); ++i)
-        out.distance = std::max(out.distance, std::fabs(place[i] - nearest[i]) * pulses[i]);
+    for (std::size_t i = 0; i < position.size(); ++i)
+        out.distance = std::max(out.distance, std::fabs(position[i] - nearest[i]) * pulses[i]);
     return out;
 }
 
-Move remaining_move(const Move& move, const Geometry& path, const Point& place, const PulsesPerUnit& pulses) {
-    const double left = path.length - nearest_point(path, place, pulses).length;
+Move remaining_move(const Move& move, const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
+    const double left = path.length - nearest_point(path, position, pulses).length;
     Move rest = move;
     rest.feed = share_of_time(move, path.length, left);
     if (path.shape != PathShape::arc) return rest;
     const double turn_left = std::fabs(path.sweep) * left / path.length;
     rest.turns = move.turns > 0 ? 1 : -1;
-    const Geometry tried = geometry_of(rest, place);
+    const Geometry tried = geometry_of(rest, position);
     if (left <= 0 || tried.shape != PathShape::arc || std::fabs(tried.sweep) > turn_left + too_much_turn) {
         rest.kind = MoveKind::feed;
         rest.turns = 0;

@@ -20,11 +20,11 @@ struct NearestPoint {
     double length = 0;    ///< along the path
     double distance = 0;  ///< largest difference over the six axes, in pulses
 };
-NearestPoint nearest_point(const Geometry& path, const Point& place, const PulsesPerUnit& pulses = units_alone);
+NearestPoint nearest_point(const Geometry& path, const Point& position, const PulsesPerUnit& pulses = units_alone);
 
-/// Returns the remaining part of a move that was interrupted at `place`, at most a few pulses off its path. The short
-/// remainder of an arc may become a straight line.
-Move remaining_move(const Move& move, const Geometry& path, const Point& place,
+/// Returns the remaining part of a move that was interrupted at `position`, at most a few pulses off its path. The
+/// short remainder of an arc may become a straight line.
+Move remaining_move(const Move& move, const Geometry& path, const Point& position,
                     const PulsesPerUnit& pulses = units_alone);
 
 }  // namespace motionrack::control

@@ -299,7 +299,7 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
 
 void StreamExecutor::forget() {
     // Reading a card's position may take time, in which lines and a hold or stop come: they are discarded, too.
-    const Point place = axes_->commanded_position();
+    const Point position = axes_->commanded_position();
     wish_ = Wish::none;
     stop_flag_ = false;
     entries_.clear();
@@ -309,9 +309,9 @@ void StreamExecutor::forget() {
     planned_ = handed_ = 0;
     state_ = ExecutionState::idle;
     interpreter_.reset_after_program();
-    read_to_ = place;
-    interpreter_.resync_position(place);
-    new_planner(place);
+    read_to_ = position;
+    interpreter_.resync_position(position);
+    new_planner(position);
 }
 
 void StreamExecutor::resync_axes(AxisGroup& axes) {
@@ -342,10 +342,10 @@ void StreamExecutor::clear_offsets() {
     interpreter_ = gcode::Interpreter(settings);
 }
 
-void StreamExecutor::new_planner(const Point& place) {
+void StreamExecutor::new_planner(const Point& position) {
     planner_ =
-        make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, place);
-    if (interpolator_) interpolator_ = make_interpolator(place);
+        make_look_ahead_planner(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings_.planner, position);
+    if (interpolator_) interpolator_ = make_interpolator(position);
     trajectory_ends_ = true;
 }
 

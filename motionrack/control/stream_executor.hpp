@@ -180,7 +180,7 @@ class StreamExecutor {
     void forget();
     void take_move_starts();
     void pop();
-    void new_planner(const Point& place);
+    void new_planner(const Point& position);
 
     // jerk-limited execution
     Result<ExecutionState> drive_trajectory(bool more_may_come);
@@ -188,7 +188,7 @@ class StreamExecutor {
     bool trajectory_may_wait(bool rest_follows) const;
     void pop_before_block(std::int64_t block);
     void pop_driven(std::int64_t first_pending_move);
-    TrajectoryInterpolator make_interpolator(const Point& place) const;
+    TrajectoryInterpolator make_interpolator(const Point& position) const;
 
     AxisGroup* axes_;
     Interrupt& host_;

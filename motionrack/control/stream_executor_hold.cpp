@@ -22,7 +22,7 @@ bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUn
 
 /// Keeps the remaining path. The axes stopped on the last started move, or already on the one queued behind it.
 void StreamExecutor::keep_rest_of_path() {
-    const Point place = axes_->commanded_position();
+    const Point position = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
     PulsesPerUnit pulses;
     for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
@@ -36,7 +36,7 @@ void StreamExecutor::keep_rest_of_path() {
         if (!entries_[i].is_move()) continue;
         --known;
         const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
-        const double off = nearest_point(here, place, pulses).distance;
+        const double off = nearest_point(here, position, pulses).distance;
         // A return stroke is as near as the outward one, of which nothing may be skipped.
         if (off >= (turns_back(path, here, pulses) ? min_distance - beside_pulses : min_distance)) continue;
         min_distance = off;
@@ -46,13 +46,14 @@ void StreamExecutor::keep_rest_of_path() {
     for (; nearest > 0; --nearest) pop();
     if (!entries_.empty() && handed_ > 0) {
         QueueEntry& entry = entries_.front();
-        entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), place, pulses);
-        entry.start = place;
-        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing)
+        entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), position, pulses);
+        entry.start = position;
+        if (entry.step.move.kind != MoveKind::dwell &&
+            geometry_of(entry.step.move, position).shape == PathShape::nothing)
             pop();
     }
     planned_ = handed_ = 0;
-    new_planner(place);
+    new_planner(position);
 }
 
 }  // namespace motionrack::control

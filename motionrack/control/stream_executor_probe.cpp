@@ -18,7 +18,7 @@ Result<ExecutionState> StreamExecutor::probe() {
     const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
     last_probe_.runs = false;
     axes_->take_move_starts();
-    const Point place = axes_->commanded_position();
+    const Point position = axes_->commanded_position();
     if (!outcome) {
         if (wish_ != Wish::stop) ++last_probe_.count;
         return interrupted(outcome.error());
@@ -28,9 +28,9 @@ Result<ExecutionState> StreamExecutor::probe() {
     --moves_;
     entries_.pop_front();
     planned_ = handed_ = 0;
-    interpreter_.set_probe_result(outcome->hit, outcome->at, place);
-    read_to_ = place;
-    new_planner(place);
+    interpreter_.set_probe_result(outcome->hit, outcome->at, position);
+    read_to_ = position;
+    new_planner(position);
     if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
     forget();
     return fail(

@@ -15,10 +15,10 @@ constexpr Duration sender_is_silent = milliseconds(50);
 
 }  // namespace
 
-TrajectoryInterpolator StreamExecutor::make_interpolator(const Point& place) const {
+TrajectoryInterpolator StreamExecutor::make_interpolator(const Point& position) const {
     InterpolatorSettings settings;
     settings.cut_dwells = true;
-    return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, place);
+    return make_trajectory_interpolator(*axes_, settings_.gcode.limits, settings_.accel_reserve, settings, position);
 }
 
 Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {

@@ -75,8 +75,8 @@ class Capture {
 
   protected:
     Capture(std::unique_ptr<Source> source, std::string name) : source_(std::move(source)), name_(std::move(name)) {}
-    tl::unexpected<Error> refuse(std::string message, TextPosition place) const {
-        return fail(ErrorKind::invalid_input, std::move(message), place, name_);
+    tl::unexpected<Error> refuse(std::string message, TextPosition location) const {
+        return fail(ErrorKind::invalid_input, std::move(message), location, name_);
     }
     /// Error of a byte reader, which does not know the file's name.
     Error in_file(Error error) const {

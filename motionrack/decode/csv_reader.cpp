@@ -78,7 +78,7 @@ class CsvCapture final : public Capture {
   private:
     struct Row {
         std::string text;
-        TextPosition place;
+        TextPosition location;
         bool cut = false;
     };
 
@@ -88,7 +88,7 @@ class CsvCapture final : public Capture {
     Result<void> take_head();
     bool looks_timed(const std::vector<Row>& rows);
     Result<void> take(const Row& row);
-    Result<std::int64_t> time_of(std::string_view cell, TextPosition place) const;
+    Result<std::int64_t> time_of(std::string_view cell, TextPosition location) const;
 
     TextReader text_;
     Sampler sampler_;
@@ -129,10 +129,10 @@ bool CsvCapture::take_comment(std::string_view text) {
 bool CsvCapture::next_row(Row& row) {
     std::string_view line;
     while (text_.line(line)) {
-        if (text_.place().line == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.remove_prefix(3);
+        if (text_.location().line == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.remove_prefix(3);
         if (take_comment(line)) continue;
         row.text.assign(line);
-        row.place = text_.place();
+        row.location = text_.location();
         row.cut = text_.cut();
         return true;
     }
@@ -161,7 +161,8 @@ Result<void> CsvCapture::read_head(double rate_hz) {
     split(rows[0].text);
     width_ = cells_.size();
     if (width_ > max_columns)
-        return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", max_columns), rows[0].place);
+        return refuse(fmt::format("A row has more than {} columns. Nothing was decoded.", max_columns),
+                      rows[0].location);
     const bool head = std::any_of(cells_.begin(), cells_.end(), [](std::string_view cell) {
         return level_of(cell) == 0 && cell.find_first_not_of("0123456789+-.,eE") != std::string_view::npos;
     });
@@ -218,7 +219,7 @@ void CsvCapture::choose(const std::vector<std::size_t>& signals) {
     sampler_.begin(signals.size());
 }
 
-Result<std::int64_t> CsvCapture::time_of(std::string_view cell, TextPosition place) const {
+Result<std::int64_t> CsvCapture::time_of(std::string_view cell, TextPosition location) const {
     std::string text(cell);
     if (separator_ != ',') std::replace(text.begin(), text.end(), ',', '.');
     double time = 0;
@@ -231,7 +232,7 @@ Result<std::int64_t> CsvCapture::time_of(std::string_view cell, TextPosition pla
             fmt::format(
                 "'{}' is not a time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.",
                 text.substr(0, 40), max_duration_s),
-            place);
+            location);
     return std::llround(seconds / tick);
 }
 
@@ -241,15 +242,15 @@ Result<void> CsvCapture::take(const Row& row) {
     if (cells_.size() != width_)
         return refuse(
             fmt::format("The row has {} columns, the first row {}. Nothing more was decoded.", cells_.size(), width_),
-            row.place);
+            row.location);
     std::int64_t time = 0;
     if (timed_) {
-        MOTIONRACK_TRY(time, time_of(cells_[0], row.place));
+        MOTIONRACK_TRY(time, time_of(cells_[0], row.location));
         if (begun_ && time < now_)
             return refuse(fmt::format("Time goes backwards, from {} s to {} s. Nothing more was decoded; the file is "
                                       "damaged or is two files.",
                                       static_cast<double>(now_) * tick, static_cast<double>(time) * tick),
-                          row.place);
+                          row.location);
     }
     for (std::size_t line = 0; line < columns_.size(); ++line) {
         const std::string_view cell = cells_[columns_[line]];
@@ -259,11 +260,11 @@ Result<void> CsvCapture::take(const Row& row) {
                 fmt::format(
                     "Column {} holds '{}'; a level is 0, 1, x or z. Nothing more was decoded; export digital lines.",
                     columns_[line] + 1, cell.substr(0, 40)),
-                row.place);
+                row.location);
         if (level != 'x')
             sampler_.set(line, level == '1', facts_[line]);
         else if (sampler_.lose(line, facts_[line]) && facts_[line].unknown == 1)
-            facts_[line].first_unknown = fmt::format("line {}", row.place.line);
+            facts_[line].first_unknown = fmt::format("line {}", row.location.line);
     }
     now_ = time;
     begun_ = true;
@@ -284,8 +285,9 @@ Result<bool> CsvCapture::next(SampleBlock& block) {
         const Result<void> done = take(row);
         if (done) continue;
         if (!row.cut) return tl::unexpected(done.error());
-        cut_ = Error{ErrorKind::invalid_input,
-                     "The file ends inside a row: it is cut off. The rows before that were decoded.", name_, row.place};
+        cut_ =
+            Error{ErrorKind::invalid_input,
+                  "The file ends inside a row: it is cut off. The rows before that were decoded.", name_, row.location};
     }
     if (sampler_.waiting() == 0) return false;
     sampler_.hand_over(block, timed_);

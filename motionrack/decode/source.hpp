@@ -37,7 +37,7 @@ class TextReader {
     char peek();
 
     /// Position of the line or word, counted from 1.
-    TextPosition place() const { return {static_cast<int>(line_), column_}; }
+    TextPosition location() const { return {static_cast<int>(line_), column_}; }
     /// True if the file ends directly after it, without a line end: it may be truncated.
     bool cut() const { return cut_; }
     /// Error that ended the reading, if any.

@@ -77,7 +77,7 @@ Error VcdCapture::ends_in(const char* what) {
     over_ = true;
     return {ErrorKind::invalid_input,
             fmt::format("The file ends inside {}: it is cut off.{}", what, head_read_ ? "" : " Nothing was decoded."),
-            name_, text_.place()};
+            name_, text_.location()};
 }
 
 Result<void> VcdCapture::words_until_end(std::vector<std::string>& words, const char* what) {
@@ -98,14 +98,14 @@ Result<void> VcdCapture::skip(const char* what) {
 Result<void> VcdCapture::read_head() {
     std::vector<std::string> words;
     for (std::string_view word; text_.word(word);) {
-        const TextPosition place = text_.place();
+        const TextPosition location = text_.location();
         const std::string keyword(word);
         if (keyword.empty() || keyword[0] != '$')
             return refuse(
                 fmt::format("'{}' in place of the declarations of a VCD file: this is not a VCD file. Nothing "
                             "was decoded; name its format with --format.",
                             keyword.substr(0, 40)),
-                place);
+                location);
         if (keyword == "$comment" || keyword == "$date" || keyword == "$version") {
             MOTIONRACK_CHECK(skip("its head"));
             continue;
@@ -113,7 +113,7 @@ Result<void> VcdCapture::read_head() {
         MOTIONRACK_CHECK(words_until_end(words, "its head"));
         if (keyword == "$enddefinitions") {
             if (tick_s_ == 0)
-                return refuse("The file has no $timescale, so its times have no unit. Nothing was decoded.", place);
+                return refuse("The file has no $timescale, so its times have no unit. Nothing was decoded.", location);
             head_read_ = true;
             return {};
         }
@@ -139,7 +139,7 @@ Result<void> VcdCapture::set_timescale(const std::vector<std::string>& words) {
     return refuse(
         fmt::format("The timescale is '{}': it must be 1, 10 or 100 of s, ms, us, ns, ps or fs. Nothing was decoded.",
                     text.substr(0, 40)),
-        text_.place());
+        text_.location());
 }
 
 /// $var TYPE WIDTH CODE NAME [RANGE] $end
@@ -148,12 +148,12 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
         return refuse(
             fmt::format("A $var needs type, width, code and name; this one has {} words. Nothing was decoded.",
                         words.size()),
-            text_.place());
+            text_.location());
     int width = 0;
     const auto [end, bad] = std::from_chars(words[1].data(), words[1].data() + words[1].size(), width);
     if (bad != std::errc() || *end != '\0' || width < 0)
         return refuse(fmt::format("A $var has the width '{}'. Nothing was decoded.", words[1].substr(0, 40)),
-                      text_.place());
+                      text_.location());
     const auto [at, fresh] = codes_.try_emplace(words[2], variables_.size());
     if (fresh) variables_.push_back({width, {}});
     if (words[0] == "real" || words[0] == "string" || words[0] == "event" || words[0] == "parameter" || width < 1 ||
@@ -168,7 +168,7 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
         return refuse(
             fmt::format("The name of a line has more than {} bytes, its scopes included. Nothing was decoded.",
                         max_name),
-            text_.place());
+            text_.location());
     if (width == 1) {
         signals_.push_back(name + (range.find(':') == std::string::npos ? range : ""));
         places_.push_back({at->second, 0});
@@ -181,7 +181,7 @@ Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
     }
     if (signals_.size() > max_signals)
         return refuse(fmt::format("The file declares more than {} lines. Nothing was decoded.", max_signals),
-                      text_.place());
+                      text_.location());
     return {};
 }
 
@@ -198,7 +198,7 @@ bool VcdCapture::set_level(const Tap& tap, char level) {
     LineFacts& facts = facts_[tap.line];
     if (level == '0' || level == '1') return sampler_.set(tap.line, level == '1', facts);
     if (sampler_.lose(tap.line, facts) && facts.unknown == 1)
-        facts.first_unknown = fmt::format("line {}", text_.place().line);
+        facts.first_unknown = fmt::format("line {}", text_.location().line);
     return false;
 }
 
@@ -209,7 +209,7 @@ Result<void> VcdCapture::assign(std::string_view code, std::string_view bits) {
     if (found == codes_.end())
         return refuse(
             fmt::format("A value for '{}', which no $var declares. Nothing more was decoded.", word_.substr(0, 40)),
-            text_.place());
+            text_.location());
     for (const Tap& tap : variables_[found->second].taps) {
         const auto bit = static_cast<std::size_t>(tap.bit);
         const char fill = bits.front() == '1' ? '0' : bits.front();
@@ -223,13 +223,13 @@ Result<void> VcdCapture::advance(std::string_view digits) {
     const auto [end, bad] = std::from_chars(digits.data(), digits.data() + digits.size(), time);
     if (bad != std::errc() || end != digits.data() + digits.size() || time < 0 || time > std::int64_t{1} << 61)
         return refuse(fmt::format("'#{}' is not a time. Nothing more was decoded.", digits.substr(0, 40)),
-                      text_.place());
+                      text_.location());
     if (begun_ && time < now_)
         return refuse(
             fmt::format(
                 "Time goes backwards, from #{} to #{}. Nothing more was decoded; the file is damaged or is two files.",
                 now_, time),
-            text_.place());
+            text_.location());
     if (begun_ && time > now_ && (changed_ || !any_)) {
         sampler_.take(now_);
         any_ = true, changed_ = false;
@@ -244,7 +244,7 @@ Result<void> VcdCapture::change_vector(std::string bits) {
     bits.erase(0, 1);
     if (vector && (bits.empty() || bits.find_first_not_of("01xXzZuUwWlLhH-") != std::string::npos))
         return refuse(fmt::format("'b{}' is not a value of a vector. Nothing more was decoded.", bits.substr(0, 40)),
-                      text_.place());
+                      text_.location());
     std::string_view code;
     if (!text_.word(code)) return tl::unexpected(ends_in("a value"));
     return vector ? assign(code, bits) : Result<void>{};
@@ -261,7 +261,7 @@ Result<void> VcdCapture::change(std::string_view word) {
         case 'z':
         case 'Z':
             if (word.size() < 2)
-                return refuse("A value without the code of its signal. Nothing more was decoded.", text_.place());
+                return refuse("A value without the code of its signal. Nothing more was decoded.", text_.location());
             return assign(word.substr(1), word.substr(0, 1));
         case 'b':
         case 'B':
@@ -276,7 +276,7 @@ Result<void> VcdCapture::change(std::string_view word) {
         default:
             return refuse(
                 fmt::format("'{}' is neither a time nor a value. Nothing more was decoded.", word.substr(0, 40)),
-                text_.place());
+                text_.location());
     }
 }
 
@@ -300,7 +300,7 @@ Result<bool> VcdCapture::next(SampleBlock& block) {
         if (text_.error() || !(text_.cut() || over_)) return tl::unexpected(done.error());
         cut_ = Error{ErrorKind::invalid_input,
                      "The file ends inside a value or time: it is cut off. The part before that was decoded.", name_,
-                     text_.place()};
+                     text_.location()};
         end();
     }
     if (sampler_.waiting() == 0) return false;

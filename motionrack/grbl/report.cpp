@@ -68,13 +68,13 @@ void GrblSession::report() {
     const operate::Status& status = machine_.status();
     const unsigned shown = static_cast<unsigned>(own_.report);
     const control::Point& offset = interpreter().frame().offset;
-    control::Point place = {};
+    control::Point position = {};
     for (const operate::AxisStatus& axis : status.axes)
-        place[static_cast<std::size_t>(machine_.rack().config().axis(axis.letter)->index())] = axis.commanded;
+        position[static_cast<std::size_t>(machine_.rack().config().axis(axis.letter)->index())] = axis.commanded;
     const bool machine_places = (shown & 1) != 0;
     if (!machine_places)
-        for (std::size_t axis = 0; axis < place.size(); ++axis) place[axis] -= offset[axis];
-    put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(place)));
+        for (std::size_t axis = 0; axis < position.size(); ++axis) position[axis] -= offset[axis];
+    put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(position)));
     if ((shown & 2) != 0)
         put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
                         intake_.room()));

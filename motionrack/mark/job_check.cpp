@@ -18,26 +18,27 @@ using rack::TomlNode;
 void check_steps(const TomlNode& root, std::string_view section, std::string_view key, double value, double step,
                  rack::Problems& problems) {
     if (value / step == std::floor(value / step)) return;
-    problems.error(root.find(section)->place_of(key), fmt::format("'{}' is {} us; the card has steps of {} us.", key,
-                                                                  rack::number_text(value), rack::number_text(step)));
+    problems.error(root.find(section)->location_of(key),
+                   fmt::format("'{}' is {} us; the card has steps of {} us.", key, rack::number_text(value),
+                               rack::number_text(step)));
 }
 
 void check_drawings(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     const TomlNode* node = root.find("drawing");
     if (job.drawings.empty())
-        return problems.error(node != nullptr ? node->key_place : TextPosition{1, 1}, "A job needs a [drawing].");
+        return problems.error(node != nullptr ? node->key_location : TextPosition{1, 1}, "A job needs a [drawing].");
     for (std::size_t i = 0; i < job.drawings.size(); ++i) {
         const TomlNode& table = node->type == rack::TomlType::array ? node->children[i] : *node;
         const DrawingSource& d = job.drawings[i];
         const int sources = (d.svg ? 1 : 0) + (d.gcode ? 1 : 0) + (d.text ? 1 : 0);
         if (sources != 1)
-            problems.error(table.key_place,
+            problems.error(table.key_location,
                            fmt::format("A drawing needs one of svg, gcode and text; there are {}.", sources));
         if (!d.text) continue;
         const PartsSettings parts = job.parts.value_or(PartsSettings{});
         for (const std::int64_t number : {parts.number(0), parts.number(parts.size() - 1)})
             if (const auto text = numbered(*d.text, number); !text) {
-                problems.error(table.place_of("text"), text.error().message);
+                problems.error(table.location_of("text"), text.error().message);
                 break;
             }
     }
@@ -67,7 +68,7 @@ bool turns_back(const MarkingJob& job) {
 void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     const FlySettings& fly = job.fly;
     const auto wrong = [&](std::string_view key, std::string message) {
-        problems.error(root.find("fly")->place_of(key), std::move(message));
+        problems.error(root.find("fly")->location_of(key), std::move(message));
     };
     const double simulated = fly.simulated_velocity.value_or(job.belt.profile.empty() ? job.belt.velocity : 0);
     if (fly.mode == FlyMode::simulated && simulated == 0)
@@ -101,23 +102,23 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
     const PartsSettings& parts = *job.parts;
     const TomlNode& table = *root.find("parts");
     const std::string unit = job.belt.rotary ? "deg" : "mm";
-    const auto place = [&](const char* key) {
-        return table.find(key + unit) != nullptr ? table.place_of(key + unit) : table.key_place;
+    const auto location = [&](const char* key) {
+        return table.find(key + unit) != nullptr ? table.location_of(key + unit) : table.key_location;
     };
     if (parts.at.empty() && parts.count > 1 && parts.spacing == 0)
-        problems.error(place("spacing_"),
+        problems.error(location("spacing_"),
                        fmt::format("{} parts need a 'spacing_{}' above 0, or their positions in 'at_{}'.", parts.count,
                                    unit, unit));
     if (job.fly.mode == FlyMode::mcbsp)
-        problems.error(table.key_place,
+        problems.error(table.key_location,
                        "McBSP words have absolute positions, which no command zeroes at a start, so only the first of "
                        "several parts would be correct; use mode encoder, or one part without [parts].");
     if (stands(job) || turns_back(job))
         problems.error(
-            table.key_place,
+            table.key_location,
             "Parts need a moving belt or table that never reverses; give [belt] or [table] such a velocity.");
     if (parts.start == PartStart::equidistant && (!parts.at.empty() || parts.track_delay != 0))
-        problems.error(table.place_of("start"),
+        problems.error(table.location_of("start"),
                        fmt::format("Equidistant parts need no sensor: the first begins at once, the others after "
                                    "'spacing_{}'; leave 'part_positions_{}' and 'track_delay_{}' out.",
                                    unit, unit, unit));
@@ -128,17 +129,18 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
 void check_job(const TomlNode& root, const MarkingJob& job, rack::Problems& problems) {
     check_drawings(root, job, problems);
     if (root.find("belt") != nullptr && root.find("table") != nullptr)
-        problems.error(root.find("table")->key_place, "A job has a [belt] or a [table], not both.");
-    if (job.belt.counts_per_unit == 0) problems.error(job.belt.place, "An encoder needs counts other than 0.");
-    if (job.sender.bits_per_mm == 0) problems.error(root.place_of("sender"), "A sender needs bits other than 0.");
+        problems.error(root.find("table")->key_location, "A job has a [belt] or a [table], not both.");
+    if (job.belt.counts_per_unit == 0) problems.error(job.belt.location, "An encoder needs counts other than 0.");
+    if (job.sender.bits_per_mm == 0) problems.error(root.location_of("sender"), "A sender needs bits other than 0.");
     check_pace(root, job, problems);
     check_fly(root, job, problems);
     check_parts(root, job, problems);
     if (job.lens) {
         if (const auto good = sim::check(job.lens->lens()); !good)
-            problems.error(root.place_of("lens"), good.error().message);
+            problems.error(root.location_of("lens"), good.error().message);
         if (root.find("optics") != nullptr && root.find("optics")->find("bits_per_mm") != nullptr)
-            problems.error(root.find("optics")->place_of("bits_per_mm"), "With a [lens], bits_per_mm belongs there.");
+            problems.error(root.find("optics")->location_of("bits_per_mm"),
+                           "With a [lens], bits_per_mm belongs there.");
     }
 }
 

@@ -24,39 +24,39 @@ void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& pro
     const TomlNode* profile = table.find("profile");
     if (profile == nullptr) return;
     if (profile->type != TomlType::array || profile->children.empty() || profile->children.size() > 10'000)
-        return problems.error(profile->value_place,
+        return problems.error(profile->value_location,
                               "'profile' must be an array of 1 to 10000 pairs [seconds, velocity].");
     for (const TomlNode& pair : profile->children) {
         if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
             !is_number(pair.children[1]))
-            return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, velocity].");
+            return problems.error(pair.value_location, "A point of 'profile' must be a pair [seconds, velocity].");
         belt.profile.push_back({decimal_field(pair.children[0]), decimal_field(pair.children[1])});
     }
     if (table.find("velocity_mm_s") != nullptr || table.find("velocity_deg_s") != nullptr)
-        problems.error(profile->key_place, "A velocity and a 'profile' are both given; leave one out.");
+        problems.error(profile->key_location, "A velocity and a 'profile' are both given; leave one out.");
     if (const auto track = parts::Conveyor::make({.profile = belt.profile}); !track)
-        problems.error(profile->value_place, track.error().message);
+        problems.error(profile->value_location, track.error().message);
 }
 
 /// part_positions_mm = [0, 40, 95]
 void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
     const TomlNode* at = table.find(key);
     if (at == nullptr) return;
-    const auto wrong = [&](TextPosition place) {
-        problems.error(place,
+    const auto wrong = [&](TextPosition location) {
+        problems.error(location,
                        fmt::format("'{}' must be an array of 1 to 10000 numbers that rise, from 0 to 1e6.", key));
     };
     if (at->type != TomlType::array || at->children.empty() || at->children.size() > 10'000)
-        return wrong(at->value_place);
+        return wrong(at->value_location);
     for (const TomlNode& node : at->children) {
         const double value = is_number(node) ? decimal_field(node) : -1;
         if (!(value >= 0 && value <= 1e6) || (!parts.at.empty() && value <= parts.at.back()))
-            return wrong(node.value_place);
+            return wrong(node.value_location);
         parts.at.push_back(value);
     }
     for (const char* other : {"count", "spacing_mm", "spacing_deg"})
         if (table.find(other) != nullptr)
-            problems.error(table.place_of(other),
+            problems.error(table.location_of(other),
                            fmt::format("With '{}' the parts' positions are known; leave '{}' out.", key, other));
 }
 
@@ -91,7 +91,7 @@ class SectionReader {
         if (name == "parts") return &job_.parts.emplace();
         if (name == "sender") return &job_.sender;
         job_.belt.rotary = name == "table";
-        job_.belt.place = node.key_place;
+        job_.belt.location = node.key_location;
         return &job_.belt;
     }
 
@@ -135,7 +135,7 @@ JobRead read_job(std::string_view text, const std::string& file) {
         const bool many = node.key == "drawing" && node.type == TomlType::array;
         if (!known || (!many && node.type != TomlType::table)) {
             const std::string hint = rack::did_you_mean(node.key, names);
-            problems.error(node.key_place,
+            problems.error(node.key_location,
                            fmt::format("Unknown section {}{}", rack::in_quotes(node.key), hint.empty() ? "." : hint));
             continue;
         }
@@ -144,7 +144,7 @@ JobRead read_job(std::string_view text, const std::string& file) {
             if (each.type == TomlType::table)
                 reader.read(each, node.key);
             else
-                problems.error(each.value_place, "'drawing' must be a section [drawing] or several [[drawing]].");
+                problems.error(each.value_location, "'drawing' must be a section [drawing] or several [[drawing]].");
         }
     }
     if (!problems.any_errors()) check_job(*root, job, problems);

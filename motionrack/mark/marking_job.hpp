@@ -48,7 +48,7 @@ struct BeltSettings {
     double slip = 0, jitter_counts = 0;
     bool rotary = false;
     std::vector<parts::VelocityPoint> profile;  ///< if not empty, replaces `velocity`
-    TextPosition place;                         ///< position of the section
+    TextPosition location;                      ///< position of the section
 };
 
 enum class FlyMode : std::uint8_t { off, encoder, simulated, mcbsp };

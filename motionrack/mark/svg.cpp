@@ -62,9 +62,9 @@ class SvgReader {
         at = std::min(at, text_.size());
         const std::string_view before = text_.substr(0, at);
         const std::size_t line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-        const TextPosition place{static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
-                                 static_cast<int>(at - line_begin) + 1};
-        return fail(ErrorKind::invalid_input, what + ". Nothing was marked.", place, file_);
+        const TextPosition location{static_cast<int>(std::count(before.begin(), before.end(), '\n')) + 1,
+                                    static_cast<int>(at - line_begin) + 1};
+        return fail(ErrorKind::invalid_input, what + ". Nothing was marked.", location, file_);
     }
     static std::string short_of(std::string_view text) {
         std::string out;

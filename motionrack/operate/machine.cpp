@@ -170,7 +170,7 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
         control::gcode::Problem problem;
         problem.kind = ErrorKind::refused;
         problem.message = std::move(why);
-        problem.place.line = number;
+        problem.location.line = number;
         return tl::unexpected<control::gcode::Problem>(std::move(problem));
     };
     if (Result<void> can = rack::check_released(rack_.stop_latch(), "The line was not accepted"); !can)

@@ -32,8 +32,8 @@ Answer error_answer(const Error& error) {
             answer = make(500, "io");
             break;
     }
-    if (error.place.line > 0) answer.body["error"]["line"] = error.place.line;
-    if (error.place.column > 0) answer.body["error"]["column"] = error.place.column;
+    if (error.location.line > 0) answer.body["error"]["line"] = error.location.line;
+    if (error.location.column > 0) answer.body["error"]["column"] = error.location.column;
     return answer;
 }
 

@@ -28,14 +28,14 @@ void ActualPath::add(const operate::Status& status) {
             std::find(control::axis_letters.begin(), control::axis_letters.end(), axis.letter) -
             control::axis_letters.begin());
         const double error = axis.commanded - axis.actual;
-        point.place[i] = axis.actual;
+        point.position[i] = axis.actual;
         (axis.rotary ? rotary : linear) += error * error;
     }
     point.error = std::sqrt(linear > 0 ? linear : rotary);
     if (!points_.empty()) {
         double far = 0;
-        for (std::size_t i = 0; i < point.place.size(); ++i)
-            far = std::max(far, std::fabs(point.place[i] - points_.back().place[i]));
+        for (std::size_t i = 0; i < point.position.size(); ++i)
+            far = std::max(far, std::fabs(point.position[i] - points_.back().position[i]));
         if (far < apart) return;
     }
     if (points_.size() >= max_points) points_.pop_front();

@@ -58,7 +58,7 @@ class ActualPath {
     static constexpr double apart = 0.05;
     struct ActualPoint {
         Instant at{};
-        control::Point place = {};  ///< by the encoders
+        control::Point position = {};  ///< by the encoders
         double error = 0;  ///< deviation from the commanded position: mm of X Y Z, or degrees if only other axes moved
     };
     void add(const operate::Status& status);

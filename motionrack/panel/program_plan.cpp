@@ -93,17 +93,17 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
     return plan;
 }
 
-json place_json(const control::Point& place, const std::string& letters) {
+json position_json(const control::Point& position, const std::string& letters) {
     json out = json::array();
-    for (const char letter : letters) out.push_back(std::round(place[axis_of(letter)] * 1e4) / 1e4);
+    for (const char letter : letters) out.push_back(std::round(position[axis_of(letter)] * 1e4) / 1e4);
     return out;
 }
 
 json to_json(const ProgramPlan& plan, const std::string& letters) {
     json problems = json::array();
     for (const auto& problem : plan.check.problems)
-        problems.push_back({{"line", problem.place.line},
-                            {"column", problem.place.column},
+        problems.push_back({{"line", problem.location.line},
+                            {"column", problem.location.column},
                             {"message", problem.message},
                             {"word", problem.word}});
     json out = {{"name", plan.name},
@@ -121,7 +121,7 @@ json to_json(const ProgramPlan& plan, const std::string& letters) {
     }
     json path = json::array(), lines = json::array(), feeds = json::array();
     for (const PathPoint& point : plan.path) {
-        path.push_back(place_json(point.at, letters));
+        path.push_back(position_json(point.at, letters));
         lines.push_back(point.line);
         feeds.push_back(point.feed ? 1 : 0);
     }

@@ -30,6 +30,6 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
 /// `letters`: axis letters of the machine.
 nlohmann::json to_json(const ProgramPlan& plan, const std::string& letters);
 /// Returns the coordinates in the order of the letters, to 0.1 um.
-nlohmann::json place_json(const control::Point& place, const std::string& letters);
+nlohmann::json position_json(const control::Point& position, const std::string& letters);
 
 }  // namespace motionrack::panel

@@ -41,14 +41,14 @@ json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoin
     out["axes"] = letters;
     if (plan != nullptr) out["planned"] = std::move(out["path"]);
     out.erase("path");
-    json places = json::array(), errors = json::array();
+    json positions = json::array(), errors = json::array();
     for (const ActualPath::ActualPoint& point : driven) {
-        json place = place_json(point.place, letters);
-        place.insert(place.begin(), to_seconds(point.at));
-        places.push_back(std::move(place));
+        json position = position_json(point.position, letters);
+        position.insert(position.begin(), to_seconds(point.at));
+        positions.push_back(std::move(position));
         errors.push_back(point.error);
     }
-    out["driven"] = std::move(places);
+    out["driven"] = std::move(positions);
     out["errors"] = std::move(errors);
     return out;
 }

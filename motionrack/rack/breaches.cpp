@@ -23,7 +23,7 @@ constexpr double start_reserve = 1.6;
 std::string position_text(const Breach& breach) {
     return fmt::format("{}at {:.6f} s and X {:.3f}, Y {:.3f}, Z {:.3f}",
                        breach.line > 0 ? fmt::format("in line {}, ", breach.line) : "", to_seconds(breach.at),
-                       breach.place[0], breach.place[1], breach.place[2]);
+                       breach.position[0], breach.position[1], breach.position[2]);
 }
 
 std::string often(const Breach& breach) {

@@ -26,13 +26,13 @@ enum class BreachKind : std::uint8_t {
 /// The largest breach of its kind and axis.
 struct Breach {
     BreachKind kind = BreachKind::jump;
-    int axis = -1;                     ///< 0 .. 5; -1: not a single axis
-    double value = 0;                  ///< mm/s or degrees/s, mm/s2 or degrees/s2, mm, s
-    double limit = 0;                  ///< unit as of the value
-    Instant at{};                      ///< since the start of the rack
-    int line = 0;                      ///< program line; 0: unknown
-    std::array<double, 3> place = {};  ///< machine position, mm
-    std::int64_t times = 1;            ///< number of occurrences, including this one
+    int axis = -1;                        ///< 0 .. 5; -1: not a single axis
+    double value = 0;                     ///< mm/s or degrees/s, mm/s2 or degrees/s2, mm, s
+    double limit = 0;                     ///< unit as of the value
+    Instant at{};                         ///< since the start of the rack
+    int line = 0;                         ///< program line; 0: unknown
+    std::array<double, 3> position = {};  ///< machine position, mm
+    std::int64_t times = 1;               ///< number of occurrences, including this one
 };
 
 class Breaches {

@@ -14,10 +14,10 @@ bool AxisSource::sound(std::initializer_list<std::string_view> keys) const {
     });
 }
 
-TextPosition AxisSource::place(std::string_view key, std::string_view sub) const {
+TextPosition AxisSource::location(std::string_view key, std::string_view sub) const {
     if (table == nullptr) return {};
     const TomlNode* in = sub.empty() ? table : table->find(sub);
-    return in != nullptr ? in->place_of(key) : table->key_place;
+    return in != nullptr ? in->location_of(key) : table->key_location;
 }
 
 int channel_index(const RackConfig& config, const RackAxis& axis) {
@@ -379,10 +379,10 @@ class AxisCheck {
     }
 
     void error(std::string_view key, std::string_view sub, std::string what) {
-        problems_.error(source_.place(with_unit(key, axis_.unit()), sub), std::move(what));
+        problems_.error(source_.location(with_unit(key, axis_.unit()), sub), std::move(what));
     }
     void warn(std::string_view key, std::string_view sub, std::string what) {
-        problems_.warn(source_.place(with_unit(key, axis_.unit()), sub), std::move(what));
+        problems_.warn(source_.location(with_unit(key, axis_.unit()), sub), std::move(what));
     }
 
     /// A limit that is met exactly in decimal may be exceeded by rounding in binary.

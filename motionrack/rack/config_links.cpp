@@ -25,9 +25,9 @@ std::string_view pin_for(const CardType& type, std::string_view end) {
 
 class LinkResolver {
   public:
-    LinkResolver(RackConfig& config, const std::function<TextPosition(const std::string&)>& place_of,
+    LinkResolver(RackConfig& config, const std::function<TextPosition(const std::string&)>& location_of,
                  Problems& problems)
-        : config_(config), place_of_(place_of), problems_(problems) {}
+        : config_(config), location_of_(location_of), problems_(problems) {}
 
     void run() {
         for (std::size_t i = 0; i < config_.axes.size(); ++i) pulses_of(static_cast<int>(i));
@@ -178,23 +178,23 @@ class LinkResolver {
     /// Reports an error at the first of these inputs that the file names.
     void error(std::initializer_list<std::string> inputs, std::string message) {
         for (const std::string& input : inputs) {
-            const TextPosition place = place_of_(input);
-            if (place != TextPosition{}) return problems_.error(place, std::move(message));
+            const TextPosition location = location_of_(input);
+            if (location != TextPosition{}) return problems_.error(location, std::move(message));
         }
         // Only wires of the default rule: two axes on one channel, already reported.
         if (!problems_.any_errors()) problems_.error({}, std::move(message));
     }
 
     RackConfig& config_;
-    const std::function<TextPosition(const std::string&)>& place_of_;
+    const std::function<TextPosition(const std::string&)>& location_of_;
     Problems& problems_;
 };
 
 }  // namespace
 
-void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& place_of,
+void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& location_of,
                    Problems& problems) {
-    LinkResolver(config, place_of, problems).run();
+    LinkResolver(config, location_of, problems).run();
 }
 
 }  // namespace motionrack::rack

@@ -135,7 +135,7 @@ class MarkingReader {
             !called(config_.tracks) && !called(config_.scanners))
             return true;
         problems_.error(
-            node_->key_place,
+            node_->key_location,
             fmt::format("{} cannot be the name of a belt, table or scanner: 2 to 32 letters, digits and '_', not "
                         "beginning with a digit, not the name of a card or another part, not estop.",
                         in_quotes(name)));
@@ -144,7 +144,7 @@ class MarkingReader {
     bool is_table(const TomlNode& node, const std::string& path) {
         if (node.type == TomlType::table) return true;
         problems_.error(
-            node.value_place,
+            node.value_location,
             fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
                         printable(path, 60), type_name(node.type), printable(path, 60)));
         return false;
@@ -156,7 +156,7 @@ class MarkingReader {
                    .empty();
     }
     void refuse(const TomlNode& table, std::string_view key, std::string text) {
-        problems_.error(table.place_of(key), fmt::format("{}: {}", what_, text));
+        problems_.error(table.location_of(key), fmt::format("{}: {}", what_, text));
     }
 
     /// Reads profile = [[0, 50], [0.5, 120]]: seconds and velocities.
@@ -167,22 +167,22 @@ class MarkingReader {
         const auto is_number = [](const TomlNode& node) {
             return node.type == TomlType::number || node.type == TomlType::integer;
         };
-        const auto bad = [&](TextPosition place, std::string text) {
-            problems_.error(place, fmt::format("{}: {}", what_, text));
+        const auto bad = [&](TextPosition location, std::string text) {
+            problems_.error(location, fmt::format("{}: {}", what_, text));
             return false;
         };
         if (profile.type != TomlType::array || profile.children.empty() || profile.children.size() > max_profile_points)
             return bad(
-                profile.value_place,
+                profile.value_location,
                 fmt::format("profile must be an array of 1 to {} pairs [seconds, velocity].", max_profile_points));
         for (const TomlNode& pair : profile.children) {
             if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
                 !is_number(pair.children[1]))
-                return bad(pair.value_place, "a point of its profile must be a pair [seconds, velocity].");
+                return bad(pair.value_location, "a point of its profile must be a pair [seconds, velocity].");
             track.profile.push_back({number(pair.children[0]), number(pair.children[1])});
         }
         if (node_->find(with_unit("velocity_{u}_s", track.unit())) != nullptr)
-            return bad(profile.key_place, "a velocity and a profile are both given; leave one out.");
+            return bad(profile.key_location, "a velocity and a profile are both given; leave one out.");
         return true;
     }
 

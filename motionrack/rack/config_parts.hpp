@@ -72,7 +72,7 @@ struct AxisSource {
     bool sound(std::initializer_list<std::string_view> keys) const;
     /// Returns the location of the key, in the axis' own table or its table `sub` ("motor", "servo", "switches",
     /// "homing").
-    TextPosition place(std::string_view key, std::string_view sub = {}) const;
+    TextPosition location(std::string_view key, std::string_view sub = {}) const;
 };
 
 /// Checks that involve several keys: axes against cards, positions against each other, velocities against chip and
@@ -99,7 +99,7 @@ void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems
 
 /// Sets the links that follow from config.wires. `place_of` returns the location at which the file names an input, if
 /// it does.
-void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& place_of,
+void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& location_of,
                    Problems& problems);
 
 /// Returns the index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.

@@ -15,13 +15,13 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
         const std::optional<double> lower = probe.lower(axis), upper = probe.upper(axis);
         if (lower && upper && *lower >= *upper) {
             problems.error(
-                node.place_of(key),
+                node.location_of(key),
                 fmt::format(
                     "The workpiece of the probe goes from {} to {} mm along {}; its first end must be below the other.",
                     *lower, *upper, letter));
         }
         if ((lower || upper) && config.axis(letter) == nullptr) {
-            problems.error(node.place_of(lower ? key : fmt::format("{}_max_mm", small)),
+            problems.error(node.location_of(lower ? key : fmt::format("{}_max_mm", small)),
                            fmt::format("The workpiece of the probe has an end along {}, but the rack has no axis {}.",
                                        letter, letter));
         }
@@ -30,10 +30,10 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
         const RackCard* card = config.card(axis.card);
         if (card == nullptr || card->type.empty()) continue;  // already reported
         if (card->type == "mcx314" && card->mcx314.variant == Mcx314Variant::mcx314as) continue;
-        problems.error(node.key_place, fmt::format("The rack has a probe, but card {} of axis {} cannot catch "
-                                                   "positions; it must be of type mcx314 with variant = "
-                                                   "\"mcx314as\".",
-                                                   card->name, axis.letter));
+        problems.error(node.key_location, fmt::format("The rack has a probe, but card {} of axis {} cannot catch "
+                                                      "positions; it must be of type mcx314 with variant = "
+                                                      "\"mcx314as\".",
+                                                      card->name, axis.letter));
         break;
     }
     config.probe = probe;

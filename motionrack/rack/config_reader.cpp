@@ -22,7 +22,7 @@ class RackReader {
         for (const TomlNode& node : root_.children) {
             if (std::find(top_level.begin(), top_level.end(), node.key) != top_level.end()) continue;
             const std::string hint = problems_.wants_hints() ? did_you_mean(node.key, top_level) : std::string();
-            problems_.error(node.key_place,
+            problems_.error(node.key_location,
                             fmt::format("A rack file has no section {}{}", in_quotes(node.key),
                                         hint.empty() ? fmt::format(": it has {}.", fmt::join(top_level, ", ")) : hint));
         }
@@ -53,7 +53,7 @@ class RackReader {
     bool is_table(const TomlNode& node, const std::string& path) {
         if (node.type == TomlType::table) return true;
         problems_.error(
-            node.value_place,
+            node.value_location,
             fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
                         type_name(node.type), path));
         return false;
@@ -64,12 +64,12 @@ class RackReader {
     void read_cards() {
         const TomlNode* cards = root_.find("card");
         if (cards == nullptr || (cards->type == TomlType::table && cards->children.empty())) {
-            problems_.error(cards != nullptr ? cards->key_place : TextPosition{1, 1},
+            problems_.error(cards != nullptr ? cards->key_location : TextPosition{1, 1},
                             "The rack has no card; add a section [card.motion] with type = \"mcx314\".");
             return;
         }
         if (cards->type != TomlType::table) {
-            problems_.error(cards->value_place,
+            problems_.error(cards->value_location,
                             fmt::format("card is {}, but each card needs a name: write card.motion = \"mcx314\" "
                                         "or a section [card.motion].",
                                         type_name(cards->type)));
@@ -77,7 +77,7 @@ class RackReader {
         }
         if (cards->children.size() > slot_count) {
             problems_.error(
-                cards->children[slot_count].key_place,
+                cards->children[slot_count].key_location,
                 fmt::format("The rack has {} cards, but only {} slots.", cards->children.size(), slot_count));
             return;
         }
@@ -92,7 +92,7 @@ class RackReader {
         check_card_name(node);
         if (node.type == TomlType::text) {
             TomlNode as_table;  // card.c1 = "mcx314" is short for [card.c1] with that type
-            as_table.key_place = node.key_place;
+            as_table.key_location = node.key_location;
             as_table.children.push_back(node);
             as_table.children.back().key = "type";
             read_card_table(as_table, card);
@@ -142,12 +142,12 @@ class RackReader {
     void check_card_name(const TomlNode& node) {
         const std::string& name = node.key;
         if (!is_name(name)) {
-            problems_.error(node.key_place,
+            problems_.error(node.key_location,
                             fmt::format("{} cannot be a card's name: 1 to 32 letters, digits and '_', not beginning "
                                         "with a digit.",
                                         in_quotes(name)));
         } else if (name == "estop" || std::find(axis_names.begin(), axis_names.end(), name) != axis_names.end()) {
-            problems_.error(node.key_place,
+            problems_.error(node.key_location,
                             fmt::format("A card cannot be called {}: wires use that name for {}; choose another.", name,
                                         name == "estop" ? "the emergency stop" : "an axis"));
         }
@@ -158,7 +158,7 @@ class RackReader {
             const CardType* type = find_card_type(config_.cards[i].type);
             if (type == nullptr || type->flaw == nullptr) continue;
             const auto flaw = type->flaw(config_.cards[i], std::span(config_.cards).first(i));
-            if (flaw) problems_.error(cards.children[i].place_of(flaw->key), flaw->text);
+            if (flaw) problems_.error(cards.children[i].location_of(flaw->key), flaw->text);
         }
     }
 
@@ -169,7 +169,7 @@ class RackReader {
             if (!card.slot) continue;
             const RackCard*& there = in_slot[static_cast<std::size_t>(*card.slot)];
             if (there != nullptr) {
-                problems_.error(cards.children[i].place_of("slot"),
+                problems_.error(cards.children[i].location_of("slot"),
                                 fmt::format("Slot {} has two cards, {} and {}; give one of them another "
                                             "slot (0 .. {}).",
                                             *card.slot, there->name, card.name, slot_count - 1));
@@ -201,7 +201,7 @@ class RackReader {
             const bool near =
                 node.key.size() == 1 && std::string_view("xyzabc").find(node.key[0]) != std::string_view::npos;
             problems_.error(
-                node.key_place,
+                node.key_location,
                 fmt::format("Unknown axis {}: the axes are X Y Z (mm) and A B C (degrees){}", in_quotes(node.key),
                             near ? fmt::format("; did you mean '{}'?", static_cast<char>(node.key[0] - 'a' + 'A'))
                                  : std::string(".")));
@@ -217,7 +217,7 @@ class RackReader {
             if (kind->text == "rotary") axis.kind = AxisKind::rotary;
         }
         if (axis.kind != by_letter) {
-            problems_.error(node.place_of("kind"),
+            problems_.error(node.location_of("kind"),
                             fmt::format("Axis {} cannot be {}: X Y Z are linear (mm), A B C rotary (degrees).",
                                         node.key, by_letter == AxisKind::linear ? "rotary" : "linear"));
         }

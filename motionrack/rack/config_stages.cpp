@@ -93,7 +93,7 @@ class StageReader {
     void read(const TomlNode& node) {
         if (!is_name(node.key) || node.key == "estop" || config_.card(node.key) != nullptr || node.key.size() == 1) {
             problems_.error(
-                node.key_place,
+                node.key_location,
                 fmt::format("{} cannot be a stage's name: 2 to 32 letters, digits and '_', not beginning with a digit, "
                             "not the name of a card, not estop.",
                             in_quotes(node.key)));
@@ -117,7 +117,7 @@ class StageReader {
     bool is_table(const TomlNode& node, const std::string& path) {
         if (node.type == TomlType::table) return true;
         problems_.error(
-            node.value_place,
+            node.value_location,
             fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
                         type_name(node.type), path));
         return false;
@@ -127,7 +127,7 @@ class StageReader {
                read_fields(node, fields, object, {node.key + " of " + stage, "", "", {}}, problems_).empty();
     }
     void refuse(const TomlNode& node, std::string_view key, std::string text) {
-        problems_.error(node.place_of(key), fmt::format("Stage {}: {}", node.key, text));
+        problems_.error(node.location_of(key), fmt::format("Stage {}: {}", node.key, text));
     }
 
     void check(const RackStage& stage, const TomlNode& node) {

@@ -88,9 +88,9 @@ class WireResolver {
     bool sound() const { return sound_; }
 
     /// Location at which the file names that input; an empty place if it does not.
-    TextPosition place_of(const std::string& input) const {
+    TextPosition location_of(const std::string& input) const {
         const auto found = named_.find(input);
-        return found != named_.end() ? found->second->key_place : TextPosition{};
+        return found != named_.end() ? found->second->key_location : TextPosition{};
     }
 
   private:
@@ -150,11 +150,11 @@ class WireResolver {
     }
 
     /// Returns the end of that name, or nullptr after an error (no error for cards whose own type is already in error).
-    const KnownEnd* find_end(const std::string& name, TextPosition place) {
+    const KnownEnd* find_end(const std::string& name, TextPosition location) {
         const auto found = known_.find(name);
         if (found != known_.end()) {
             if (found->second.missing.empty()) return &found->second;
-            error(place, fmt::format("The rack does not have {}: {}.", name, found->second.missing));
+            error(location, fmt::format("The rack does not have {}: {}.", name, found->second.missing));
             return nullptr;
         }
         const std::string owner = name.substr(0, name.find('.'));
@@ -165,8 +165,8 @@ class WireResolver {
             for (const auto& [known, end] : known_) names.push_back(known);
             hint = did_you_mean(name, names);
         }
-        error(place, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
-                                 hint.empty() ? "." : hint));
+        error(location, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
+                                    hint.empty() ? "." : hint));
         return nullptr;
     }
 
@@ -177,21 +177,21 @@ class WireResolver {
 
     void read_wire(const std::string& given, const TomlNode& node) {
         if (node.type != TomlType::text) {
-            error(node.value_place,
+            error(node.value_location,
                   fmt::format("The wire {} is {}; write its source in quotes, such as \"X.home\", or \"open\".",
                               in_quotes(given), type_name(node.type)));
             return;
         }
-        const KnownEnd* left = find_end(given, node.key_place);
+        const KnownEnd* left = find_end(given, node.key_location);
         const std::string name = first_name(given, left);
         if (left != nullptr && !named_.emplace(name, &node).second) {
             const std::string same = given != name ? fmt::format(", which {} is too,", given) : "";
-            error(node.key_place, fmt::format("{}{} is wired twice; an input has one wire.", name, same));
+            error(node.key_location, fmt::format("{}{} is wired twice; an input has one wire.", name, same));
             return;
         }
         if (node.text == "open") {
             if (left != nullptr && left->direction == PinDirection::output) {
-                error(node.key_place,
+                error(node.key_location,
                       fmt::format("{} is an output; to leave it open, write \"open\" for each input that it drives.",
                                   name));
             } else {
@@ -200,28 +200,28 @@ class WireResolver {
             }
             return;
         }
-        const KnownEnd* right = find_end(node.text, node.value_place);
+        const KnownEnd* right = find_end(node.text, node.value_location);
         if (left != nullptr && right != nullptr) join(name, *left, *right, node);
     }
 
     void join(const std::string& name, const KnownEnd& left, const KnownEnd& right, const TomlNode& node) {
         using enum PinDirection;
         if (name == node.text) {
-            error(node.key_place, fmt::format("{} is wired to itself.", name));
+            error(node.key_location, fmt::format("{} is wired to itself.", name));
         } else if (left.direction == output && right.direction == output) {
-            error(node.key_place,
+            error(node.key_location,
                   fmt::format("{} and {} are both outputs and would drive against each other; write input = output.",
                               name, node.text));
         } else if (left.direction == output) {
-            error(node.key_place,
+            error(node.key_location,
                   fmt::format(
                       "{0} is an output and {1} an input; the input must be on the left: write \"{1}\" = \"{0}\".",
                       name, node.text));
         } else if (right.direction == input) {
             inputs_[name] = &node;
         } else if (left.carries != right.carries) {
-            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.carries,
-                                              node.text, right.carries));
+            error(node.key_location, fmt::format("{} is {} and {} {}; they cannot be wired together.", name,
+                                                 left.carries, node.text, right.carries));
         } else {
             wires_.insert_or_assign(name, RackWire{right.end, left.end, false});
         }
@@ -240,11 +240,11 @@ class WireResolver {
             }
             if (at->text == name) {
                 reported.insert(way.begin(), way.end());
-                error(node->key_place, fmt::format("These wires form a loop: {} = {}; no output drives them.",
-                                                   fmt::join(way, " = "), name));
+                error(node->key_location, fmt::format("These wires form a loop: {} = {}; no output drives them.",
+                                                      fmt::join(way, " = "), name));
             } else {
-                error(node->key_place, fmt::format("{} and {} are both inputs; name the output that drives {}.", name,
-                                                   node->text, name));
+                error(node->key_location, fmt::format("{} and {} are both inputs; name the output that drives {}.",
+                                                      name, node->text, name));
             }
         }
     }
@@ -263,15 +263,15 @@ class WireResolver {
                 const auto its = wires_.find(each.first);
                 return its != wires_.end() && its->second.from == output;
             });
-            error(named != named_.end() ? named->second->key_place : TextPosition{},
+            error(named != named_.end() ? named->second->key_location : TextPosition{},
                   fmt::format("{} drives more than {} inputs, the limit of an output; leave some open.", from,
                               max_inputs));
         }
     }
 
-    void error(TextPosition place, std::string message) {
+    void error(TextPosition location, std::string message) {
         sound_ = false;
-        problems_.error(place, std::move(message));
+        problems_.error(location, std::move(message));
     }
 
     const RackConfig& config_;
@@ -295,7 +295,7 @@ void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems
     config.open = resolver.take_open();
     if (!resolver.sound()) return;  // one mistake, one error
     resolve_links(
-        config, [&](const std::string& input) { return resolver.place_of(input); }, problems);
+        config, [&](const std::string& input) { return resolver.location_of(input); }, problems);
 }
 
 }  // namespace motionrack::rack

@@ -196,7 +196,7 @@ std::vector<trace::OutcomeField> facts_of(const JobOutcome& outcome) {
     add("ended", outcome.ended ? "yes" : "no");
     if (!outcome.ended) {
         add("message", outcome.ended.error().message);
-        add("line", outcome.ended.error().place.line);
+        add("line", outcome.ended.error().location.line);
     }
     add("duration_s", to_seconds(outcome.time));
     add("path_mm", outcome.path_mm);

@@ -133,9 +133,9 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
             data.planned.push_back(path_segment(planned.move, planned.start));
     if (outcome.worst.mm > 0)
         data.worst = trace::ReportMaxDeviation{outcome.worst.mm, to_seconds(outcome.worst.at - began),
-                                               outcome.worst.line, outcome.worst.place};
+                                               outcome.worst.line, outcome.worst.position};
     if (!outcome.ended && !samples.empty())
-        data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(),
+        data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().location.line, data.driven.back(),
                                       outcome.ended.error().message};
     const LineIndex lines(program);
     for (const ExecutedMove& move : job.monitor().blocks())
@@ -197,7 +197,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["ok"] = outcome.good();
     json["verdict"] = verdict_text(outcome);
     if (!outcome.ended)
-        json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
+        json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().location.line}};
     json["rack"] = config.name;
     json["duration_s"] = to_seconds(outcome.time);
     json["planned_duration_s"] = outcome.run.plan.seconds;
@@ -224,7 +224,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
              {"limit", breach.limit},
              {"time_s", to_seconds(breach.at)},
              {"line", breach.line},
-             {"position", breach.place},
+             {"position", breach.position},
              {"times", breach.times}});
     json["axes"] = nlohmann::ordered_json::array();
     for (const AxisOutcome& axis : outcome.axes)

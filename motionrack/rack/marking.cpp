@@ -99,13 +99,13 @@ RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {
         out.sender = std::make_unique<parts::SerialWordSource>(kernel, config.name + ".sender", config.name, *sender);
     }
     if (config.passing) {
-        out.place =
+        out.position =
             std::make_unique<parts::ConveyorPosition>(kernel, config.name + ".place", out.track(), places_per_unit);
-        out.drive->add(*out.place);
+        out.drive->add(*out.position);
         const parts::PartSensorSettings sensor{places(config.passing->first_part), places(config.passing->part_pitch),
                                                places(config.passing->length)};
         out.sensor = std::make_unique<parts::PartSensor>(kernel, config.name + ".sensor", config.name + ".sensor_n",
-                                                         *out.place, sensor);
+                                                         *out.position, sensor);
     }
     return out;
 }

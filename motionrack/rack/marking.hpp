@@ -24,8 +24,8 @@ struct RunningConveyor {
     std::unique_ptr<parts::ConveyorDrive> drive;
     std::unique_ptr<parts::ConveyorPosition> counts;  ///< at the encoder; this and the encoder may be nullptr
     std::unique_ptr<parts::LineEncoder> encoder;
-    std::unique_ptr<parts::SerialWordSource> sender;  ///< may be nullptr
-    std::unique_ptr<parts::ConveyorPosition> place;   ///< at the sensor; this and the sensor may be nullptr
+    std::unique_ptr<parts::SerialWordSource> sender;    ///< may be nullptr
+    std::unique_ptr<parts::ConveyorPosition> position;  ///< at the sensor; this and the sensor may be nullptr
     std::unique_ptr<parts::PartSensor> sensor;
 
     const parts::Conveyor& track() const { return drive->track(); }

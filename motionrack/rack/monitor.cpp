@@ -251,7 +251,7 @@ Breach Monitor::breach_here(const MonitorSample& sample) const {
     Breach out;
     out.at = sample.at;
     out.line = seen_.open_block.line;
-    out.place = {sample.position[0], sample.position[1], sample.position[2]};
+    out.position = {sample.position[0], sample.position[1], sample.position[2]};
     return out;
 }
 

@@ -71,7 +71,7 @@ struct PathDeviation {
     double mm = 0;
     Instant at{};
     int line = 0;
-    std::array<double, 3> place = {};  ///< machine position, mm
+    std::array<double, 3> position = {};  ///< machine position, mm
 };
 
 class Monitor final : public sim::Device {

@@ -51,7 +51,7 @@ class Looks {
             seconds_ += stretch.seconds - stretch.overlap + stretch.rest_seconds;
         });
         drive(moves, start, [this](const control::PathSection& stretch) { look_at(stretch); });
-        if (path.seconds.empty()) add(0, {.place = start});
+        if (path.seconds.empty()) add(0, {.position = start});
     }
 
     Track path;  ///< velocity along XYZ, or of the fastest of ABC if only they move
@@ -63,7 +63,7 @@ class Looks {
     /// Appends standstill up to `time`.
     void rest_until(double time) {
         control::TrajectoryPoint state;
-        for (std::size_t i = 0; i < 3; ++i) state.place[i] = driven.back()[i];
+        for (std::size_t i = 0; i < 3; ++i) state.position[i] = driven.back()[i];
         add(time, state);
     }
 
@@ -88,7 +88,7 @@ class Looks {
         }
         begin_ += stretch.seconds;
         if (stretch.rest_seconds > 0) {
-            if (path.seconds.empty()) add(0, {.place = stretch.end});
+            if (path.seconds.empty()) add(0, {.position = stretch.end});
             rest_until(begin_);
             rest_until(begin_ += stretch.rest_seconds);
         }
@@ -97,7 +97,7 @@ class Looks {
     void add(double time, const control::TrajectoryPoint& state) {
         const control::Point& v = state.velocity;
         path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : max_magnitude(v[3], v[4], v[5]));
-        driven.push_back({state.place[0], state.place[1], state.place[2]});
+        driven.push_back({state.position[0], state.position[1], state.position[2]});
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const auto part = [](double value, double limit) {
                 return static_cast<float>(limit > 0 ? value / limit : 0);

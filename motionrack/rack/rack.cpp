@@ -243,7 +243,7 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
     const std::string name = fmt::format("{}.lines", axis.config.letter);
     if (!axis.lines) {
         parts::LineEncoderSettings settings;
-        settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
+        settings.counts_per_turn = settings.position_per_turn = axis.config.encoder_counts_per_rev;
         // A pulse may be many counts, and a rotor can jump when it locks elsewhere. Their edges keep a minimum
         // distance, and none is lost.
         settings.min_edge_interval = nanoseconds(200);

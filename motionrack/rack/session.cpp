@@ -29,7 +29,7 @@ Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text, Pr
     Error all = reading.errors.front();
     all.message = all.text();
     all.file.clear();
-    all.place = {};
+    all.location = {};
     for (std::size_t i = 1; i < reading.errors.size(); ++i) all.message += '\n' + reading.errors[i].text();
     return tl::unexpected<Error>(std::move(all));
 }

@@ -38,11 +38,11 @@ struct ProgramRequest {
 
 /// Result of a part program.
 struct ProgramReport {
-    Result<void> ended;    ///< refused and invalid_input: nothing moved; machine: also after step loss or a breach
-    TextPosition place;    ///< location of the first error
-    JobOutcome outcome;    ///< valid if the program moved
-    std::string sentence;  ///< all errors, one per line, or a statement of success
-    std::string summary;   ///< as printed by the command line; empty if nothing moved
+    Result<void> ended;     ///< refused and invalid_input: nothing moved; machine: also after step loss or a breach
+    TextPosition location;  ///< location of the first error
+    JobOutcome outcome;     ///< valid if the program moved
+    std::string sentence;   ///< all errors, one per line, or a statement of success
+    std::string summary;    ///< as printed by the command line; empty if nothing moved
 };
 
 // The two refusals of calls that a host makes a million times per second; their checks are inlined.

@@ -83,7 +83,7 @@ Result<void> Session::drive_program(const ProgramRequest& request, ProgramReport
     reading.start = start;
     const control::gcode::ProgramCheck check = control::gcode::check_program(program_, reading, max_problems, name);
     if (!check.problems.empty()) {
-        report.place = check.problems.front().place;
+        report.location = check.problems.front().location;
         return fail(has_unreadable(check) ? ErrorKind::io : ErrorKind::invalid_input, problems_text(check, name));
     }
     const RaisedFlag driving(driving_);
@@ -99,7 +99,7 @@ Result<void> Session::drive_program(const ProgramRequest& request, ProgramReport
     const JobOutcome& outcome = report.outcome;
     if (!outcome.ended) {
         Error why = outcome.ended.error();
-        report.place = why.place;
+        report.location = why.location;
         why.file = name;
         return tl::unexpected<Error>(std::move(why));
     }

@@ -177,13 +177,13 @@ void convert_table(const toml::table& table, TomlNode& to) {
     for (const auto& [key, value] : table) {
         TomlNode child;
         child.key = std::string(key.str());
-        child.key_place = to_place(key.source().begin);
-        child.value_place = to_place(value.source().begin);
+        child.key_location = to_place(key.source().begin);
+        child.value_location = to_place(value.source().begin);
         convert(value, child);
         to.children.push_back(std::move(child));
     }
     std::stable_sort(to.children.begin(), to.children.end(), [](const TomlNode& a, const TomlNode& b) {
-        const TextPosition &p = a.key_place, &q = b.key_place;
+        const TextPosition &p = a.key_location, &q = b.key_location;
         return p.line != q.line ? p.line < q.line : p.column < q.column;
     });
 }
@@ -192,7 +192,7 @@ void convert_array(const toml::array& array, TomlNode& to) {
     to.type = TomlType::array;
     for (const toml::node& value : array) {
         TomlNode child;
-        child.key_place = child.value_place = to_place(value.source().begin);
+        child.key_location = child.value_location = to_place(value.source().begin);
         convert(value, child);
         to.children.push_back(std::move(child));
     }
@@ -244,7 +244,7 @@ Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
     try {
         const toml::table table = parse_twice(text);
         TomlNode root;
-        root.key_place = root.value_place = {1, 1};
+        root.key_location = root.value_location = {1, 1};
         convert_table(table, root);
         return root;
     } catch (const toml::parse_error& error) {

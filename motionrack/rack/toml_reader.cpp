@@ -16,9 +16,9 @@ const TomlNode* TomlNode::find(std::string_view name) const {
     return nullptr;
 }
 
-TextPosition TomlNode::place_of(std::string_view name) const {
+TextPosition TomlNode::location_of(std::string_view name) const {
     const TomlNode* child = find(name);
-    return child != nullptr ? child->value_place : key_place;
+    return child != nullptr ? child->value_location : key_location;
 }
 
 std::string_view type_name(TomlType type) {
@@ -27,18 +27,19 @@ std::string_view type_name(TomlType type) {
     return names[static_cast<std::size_t>(type)];
 }
 
-void Problems::add(std::vector<Error>& list, TextPosition place, std::string message) {
-    list.push_back(Error{ErrorKind::invalid_input, std::move(message), file_, place});
+void Problems::add(std::vector<Error>& list, TextPosition location, std::string message) {
+    list.push_back(Error{ErrorKind::invalid_input, std::move(message), file_, location});
 }
 
 std::vector<Error> Problems::take(std::vector<Error>& list) {
     std::stable_sort(list.begin(), list.end(), [](const Error& a, const Error& b) {
-        return a.place.line != b.place.line ? a.place.line < b.place.line : a.place.column < b.place.column;
+        return a.location.line != b.location.line ? a.location.line < b.location.line
+                                                  : a.location.column < b.location.column;
     });
     if (list.size() > max_listed) {
         const std::size_t more = list.size() - max_listed;
         list.resize(max_listed);
-        const TextPosition last = list.back().place;
+        const TextPosition last = list.back().location;
         list.push_back(Error{ErrorKind::invalid_input,
                              fmt::format("and {} more; correct the first ones and try again.", more), file_, last});
     }
@@ -270,7 +271,7 @@ class FieldReader {
 
     void refuse(const std::string& what) {
         const std::string stop = what.back() == '?' ? "" : ".";
-        problems_.error(node_.value_place,
+        problems_.error(node_.value_location,
                         fmt::format("{} of {} {}{}", with_unit(field_.key, section_.unit), section_.name, what, stop));
     }
 
@@ -327,7 +328,8 @@ std::vector<std::string_view> read_fields(const TomlNode& table, std::span<const
         const auto found = std::find(known.begin(), known.end(), node.key);
         if (found == known.end()) {
             const bool hint = problems.wants_hints();
-            problems.error(node.key_place, hint ? unknown_key(node.key, fields, section, known) : in_quotes(node.key));
+            problems.error(node.key_location,
+                           hint ? unknown_key(node.key, fields, section, known) : in_quotes(node.key));
             continue;
         }
         const auto index = static_cast<std::size_t>(found - known.begin());
@@ -338,8 +340,8 @@ std::vector<std::string_view> read_fields(const TomlNode& table, std::span<const
     for (std::size_t i = 0; i < here.size(); ++i) {
         if (here[i]->required && !seen[i]) {
             refused.push_back(here[i]->key);
-            problems.error(table.key_place, fmt::format("{} has no {}: {} ({}).", section.name, names[i], here[i]->doc,
-                                                        range_text(*here[i], section.unit)));
+            problems.error(table.key_location, fmt::format("{} has no {}: {} ({}).", section.name, names[i],
+                                                           here[i]->doc, range_text(*here[i], section.unit)));
         }
     }
     return refused;

@@ -22,8 +22,8 @@ enum class TomlType : std::uint8_t { table, text, integer, number, flag, array, 
 /// A key with its value; tables keep their entries in the order of the file.
 struct TomlNode {
     std::string key;
-    TextPosition key_place;    ///< location of the key or of the table's header
-    TextPosition value_place;  ///< location of the value's first character
+    TextPosition key_location;    ///< location of the key or of the table's header
+    TextPosition value_location;  ///< location of the value's first character
     TomlType type = TomlType::table;
     std::string text;
     std::int64_t integer = 0;
@@ -34,7 +34,7 @@ struct TomlNode {
     /// Returns the entry of that name, or nullptr.
     const TomlNode* find(std::string_view name) const;
     /// Location of that entry's value; location of this node if the entry is missing.
-    TextPosition place_of(std::string_view name) const;
+    TextPosition location_of(std::string_view name) const;
 };
 
 /// Limits of file size and nesting.
@@ -54,8 +54,8 @@ std::string_view type_name(TomlType type);
 class Problems {
   public:
     explicit Problems(std::string file) : file_(std::move(file)) {}
-    void error(TextPosition place, std::string message) { add(errors_, place, std::move(message)); }
-    void warn(TextPosition place, std::string message) { add(warnings_, place, std::move(message)); }
+    void error(TextPosition location, std::string message) { add(errors_, location, std::move(message)); }
+    void warn(TextPosition location, std::string message) { add(warnings_, location, std::move(message)); }
     bool any_errors() const { return !errors_.empty(); }
     /// Returns false once the list exceeds the displayed length; hints, which cost time, are unnecessary then.
     bool wants_hints() const { return errors_.size() < max_listed; }
@@ -66,7 +66,7 @@ class Problems {
     static constexpr std::size_t max_listed = 200;
 
   private:
-    void add(std::vector<Error>& list, TextPosition place, std::string message);
+    void add(std::vector<Error>& list, TextPosition location, std::string message);
     std::vector<Error> take(std::vector<Error>& list);
     std::string file_;
     std::vector<Error> errors_;

@@ -77,14 +77,14 @@ class Preparation {
             TomlNode scratch = sweep_.rack_;
             if (parameter.kind == ParameterKind::rack && !rack::put_value(scratch, parameter.path, value))
                 problems_.error(
-                    parameter.place,
+                    parameter.location,
                     fmt::format("{} cannot be varied: it is a table of the rack file, or below a key that is not a "
                                 "table. Write the full name of a key, such as axis.X.max_limit_mm.",
                                 parameter.name));
             if (parameter.kind == ParameterKind::text &&
                 files_.program.find("{" + parameter.path[1] + "}") == std::string::npos)
-                problems_.error(parameter.place, fmt::format("{} has no {{{}}}, so the parameter has no effect.",
-                                                             files_.program_name, parameter.path[1]));
+                problems_.error(parameter.location, fmt::format("{} has no {{{}}}, so the parameter has no effect.",
+                                                                files_.program_name, parameter.path[1]));
         }
     }
 
@@ -123,33 +123,33 @@ class Preparation {
             rack::Rack rack(config);
             for (const std::string& fault : words_of(values[p].text))
                 if (const auto plan = rack::FaultSchedule::create(rack, {fault}); !plan)
-                    tell(values[p].value_place, plan.error().message);
+                    tell(values[p].value_location, plan.error().message);
         }
     }
 
     /// Reports an error of a point's rack at the responsible position of the sweep file.
     void tell(const Error& error, const std::vector<rack::TomlLine>& lines, const std::vector<TomlNode>& values) {
-        const auto at = static_cast<std::size_t>(error.place.line - 1);
+        const auto at = static_cast<std::size_t>(error.location.line - 1);
         const std::string name = at < lines.size() ? lines[at].name : std::string();
         std::string with;
-        TextPosition place;
+        TextPosition location;
         for (std::size_t p = 0; p < values.size(); ++p) {
             const VariedParameter& parameter = parameters()[p];
             if (parameter.kind != ParameterKind::rack) continue;
             if (parameter.name == name)
-                return tell(static_cast<std::size_t>(error.place.column) <= name.size() ? parameter.place
-                                                                                        : values[p].value_place,
+                return tell(static_cast<std::size_t>(error.location.column) <= name.size() ? parameter.location
+                                                                                           : values[p].value_location,
                             error.message);
             with += fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameter.name, value_text(values[p]));
-            place = parameter.place;
+            location = parameter.location;
         }
         const std::string line =
             at < lines.size() ? fmt::format(" at {} = {}", lines[at].name, lines[at].value) : std::string();
-        tell(place, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
+        tell(location, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
     }
 
-    void tell(TextPosition place, const std::string& message) {
-        if (reported_.insert({place.line, place.column, message}).second) problems_.error(place, message);
+    void tell(TextPosition location, const std::string& message) {
+        if (reported_.insert({location.line, location.column, message}).second) problems_.error(location, message);
     }
 
     // ---- programs

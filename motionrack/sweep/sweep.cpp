@@ -26,7 +26,7 @@ TomlNode drawn(const VariedParameter& parameter, std::uint64_t luck) {
         return parameter.values[static_cast<std::size_t>(part * static_cast<double>(parameter.values.size()))];
     const NumberRange& range = *parameter.range;
     TomlNode out;
-    out.value_place = parameter.place;
+    out.value_location = parameter.location;
     out.type = rack::TomlType::number;
     out.number = tidied(range.from + (range.to - range.from) * part, range);
     return out;

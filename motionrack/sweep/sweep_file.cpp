@@ -40,12 +40,12 @@ class Reader {
             const bool known = std::find(sections.begin(), sections.end(), node.key) != sections.end();
             if (!known) {
                 const std::string hint = rack::did_you_mean(node.key, sections);
-                problems_.error(node.key_place,
+                problems_.error(node.key_location,
                                 fmt::format("A sweep file has no section {}{}", rack::in_quotes(node.key),
                                             hint.empty() ? ": it has sweep, vary." : hint));
             } else if (node.type != TomlType::table) {
                 problems_.error(
-                    node.value_place,
+                    node.value_location,
                     fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
                                 node.key, rack::type_name(node.type), node.key));
             }
@@ -68,11 +68,11 @@ class Reader {
         random_ = settings.sampling == Sampling::random;
         if (!refused.empty()) return;
         if (random_ && !settings.points)
-            problems_.error(node.place_of("sampling"),
+            problems_.error(node.location_of("sampling"),
                             "A random sweep needs points = NUMBER: the number of random points.");
         if (!random_ && settings.points)
             problems_.error(
-                node.place_of("points"),
+                node.location_of("points"),
                 "points says the number of random points by chance, but this sweep takes all combinations; write "
                 "sampling = \"random\", or leave points out.");
     }
@@ -87,15 +87,15 @@ class Reader {
                 descend(node, {node.key});
         }
         if (vary.children.empty())
-            problems_.error(vary.key_place,
+            problems_.error(vary.key_location,
                             "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
         if (file_.parameters.size() > max_parameters)
-            problems_.error(file_.parameters[max_parameters].place,
+            problems_.error(file_.parameters[max_parameters].location,
                             fmt::format("{} parameters are varied; the limit is {}. Leave some out.",
                                         file_.parameters.size(), max_parameters));
         if (problems_.any_errors()) return;
         if (const std::int64_t points = file_.points(); points > max_points)
-            problems_.error(vary.key_place,
+            problems_.error(vary.key_location,
                             fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or "
                                         "sampling = \"random\" with points.",
                                         points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18"
@@ -106,7 +106,7 @@ class Reader {
     void descend(const TomlNode& node, const std::vector<std::string>& path) {
         if (node.type != TomlType::table || is_range(node)) return add(node, path);
         if (node.children.empty())
-            return problems_.error(node.key_place,
+            return problems_.error(node.key_location,
                                    fmt::format("{} is an empty table; give a list of values, or from, to and steps.",
                                                rack::toml_name(path)));
         for (const TomlNode& child : node.children) {
@@ -120,25 +120,27 @@ class Reader {
         VariedParameter parameter;
         parameter.name = rack::toml_name(path);
         parameter.path = path;
-        parameter.place = node.key_place;
+        parameter.location = node.key_location;
         if (path.size() == 1 && path[0] == "fault") parameter.kind = ParameterKind::fault;
         if (path[0] == "text") parameter.kind = ParameterKind::text;
         for (const VariedParameter& other : file_.parameters)
             if (other.name == parameter.name)
-                return problems_.error(node.key_place,
+                return problems_.error(node.key_location,
                                        fmt::format("{} is varied twice; leave one out.", parameter.name));
         if (parameter.kind == ParameterKind::text && (path.size() != 2 || !is_word(path[1])))
-            return problems_.error(node.key_place, fmt::format("{} is not a text of the program: write \"text.NAME\" "
-                                                               "for {{NAME}}, up to 32 letters, digits and '_'.",
-                                                               rack::in_quotes(parameter.name)));
+            return problems_.error(node.key_location,
+                                   fmt::format("{} is not a text of the program: write \"text.NAME\" "
+                                               "for {{NAME}}, up to 32 letters, digits and '_'.",
+                                               rack::in_quotes(parameter.name)));
         if (is_range(node) ? !read_range(node, parameter) : !read_values(node, parameter)) return;
         file_.parameters.push_back(std::move(parameter));
     }
 
     bool read_values(const TomlNode& node, VariedParameter& parameter) {
-        const auto wrong = [&](TextPosition place, std::string_view what) {
-            problems_.error(place, fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.",
-                                               parameter.name, what));
+        const auto wrong = [&](TextPosition location, std::string_view what) {
+            problems_.error(location,
+                            fmt::format("{} {}; write a list of values, or {{ from = 1, to = 2, steps = 5 }}.",
+                                        parameter.name, what));
             return false;
         };
         if (is_scalar(node))
@@ -146,23 +148,23 @@ class Reader {
         else if (node.type == TomlType::array)
             parameter.values = node.children;
         else
-            return wrong(node.value_place, fmt::format("is {}", rack::type_name(node.type)));
-        if (parameter.values.empty()) return wrong(node.value_place, "has no values");
+            return wrong(node.value_location, fmt::format("is {}", rack::type_name(node.type)));
+        if (parameter.values.empty()) return wrong(node.value_location, "has no values");
         if (static_cast<std::int64_t>(parameter.values.size()) > max_steps)
-            return wrong(node.value_place,
+            return wrong(node.value_location,
                          fmt::format("has {} values, more than {}", parameter.values.size(), max_steps));
         bool good = true;
         for (const TomlNode& value : parameter.values)
-            good = (is_scalar(value)
-                        ? check_value(value, parameter)
-                        : wrong(value.value_place, fmt::format("has {} in its list", rack::type_name(value.type)))) &&
+            good = (is_scalar(value) ? check_value(value, parameter)
+                                     : wrong(value.value_location,
+                                             fmt::format("has {} in its list", rack::type_name(value.type)))) &&
                    good;
         return good;
     }
 
     bool check_value(const TomlNode& value, const VariedParameter& parameter) {
         const auto refuse = [&](const std::string& what) {
-            problems_.error(value.value_place, what);
+            problems_.error(value.value_location, what);
             return false;
         };
         if (value.type == TomlType::number && !std::isfinite(value.number))
@@ -185,32 +187,32 @@ class Reader {
     bool read_range(const TomlNode& node, VariedParameter& parameter) {
         RangeSettings settings;
         TomlNode table = node;
-        table.key_place = node.value_place;
+        table.key_location = node.value_location;
         if (!rack::read_fields(table, range_fields, &settings, {parameter.name, "", "", {}}, problems_).empty())
             return false;
-        const auto refuse = [&](TextPosition place, const std::string& what) {
-            problems_.error(place, what);
+        const auto refuse = [&](TextPosition location, const std::string& what) {
+            problems_.error(location, what);
             return false;
         };
         if (parameter.kind == ParameterKind::fault)
-            return refuse(node.value_place,
+            return refuse(node.value_location,
                           "'fault' takes no range (from, to); give a list of texts: [\"\", \"X.limit_plus=0@1.5s\"].");
         if (settings.from == settings.to)
-            return refuse(node.place_of("to"),
+            return refuse(node.location_of("to"),
                           fmt::format("from and to of {} are both {}; give two numbers, or a list of one.",
                                       parameter.name, rack::number_text(settings.to)));
         if (!settings.steps && !random_)
-            return refuse(node.value_place,
+            return refuse(node.value_location,
                           fmt::format("{} has no steps: give the number of values from {} to {}.", parameter.name,
                                       rack::number_text(settings.from), rack::number_text(settings.to)));
         const NumberRange range{settings.from, settings.to, settings.integer};
         if (range.integer && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))
-            return refuse(node.value_place,
+            return refuse(node.value_location,
                           fmt::format("{} is to be whole, so from and to must be, but they are {} and {}.",
                                       parameter.name, rack::number_text(range.from), rack::number_text(range.to)));
         if (const double numbers = std::fabs(range.to - range.from) + 1;
             range.integer && settings.steps && static_cast<double>(*settings.steps) > numbers)
-            return refuse(node.place_of("steps"),
+            return refuse(node.location_of("steps"),
                           fmt::format("{} has {} steps, but there are only {} whole numbers.", parameter.name,
                                       *settings.steps, rack::number_text(numbers)));
         if (!settings.steps) {
@@ -219,7 +221,7 @@ class Reader {
         }
         for (std::int64_t i = 0; i < *settings.steps; ++i) {
             TomlNode& value = parameter.values.emplace_back();
-            value.value_place = node.value_place;
+            value.value_location = node.value_location;
             value.type = TomlType::number;
             const double part = static_cast<double>(i) / static_cast<double>(*settings.steps - 1);
             value.number = i == 0                     ? range.from

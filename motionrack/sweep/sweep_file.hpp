@@ -51,7 +51,7 @@ struct VariedParameter {
     std::vector<std::string> path;       ///< in the rack file
     std::vector<rack::TomlNode> values;  ///< with positions in the sweep file; empty: uses `range`
     std::optional<NumberRange> range;    ///< any number in it; random sweeps only
-    TextPosition place;                  ///< position of its key
+    TextPosition location;               ///< position of its key
 
     /// Returns true if all values are numbers.
     bool numeric() const;

@@ -24,7 +24,7 @@ const char* class_of(const PythonError& raised) {
 }
 
 py::object exception_of(const py::module_& errors, const char* name, const Error& error) {
-    return errors.attr(name)(error.message, error.file, error.place.line, error.place.column);
+    return errors.attr(name)(error.message, error.file, error.location.line, error.location.column);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ py::tuple reported(const rack::HomingOutcome& outcome) {
                            : why.kind == ErrorKind::machine ? "MachineFault"
                                                             : "Refused";
         error = py::module_::import("motionrack.errors")
-                    .attr(name)(why.message, why.file, why.place.line, why.place.column);
+                    .attr(name)(why.message, why.file, why.location.line, why.location.column);
     }
     py::dict pictures;
     for (const rack::HomedAxis& axis : outcome.axes)

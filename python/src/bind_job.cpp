@@ -134,7 +134,7 @@ py::dict dict_of(const Ran& ran) {
     out["max_deviation_ticks"] = outcome.worst.at.count();
     out["max_deviation_line"] = outcome.worst.line;
     out["max_deviation_position"] =
-        py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
+        py::make_tuple(outcome.worst.position[0], outcome.worst.position[1], outcome.worst.position[2]);
     out["tolerance_mm"] = outcome.tolerance_mm;
     for (const rack::JobWarning& warning : outcome.warnings)
         warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
@@ -210,8 +210,8 @@ void bind_job(py::module_& m) {
                  static constexpr const char* names[] = {"InvalidInput", "Refused", "MachineFault", "FileError",
                                                          "Stopped"};
                  return py::module_::import("motionrack.errors")
-                     .attr(names[static_cast<std::size_t>(error.kind)])(error.message, error.file, error.place.line,
-                                                                        error.place.column);
+                     .attr(names[static_cast<std::size_t>(error.kind)])(error.message, error.file, error.location.line,
+                                                                        error.location.column);
              })
         .def("data", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return dict_of(ran); }); })
         .def("samples", [](const Ran& ran) { return inspect_rack(*ran.world, [&] { return samples_of(ran); }); })

@@ -103,18 +103,18 @@ Result<Fault> fault_of(const TomlNode& node, const Setup& of_group) {
     for (const TomlNode& entry : node.children)
         if (!take(out, entry) && !take(out.setup, entry))
             return fail(ErrorKind::invalid_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
-                        entry.key_place);
+                        entry.key_location);
     for (const std::string* needed : {&out.name, &out.does, &out.stops, &out.keeps})
         if (needed->empty())
             return fail(ErrorKind::invalid_input,
                         fmt::format("The fault {} needs name, does, stops and keeps.", rack::in_quotes(out.name)),
-                        node.key_place);
+                        node.key_location);
     const auto& points = out.setup.points;
     if (points.size() != 2 || points[0].name == points[1].name || points[0].name.empty() || points[1].name.empty())
         return fail(ErrorKind::invalid_input,
                     fmt::format("The fault {} has {} operating points; it needs two, with names.",
                                 rack::in_quotes(out.name), points.size()),
-                    node.key_place);
+                    node.key_location);
     return out;
 }
 
@@ -165,7 +165,7 @@ Result<std::vector<Group>> read_catalogue(const std::filesystem::path& file) {
                 group.about = entry.text;
             else if (entry.key != "fault" && !take(group.setup, entry))
                 return fail(ErrorKind::invalid_input, fmt::format("A group has no key {}.", rack::in_quotes(entry.key)),
-                            entry.key_place, file.string());
+                            entry.key_location, file.string());
         }
         if (const TomlNode* faults = node.find("fault"))
             for (const TomlNode& fault : faults->children) {

@@ -55,10 +55,10 @@ Result<CoveredFault> covered_fault(const rack::TomlNode& node) {
             out.missing = entry.text;
         else if (!take(out.not_tried, entry))
             return fail(ErrorKind::invalid_input, fmt::format("A fault has no key {}.", rack::in_quotes(entry.key)),
-                        entry.key_place);
+                        entry.key_location);
     }
     if (out.id.empty() || out.about.empty())
-        return fail(ErrorKind::invalid_input, "A fault needs id and about.", node.key_place);
+        return fail(ErrorKind::invalid_input, "A fault needs id and about.", node.key_location);
     for (const std::vector<TestedPoint>* points : {&out.run_at, &out.served_at})
         for (const TestedPoint& point : *points)
             if (std::find(out.tests.begin(), out.tests.end(), point.test) == out.tests.end())
@@ -66,7 +66,7 @@ Result<CoveredFault> covered_fault(const rack::TomlNode& node) {
     if (out.rows.empty() && out.tests.empty() && out.reason.empty() && out.missing.empty())
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} has neither rows nor tests, nor a reason, nor a missing test.", out.id),
-                    node.key_place);
+                    node.key_location);
     return out;
 }
 

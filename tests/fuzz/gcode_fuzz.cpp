@@ -54,14 +54,14 @@ void check_move(const Move& move, std::int32_t line) {
 
 void check_problem(const Problem& problem, std::string_view text) {
     require(!problem.message.empty() && problem.status != GrblStatus::none, "a problem has a sentence and a number");
-    require(problem.place.line >= 1 && problem.place.column >= 1, "a problem has a place", problem.message);
+    require(problem.location.line >= 1 && problem.location.column >= 1, "a problem has a place", problem.message);
     if (problem.file != "f") return;
     ProgramLines lines(text);
     std::string_view line;
-    while (lines.number() < problem.place.line) require(lines.next(line), "a problem's line is in the text");
-    require(static_cast<std::size_t>(problem.place.column) <= line.size() + 1, "a problem's column is in its line");
+    while (lines.number() < problem.location.line) require(lines.next(line), "a problem's line is in the text");
+    require(static_cast<std::size_t>(problem.location.column) <= line.size() + 1, "a problem's column is in its line");
     require(problem.word.empty() ||
-                line.substr(static_cast<std::size_t>(problem.place.column - 1)).starts_with(problem.word),
+                line.substr(static_cast<std::size_t>(problem.location.column - 1)).starts_with(problem.word),
             "a problem's word is at its place", problem.word);
 }
 

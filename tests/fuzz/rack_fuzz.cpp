@@ -17,7 +17,7 @@ namespace {
 
 bool sorted(const std::vector<Error>& list) {
     for (std::size_t i = 1; i < list.size(); ++i) {
-        const TextPosition &a = list[i - 1].place, &b = list[i].place;
+        const TextPosition &a = list[i - 1].location, &b = list[i].location;
         if (a.line > b.line || (a.line == b.line && a.column > b.column)) return false;
     }
     return true;

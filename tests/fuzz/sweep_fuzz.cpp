@@ -25,11 +25,12 @@ void check_errors(const std::vector<Error>& errors, std::string_view text) {
     TextPosition before;
     for (const Error& error : errors) {
         require(!error.message.empty() && error.file == "fuzz", "an error has a sentence and the file", error.text());
-        require(error.place.line >= 0 && error.place.line <= lines && error.place.column >= 0,
+        require(error.location.line >= 0 && error.location.line <= lines && error.location.column >= 0,
                 "the place of an error is in the text", error.text());
-        const bool is_behind = std::pair(error.place.line, error.place.column) >= std::pair(before.line, before.column);
-        require(is_behind || error.place.line == 0, "errors are in the order of their places", error.text());
-        before = error.place;
+        const bool is_behind =
+            std::pair(error.location.line, error.location.column) >= std::pair(before.line, before.column);
+        require(is_behind || error.location.line == 0, "errors are in the order of their places", error.text());
+        before = error.location;
     }
 }
 
@@ -37,7 +38,8 @@ void check_errors(const std::vector<Error>& errors, std::string_view text) {
 const TomlNode* node_at(const TomlNode& table, TextPosition key) {
     if (table.type != TomlType::table) return nullptr;
     for (const TomlNode& child : table.children) {
-        if (child.key_place == key && (child.type != TomlType::table || child.find("from") != nullptr)) return &child;
+        if (child.key_location == key && (child.type != TomlType::table || child.find("from") != nullptr))
+            return &child;
         if (const TomlNode* found = node_at(child, key)) return found;
     }
     return nullptr;
@@ -76,7 +78,7 @@ void check_parameter(const SweepFile& file, const VariedParameter& parameter) {
                 "a value is a text, a number or a flag", parameter.name);
         require(parameter.kind != ParameterKind::fault || value.type == TomlType::text, "faults are texts");
     }
-    const TomlNode* node = node_at(*file.root.find("vary"), parameter.place);
+    const TomlNode* node = node_at(*file.root.find("vary"), parameter.location);
     require(node != nullptr, "what is varied stands in the file", parameter.name);
     if (node->type == TomlType::table) return check_range(parameter, *node);
     const std::size_t count = node->type == TomlType::array ? node->children.size() : 1;

@@ -14,12 +14,13 @@ using motionrack::fuzz::require;
 
 void check_error(const motionrack::Error& error, std::string_view text) {
     require(!error.message.empty() && error.file == "fuzz.tbl", "an error has a sentence and the file", error.text());
-    require(error.place.line >= 1 && error.place.column >= 1, "an error has a place", error.text());
+    require(error.location.line >= 1 && error.location.column >= 1, "an error has a place", error.text());
     ProgramLines lines(text);
     std::string_view line;
-    while (lines.number() < error.place.line)
+    while (lines.number() < error.location.line)
         require(lines.next(line), "the line of an error is in the text", error.text());
-    require(static_cast<std::size_t>(error.place.column) <= line.size() + 1, "the column is in the line", error.text());
+    require(static_cast<std::size_t>(error.location.column) <= line.size() + 1, "the column is in the line",
+            error.text());
 }
 
 void check_tool(const ToolTable& table, const Tool& tool) {

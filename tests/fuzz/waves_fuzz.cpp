@@ -69,7 +69,7 @@ void take(const SampleBlock& block, std::size_t chosen, Reading& out) {
 std::string error_text(const Error& error, std::string_view text) {
     require(!error.message.empty() && error.file == "fuzz", "an error has a sentence and the file", error.text());
     const auto lines = std::count(text.begin(), text.end(), '\n') + 1;
-    require(error.place.line >= 0 && error.place.line <= lines && error.place.column >= 0,
+    require(error.location.line >= 0 && error.location.line <= lines && error.location.column >= 0,
             "the place of an error is in the text", error.text());
     return error.text();
 }

@@ -32,7 +32,7 @@ Problem empty_program_problem(std::string_view text, const std::string& file) {
                                   "file, and complete?",
                                   lines.number() == 1 ? "only line" : fmt::format("{} lines", lines.number()),
                                   lines.number() == 1 ? "has" : "have"));
-    problem.place.line = 1;
+    problem.location.line = 1;
     problem.file = file;
     return problem;
 }

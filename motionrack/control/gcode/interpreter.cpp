@@ -47,7 +47,7 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
     const MachineParameters known(*this);
     if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
         todo_ = 0;
-        problem_.place.line = number;
+        problem_.location.line = number;
         return tl::unexpected<Problem>(problem_);
     }
     return {};

@@ -338,7 +338,7 @@ Outcome<void> Interpreter::finish() {
         held_.clear();
         resync_position(at_);
         set_problem(problem_, {}, 0, problem_.status, std::move(problem_.message));
-        problem_.place.line = cutter_line_;
+        problem_.location.line = cutter_line_;
         return tl::unexpected<Problem>(problem_);
     }
     held_.settle(axes[0], axes[1], cutter_plan_.last);

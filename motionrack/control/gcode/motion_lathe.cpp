@@ -123,7 +123,7 @@ Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     if (!fault.empty()) fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
     if (!fault.empty() || !turning_within_limits()) {
         todo_ = 0;
-        problem_.place.line = line_;
+        problem_.location.line = line_;
         return tl::unexpected<Problem>(problem_);
     }
     turned_pulled_ = 0;

@@ -32,7 +32,7 @@ Outcome<const CanonCall*> ProgramReader::next_from_lines() {
         }
         if (auto done = interpreter_.line(text, program_flow_.number(), Language::program); !done) {
             program_flow_.line_rejected(text, done.error());
-            const std::size_t column = static_cast<std::size_t>(done.error().place.column);
+            const std::size_t column = static_cast<std::size_t>(done.error().location.column);
             if (program_flow_.at_end() && done.error().word == "(" &&
                 text.find(')', column) == std::string_view::npos) {
                 done.error().message = "the text ends inside this comment; is the file complete?";
@@ -59,7 +59,8 @@ constexpr int max_repeated = 10'000;
 /// Errors in a loop or a subprogram occur repeatedly.
 bool is_known(const std::vector<Problem>& problems, const Problem& one) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
-        return other.place.line == one.place.line && other.place.column == one.place.column && other.file == one.file;
+        return other.location.line == one.location.line && other.location.column == one.location.column &&
+               other.file == one.file;
     });
 }
 

@@ -217,7 +217,7 @@ void set_problem(Problem& problem, std::string_view text, std::size_t column, Gr
                  ErrorKind trouble) {
     problem.kind = trouble;
     problem.message = std::move(message);
-    problem.place = {0, static_cast<int>(column) + 1};
+    problem.location = {0, static_cast<int>(column) + 1};
     problem.status = status;
     problem.word = std::string(word_at(text, column));
 }

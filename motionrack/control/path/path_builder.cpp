@@ -321,22 +321,22 @@ void PathBuilder::fill(CubicSegment& piece, double end) {
     for (std::int64_t j = alive_; j < placed_; ++j) {
         const CornerBlend& turn = turns_[j];
         if (turn.end <= middle || turn.begin >= middle) continue;
-        double place = 0, tangent = 0, curvature = 0, curvature_rate = 0;
+        double position = 0, tangent = 0, curvature = 0, curvature_rate = 0;
         if (middle < turn.peak) {
             const double x = from - turn.begin;
-            place = x * x * x * turn.rise * (1.0 / 3) - (j <= edge_ ? from - turn.u : 0);
+            position = x * x * x * turn.rise * (1.0 / 3) - (j <= edge_ ? from - turn.u : 0);
             tangent = x * x * turn.rise - (j <= edge_ ? 1 : 0);
             curvature = 2 * x * turn.rise;
             curvature_rate = 2 * turn.rise;
         } else {
             const double x = turn.end - from;
-            place = x * x * x * turn.fall * (1.0 / 3) + (j > edge_ ? from - turn.u : 0);
+            position = x * x * x * turn.fall * (1.0 / 3) + (j > edge_ ? from - turn.u : 0);
             tangent = (j > edge_ ? 1 : 0) - x * x * turn.fall;
             curvature = 2 * x * turn.fall;
             curvature_rate = -2 * turn.fall;
         }
         for (int i = 0; i < axis_count; ++i) {
-            piece.start[i] += turn.change[i] * place;
+            piece.start[i] += turn.change[i] * position;
             piece.tangent[i] += turn.change[i] * tangent;
             piece.curvature[i] += turn.change[i] * curvature;
             piece.curvature_rate[i] += turn.change[i] * curvature_rate;

@@ -177,7 +177,7 @@ TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
     EXPECT_TRUE(good.problems.empty());
     const auto one_more = read(program + "M9\nY20\nM8\nG40\n");
     ASSERT_EQ(one_more.problems.size(), 1u);
-    EXPECT_EQ(one_more.problems[0].place.line, 10'003);
+    EXPECT_EQ(one_more.problems[0].location.line, 10'003);
     EXPECT_THAT(one_more.problems[0].message, HasSubstr("10000 steps already wait for the contour move after line 3"));
     EXPECT_EQ(one_more.steps.size(), 9'999u + 3) << "X20, Y20 and M8 with them";
     EXPECT_EQ(read(program + "G40\nM9\n").steps.size(), 9'999u + 2) << "what ends the contour lets them go";
@@ -234,8 +234,8 @@ TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {
     const auto program =
         read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nG1 X22 Y0.5\nG18\nG1 X22 Y30 Q1\nG1 X60 Y0\nG40\n");
     ASSERT_EQ(program.problems.size(), 2u);
-    EXPECT_EQ(program.problems[0].place.line, 6);
-    EXPECT_EQ(program.problems[1].place.line, 7);
+    EXPECT_EQ(program.problems[0].location.line, 6);
+    EXPECT_EQ(program.problems[1].location.line, 7);
     EXPECT_NEAR(program.moves().back().end[1], 3, 0.05);
 }
 
@@ -278,7 +278,7 @@ TEST(GcodeCutter, RejectsImpossibleContoursWithPositionAndReason) {
 TEST(GcodeCutter, AMoveThatTheProgramsEndFindsTooShortIsNamed) {
     const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nY60\nX10\nY57.5\n");
     ASSERT_EQ(program.problems.size(), 1u);
-    EXPECT_EQ(program.problems[0].place, (TextPosition{7, 1}));
+    EXPECT_EQ(program.problems[0].location, (TextPosition{7, 1}));
     EXPECT_THAT(program.problems[0].message, HasSubstr("line 7"));
 }
 

@@ -122,9 +122,9 @@ TEST(GcodeFlow, LoadsSubprogramsFromFilesBesideTheProgram) {
     EXPECT_THAT(asked, ElementsAre("hole", "deeper", "none", "empty")) << "each file is read once";
     ASSERT_EQ(read.problems.size(), 5u);
     EXPECT_EQ(read.problems[0].file, "deeper.ngc");
-    EXPECT_EQ(read.problems[0].place.line, 4);
+    EXPECT_EQ(read.problems[0].location.line, 4);
     EXPECT_THAT(read.problems[2].message, HasSubstr("there is no such file"));
-    EXPECT_EQ(read.problems[2].place.line, 5);
+    EXPECT_EQ(read.problems[2].location.line, 5);
     EXPECT_THAT(read.problems[3].message, HasSubstr("empty.ngc has no o<empty> sub"));
     EXPECT_THAT(read.problems[4].message, HasSubstr("cannot be a file in its folder"));
 }
@@ -161,8 +161,8 @@ TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
         "o6 if [1] [2]\no6 endif\no7 if [1] 2\no7 endif\nX9");
     ASSERT_EQ(read.problems.size(), 7u);
     EXPECT_THAT(read.problems[0].message, HasSubstr("division by zero"));
-    EXPECT_EQ(read.problems[0].place.line, 2);
-    EXPECT_EQ(read.problems[0].place.column, 10);
+    EXPECT_EQ(read.problems[0].location.line, 2);
+    EXPECT_EQ(read.problems[0].location.column, 10);
     EXPECT_THAT(read.problems[1].message, HasSubstr("has no value yet"));
     EXPECT_THAT(read.problems[2].message, HasSubstr("no o3 sub"));
     EXPECT_THAT(read.problems[4].message, HasSubstr("needs a value in brackets"));
@@ -212,7 +212,7 @@ TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
     const ProgramCheck check =
         check_program("G0\no1 repeat [100]\nX9999\nY1\no1 endrepeat\nX1\nM2\n", testing::machine(), 20);
     ASSERT_EQ(check.problems.size(), 1u);
-    EXPECT_EQ(check.problems[0].place.line, 3);
+    EXPECT_EQ(check.problems[0].location.line, 3);
     EXPECT_EQ(check.lines, 7);
     EXPECT_EQ(check.moves, 101);
     EXPECT_TRUE(check.ended);
@@ -233,7 +233,7 @@ TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
 std::vector<std::int32_t> refused_lines(const std::string& text) {
     std::vector<std::int32_t> lines;
     for (const Problem& problem : check_program(text, testing::machine(), 100, "f").problems)
-        lines.push_back(problem.place.line);
+        lines.push_back(problem.location.line);
     return lines;
 }
 

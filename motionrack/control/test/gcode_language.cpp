@@ -166,7 +166,7 @@ TEST(GcodeParameters, ThatAreFaultyAreReportedWithTheirPlace) {
                         {"G0 X] Y1", 4, "has no number"}};
     for (const Row& row : rows) {
         const Problem problem = problem_of(row.program);
-        EXPECT_EQ(problem.place.column, row.column) << row.program << ": " << problem.text();
+        EXPECT_EQ(problem.location.column, row.column) << row.program << ": " << problem.text();
         EXPECT_THAT(problem.message, HasSubstr(row.says)) << row.program;
     }
 }
@@ -212,7 +212,7 @@ TEST(GcodeParameters, OfALineAreAllSetOrNone) {
         names + "#5=4 #<n3>=2 #<last>=3 #<too_many>=4\n#<last>=9\n#<_global>=1\n#<n3>=5\nG0 X[#5] Y[#<n3>] Z[#<last>]",
         testing::machine());
     ASSERT_EQ(read.problems.size(), 1u);
-    EXPECT_EQ(read.problems[0].place.line, 1000);
+    EXPECT_EQ(read.problems[0].location.line, 1000);
     EXPECT_THAT(read.problems[0].message, HasSubstr("#<too_many> is one named parameter too many; there may be 1000"));
     ASSERT_EQ(read.moves().size(), 1u);
     EXPECT_EQ(read.moves()[0].end[0], 0);
@@ -242,7 +242,7 @@ TEST(GcodeParameters, AreNotTakenFromSenders) {
         Interpreter interpreter(testing::machine());
         const auto done = interpreter.line(row.line, 1, Language::words);
         ASSERT_FALSE(done) << row.line;
-        EXPECT_EQ(done.error().place.column, row.column) << row.line;
+        EXPECT_EQ(done.error().location.column, row.column) << row.line;
         EXPECT_EQ(static_cast<int>(done.error().status), row.grbl) << row.line;
         EXPECT_EQ(done.error().word, row.word) << row.line;
         EXPECT_THAT(done.error().message, HasSubstr(row.says));

@@ -75,7 +75,7 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
                 HasSubstr("M98 P5: this program has no O5, and there is no such file"));
     const Problem open = problem_numbered("M98 P6", settings);
     EXPECT_EQ(open.file, "6.ngc");
-    EXPECT_EQ(open.place.line, 2);
+    EXPECT_EQ(open.location.line, 2);
     EXPECT_THAT(open.message, HasSubstr("end it with M99"));
 }
 

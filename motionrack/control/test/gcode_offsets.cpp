@@ -104,8 +104,8 @@ TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {
     for (const Row& row : rows) {
         const auto table = read_tool_table(row.text, "tools.tbl");
         ASSERT_FALSE(table) << row.text;
-        EXPECT_EQ(table.error().place.line, row.line) << row.text;
-        EXPECT_EQ(table.error().place.column, row.column) << row.text;
+        EXPECT_EQ(table.error().location.line, row.line) << row.text;
+        EXPECT_EQ(table.error().location.column, row.column) << row.text;
         EXPECT_THAT(table.error().text(), HasSubstr(row.says));
         EXPECT_EQ(table.error().file, "tools.tbl");
     }

@@ -173,8 +173,8 @@ RC_GTEST_PROP(GcodeProperties, AnyBytesAreReadOrRefusedWithAPlaceInTheText, ()) 
                        rc::gen::arbitrary<char>()));
     const auto program = read(text);
     for (const Problem& problem : program.problems) {
-        RC_ASSERT(problem.place.line >= 1);
-        RC_ASSERT(problem.place.column >= 1);
+        RC_ASSERT(problem.location.line >= 1);
+        RC_ASSERT(problem.location.column >= 1);
         RC_ASSERT(!problem.message.empty());
         RC_ASSERT(problem.status != GrblStatus::none);
     }

@@ -174,8 +174,8 @@ TEST(GcodeReader, RefusesWithPlaceWordNumberAndSentence) {
         const auto program = testing::read(row.program);
         ASSERT_EQ(program.problems.size(), 1u);
         const Problem& problem = program.problems[0];
-        EXPECT_EQ(problem.place.line, last_line(row.program));
-        EXPECT_EQ(problem.place.column, row.column) << problem.text();
+        EXPECT_EQ(problem.location.line, last_line(row.program));
+        EXPECT_EQ(problem.location.column, row.column) << problem.text();
         EXPECT_EQ(problem.word, row.word) << problem.text();
         EXPECT_EQ(static_cast<int>(problem.status), row.grbl) << problem.text();
         EXPECT_THAT(problem.message, HasSubstr(row.says));
@@ -212,7 +212,7 @@ TEST(GcodeReader, RefusesALineOfMoreThan1024CharactersAndContinuesAfterIt) {
     ASSERT_EQ(long_comment.size(), max_line_length);
     const auto program = testing::read(long_comment + "\nG0 X1 " + std::string(100'000, ' ') + "\r\nG0 X2\n");
     ASSERT_EQ(program.problems.size(), 1u);
-    EXPECT_EQ(program.problems[0].place, (TextPosition{2, 1025}));
+    EXPECT_EQ(program.problems[0].location, (TextPosition{2, 1025}));
     EXPECT_EQ(program.problems[0].status, GrblStatus::line_too_long);
     ASSERT_EQ(program.moves().size(), 1u);
     EXPECT_EQ(program.moves()[0].end[0], 2);
@@ -262,9 +262,9 @@ TEST(GcodeCheck, CollectsProblemsUpToANumber) {
     const std::string text = "G0 X1\nX\nX2\nM77\nY900\nX3\n";
     const ProgramCheck all = check_program(text, testing::machine(), 10, "a.ngc");
     ASSERT_EQ(all.problems.size(), 3u);
-    EXPECT_EQ(all.problems[0].place, (TextPosition{2, 1}));
-    EXPECT_EQ(all.problems[1].place, (TextPosition{4, 1}));
-    EXPECT_EQ(all.problems[2].place, (TextPosition{5, 1}));
+    EXPECT_EQ(all.problems[0].location, (TextPosition{2, 1}));
+    EXPECT_EQ(all.problems[1].location, (TextPosition{4, 1}));
+    EXPECT_EQ(all.problems[2].location, (TextPosition{5, 1}));
     EXPECT_EQ(all.moves, 3);
     EXPECT_EQ(all.lines, 6);
     EXPECT_EQ(all.max[0], 3);

@@ -68,8 +68,8 @@ inline void expect_refused(const std::string& preamble, std::span<const Refused>
         const std::string text = preamble + row.program;
         const auto program = read(text, settings);
         ASSERT_GE(program.problems.size(), 1u);
-        EXPECT_EQ(program.problems[0].place.line, 1 + std::count(text.begin(), text.end(), '\n'));
-        EXPECT_EQ(program.problems[0].place.column, row.column);
+        EXPECT_EQ(program.problems[0].location.line, 1 + std::count(text.begin(), text.end(), '\n'));
+        EXPECT_EQ(program.problems[0].location.column, row.column);
         EXPECT_NE(program.problems[0].message.find(row.says), std::string::npos) << program.problems[0].message;
     }
 }
@@ -86,7 +86,7 @@ inline void expect_refused_at(std::span<const RefusedAt> rows, const Settings& s
         SCOPED_TRACE(row.program);
         const auto program = read(row.program, settings);
         ASSERT_FALSE(program.problems.empty());
-        EXPECT_EQ(program.problems[0].place.line, row.line);
+        EXPECT_EQ(program.problems[0].location.line, row.line);
         EXPECT_EQ(program.problems[0].file, "part.ngc");
         EXPECT_NE(program.problems[0].message.find(row.says), std::string::npos) << program.problems[0].message;
     }

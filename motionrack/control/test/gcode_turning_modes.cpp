@@ -87,8 +87,8 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
         const std::string text = before + row.program;
         const auto read = testing::read(text);
         ASSERT_EQ(read.problems.size(), 1u);
-        EXPECT_EQ(read.problems[0].place.line, 1 + std::count(text.begin(), text.end(), '\n'));
-        EXPECT_EQ(read.problems[0].place.column, row.column);
+        EXPECT_EQ(read.problems[0].location.line, 1 + std::count(text.begin(), text.end(), '\n'));
+        EXPECT_EQ(read.problems[0].location.column, row.column);
         EXPECT_THAT(read.problems[0].message, ::testing::HasSubstr(row.says));
     }
     const struct {
@@ -101,7 +101,7 @@ TEST(GcodeTurning, AreRefusedWithTheirPlace) {
     for (const auto& row : inside) {
         const auto read = testing::read(before + row.line);
         ASSERT_EQ(read.problems.size(), 1u) << row.line;
-        EXPECT_EQ(read.problems[0].place.line, row.at) << row.line;
+        EXPECT_EQ(read.problems[0].location.line, row.at) << row.line;
         EXPECT_THAT(read.problems[0].message, ::testing::HasSubstr(row.says));
     }
     EXPECT_FALSE(Interpreter(testing::machine()).line("G71 Q1", 1)) << "a sender's line";
@@ -113,7 +113,7 @@ TEST(GcodeTurning, ARefusedCycleMovesNothingAndTheProgramContinues) {
         testing::read("G18 F600\no1 sub\nG0 X10 Z2\nG1 Z-700\nX20\no1 endsub\nG0 X25 Z5\nG71 Q1\nG0 X1\n");
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_THAT(read.problems[0].message, ::testing::HasSubstr("G71 leads to Z = -700 mm"));
-    EXPECT_EQ(read.problems[0].place.line, 8);
+    EXPECT_EQ(read.problems[0].location.line, 8);
     ASSERT_EQ(read.moves().size(), 2u);
     EXPECT_EQ(read.moves()[1].end[2], 5);
 }

@@ -39,8 +39,8 @@ TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
             const Geometry piece = geometry_of(part, at);
             EXPECT_NEAR(piece.length, path.length / 7, 1e-9);
             for (double s = 0; s <= 1; s += 0.25) {
-                const Point place = position_at(piece, s * piece.length);
-                EXPECT_LT(distance_to(path, place[0], place[1], place[2]), 1e-9);
+                const Point position = position_at(piece, s * piece.length);
+                EXPECT_LT(distance_to(path, position[0], position[1], position[2]), 1e-9);
             }
             length += piece.length;
             at = part.end;
@@ -63,10 +63,10 @@ TEST(RestOfAMove, ContinuesFromAPlaceBesideThePath) {
     for (const Move& whole : {helix(0.3, 0), helix(0.3, 0, false), helix(0.3, 2)}) {
         const Geometry path = geometry_of(whole, at_ten);
         for (double part = 0; part < 0.999; part += 0.1) {
-            Point place = position_at(path, part * path.length);
-            place[0] += 0.001;
-            EXPECT_NEAR(nearest_point(path, place).length, part * path.length, 0.002);
-            const Geometry rest = geometry_of(remaining_move(whole, path, place), place);
+            Point position = position_at(path, part * path.length);
+            position[0] += 0.001;
+            EXPECT_NEAR(nearest_point(path, position).length, part * path.length, 0.002);
+            const Geometry rest = geometry_of(remaining_move(whole, path, position), position);
             EXPECT_EQ(rest.shape, PathShape::arc);
             EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.002);
             EXPECT_EQ(rest.end, whole.end);
@@ -81,15 +81,15 @@ TEST(RestOfAMove, OfASteepHelixIsFoundByItsHeight) {
         const Geometry path = geometry_of(whole, at_ten);
         for (const double part : {0.0, 0.001, 0.078, 0.5, 0.99, 1.0}) {
             SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);
-            Point place = position_at(path, part * path.length);
+            Point position = position_at(path, part * path.length);
             for (const double off : {-0.0004, 0.0004}) {  // a pulse
-                place[1] += off;
-                const NearestPoint nearest = nearest_point(path, place, pulses);
+                position[1] += off;
+                const NearestPoint nearest = nearest_point(path, position, pulses);
                 EXPECT_NEAR(nearest.length, part * path.length, 0.001);
                 EXPECT_LT(nearest.distance, 2.1);
-                const Geometry rest = geometry_of(remaining_move(whole, path, place, pulses), place);
+                const Geometry rest = geometry_of(remaining_move(whole, path, position, pulses), position);
                 EXPECT_NEAR(rest.length, (1 - part) * path.length, 0.001);
-                place[1] -= off;
+                position[1] -= off;
             }
         }
     }
@@ -103,9 +103,9 @@ TEST(RestOfAMove, OfAFlatHelixIsFoundByItsAngle) {
         for (const double part : {0.1, 0.4, 0.6, 0.9}) {
             SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);
             for (const double height : {0.0, 0.002}) {
-                Point place = position_at(path, part * path.length);
-                place[2] = height;
-                EXPECT_NEAR(nearest_point(path, place, pulses).length, part * path.length, 0.001);
+                Point position = position_at(path, part * path.length);
+                position[2] = height;
+                EXPECT_NEAR(nearest_point(path, position, pulses).length, part * path.length, 0.001);
             }
         }
     }

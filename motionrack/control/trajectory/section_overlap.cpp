@@ -38,31 +38,31 @@ bool are_one_line(const CubicSegment& a, const CubicSegment& b) {
 struct Times {
     double before = 0, after = 0;
 };
-/// Returns the times on a segment just before and just after the position `place`.
-Times times_about(const ProfileSegment& piece, double place) {
+/// Returns the times on a segment just before and just after the position `position`.
+Times times_about(const ProfileSegment& piece, double position) {
     Times out{0, piece.seconds};
     for (int i = 0; i < overlap_halvings; ++i) {
         const double middle = 0.5 * (out.before + out.after);
-        (piece.at(middle).u < place ? out.before : out.after) = middle;
+        (piece.at(middle).u < position ? out.before : out.after) = middle;
     }
     return out;
 }
 
 /// Returns the time before the end from which at most `room` remains, s.
 double seconds_to_go(std::span<const ProfileSegment> feed, double room) {
-    const double place = feed.back().begin + feed.back().length - room;
+    const double position = feed.back().begin + feed.back().length - room;
     double seconds = 0;
     for (std::size_t i = feed.size(); i-- > 0; seconds += feed[i].seconds)
-        if (feed[i].begin < place) return seconds + feed[i].seconds - times_about(feed[i], place).after;
+        if (feed[i].begin < position) return seconds + feed[i].seconds - times_about(feed[i], position).after;
     return seconds;
 }
 
 /// Returns the time from the start until which at most `room` is covered, s.
 double seconds_gone(std::span<const ProfileSegment> feed, double room) {
-    const double place = feed.front().begin + room;
+    const double position = feed.front().begin + room;
     double seconds = 0;
     for (const ProfileSegment& piece : feed) {
-        if (piece.begin + piece.length > place) return seconds + times_about(piece, place).before;
+        if (piece.begin + piece.length > position) return seconds + times_about(piece, position).before;
         seconds += piece.seconds;
     }
     return seconds;

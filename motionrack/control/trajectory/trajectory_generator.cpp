@@ -69,7 +69,7 @@ std::int64_t TrajectoryGenerator::move_of(std::int32_t tag) const {
 }
 
 std::int64_t TrajectoryGenerator::first_pending_move() const {
-    if (left_ > 0 || place_ < now_.known()) return move_of(now_.curve[piece_].line);
+    if (left_ > 0 || position_ < now_.known()) return move_of(now_.curve[piece_].line);
     if (now_.whole && dwell_seconds() > 0) return move_of_rest();
     if (now_.whole && !then_.curve.empty()) return move_of(then_.curve.front().line);
     return pushed_ == flushed_ ? pushed_ : std::max(flushed_, reported_);
@@ -133,7 +133,7 @@ void TrajectoryGenerator::advance_section() {
     std::swap(now_, then_);
     then_.clear();
     piece_ = feed_ = 0;
-    place_ = on_feed_ = 0;
+    position_ = on_feed_ = 0;
     reach_ = 0;
     holding_ = met_ = false;
     dwelt_ = 0;
@@ -160,7 +160,7 @@ NextMotion TrajectoryGenerator::next(bool early) {
             return NextMotion::motion;
         }
         if (held_) return NextMotion::nothing;
-        if (place_ < now_.known()) {
+        if (position_ < now_.known()) {
             if (!is_ready(now_, piece_, early)) return NextMotion::nothing;
             begin();
             continue;
@@ -177,13 +177,13 @@ bool TrajectoryGenerator::is_ready(const KnownSection& part, std::size_t from, b
 
 /// Starts from standstill, anywhere on the section.
 void TrajectoryGenerator::begin() {
-    piece_ = piece_at(place_, piece_);
+    piece_ = piece_at(position_, piece_);
     drop_passed();
     holding_ = new_feeds_ = false;
     for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
     PlanCursor here;
     here.piece = piece_;
-    here.along.u = place_;
+    here.along.u = position_;
     plan_to_end(here.piece, here.along);
     take(here, 0, now_.known());
 }
@@ -238,15 +238,15 @@ TrajectoryGenerator::PlanCursor TrajectoryGenerator::spot_at(double seconds) con
 }
 
 /// At a boundary, returns the following segment, so that some of it remains.
-std::size_t TrajectoryGenerator::piece_at(double place, std::size_t piece) const {
-    while (piece + 1 < now_.curve.size() && place >= now_.curve[piece].begin + now_.curve[piece].length) ++piece;
+std::size_t TrajectoryGenerator::piece_at(double position, std::size_t piece) const {
+    while (piece + 1 < now_.curve.size() && position >= now_.curve[piece].begin + now_.curve[piece].length) ++piece;
     return piece;
 }
 
 TrajectoryPoint TrajectoryGenerator::at(double seconds) const {
     const PlanCursor spot = spot_at(seconds);
     TrajectoryPoint out = trajectory_point(now_.curve[spot.piece], spot.along);
-    if (now_.whole && seconds >= left_ && now_.planned_to >= now_.known()) out.place = now_.rest.at;
+    if (now_.whole && seconds >= left_ && now_.planned_to >= now_.known()) out.position = now_.rest.at;
     if (seconds < before_left_) add_overlap(out, before_.end(), before_left_ - seconds);
     return out;
 }
@@ -258,7 +258,7 @@ void TrajectoryGenerator::advance(double seconds) {
         if (reach_ > 0) before_.keep(final_deceleration(now_.curve, now_.feed));
         before_left_ = reach_;
         if (reach_ > 0) return advance_section();
-        place_ = now_.planned_to;
+        position_ = now_.planned_to;
         piece_ = spot_at(left_).piece;
         left_ = 0;
         now_.feed.clear();
@@ -268,7 +268,7 @@ void TrajectoryGenerator::advance(double seconds) {
     feed_ = spot.feed;
     on_feed_ = spot.on_feed;
     piece_ = spot.piece;
-    place_ = spot.along.u;
+    position_ = spot.along.u;
     left_ -= seconds;
     drop_passed();
 }

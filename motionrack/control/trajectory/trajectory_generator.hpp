@@ -140,7 +140,7 @@ class TrajectoryGenerator {
     void plan_overlap(bool early);
     void cancel_overlap();
     PlanCursor spot_at(double seconds) const;
-    std::size_t piece_at(double place, std::size_t piece) const;
+    std::size_t piece_at(double position, std::size_t piece) const;
 
     MachineLimits limits_;
     TrajectoryGeneratorSettings settings_;
@@ -149,7 +149,7 @@ class TrajectoryGenerator {
     KnownSection now_, then_;
 
     std::size_t piece_ = 0, feed_ = 0;  ///< current position in now_
-    double place_ = 0;                  ///< u
+    double position_ = 0;               ///< u
     double on_feed_ = 0;                ///< s
     double left_ = 0;                   ///< s to the end of the plan
     double braking_ = 0;                ///< the last of these s, in which it decelerates to that end

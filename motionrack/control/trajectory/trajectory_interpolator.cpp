@@ -53,7 +53,7 @@ TrajectoryInterpolator::TrajectoryInterpolator(const MachineLimits& limits, cons
       settings_(settings),
       generator_(limits, start, settings.generator),
       position_(start),
-      place_(start) {}
+      planned_position_(start) {}
 
 Result<void> TrajectoryInterpolator::push(const Move& move, bool overridable) {
     MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, path_limits_));
@@ -97,11 +97,11 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned = {};
     const NextMotion next = generator_.next(early);
     if (next == NextMotion::nothing) return false;
-    planned.start = place_;
+    planned.start = planned_position_;
     if (next == NextMotion::dwell) {
         planned.number = generator_.move_of_rest();
         planned.move = generator_.move(planned.number).move;
-        planned.move.end = place_;
+        planned.move.end = planned_position_;
         planned.move.seconds = settings_.cut_dwells ? std::min(settings_.max_seconds, generator_.dwell_seconds())
                                                     : generator_.dwell_seconds();
         generator_.advance_dwell(planned.move.seconds);
@@ -110,7 +110,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     const TrajectoryPoint begin = generator_.at(0);
     const double seconds = last_seconds_ = seconds_of_next();
     const TrajectoryPoint end = generator_.at(seconds);
-    const double length = size_of(between(place_, end.place));
+    const double length = size_of(between(planned_position_, end.position));
     if (length < min_move_length && size_of(end.velocity) > 0) {  // at a reversal
         generator_.advance(seconds);
         return pull(planned, early);
@@ -120,7 +120,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
     planned.move = move.move;
     if (uses_auxiliary_axis(move.axes)) planned.axes = move.axes;
     if (planned.move.kind != MoveKind::rapid) planned.move.kind = MoveKind::feed;
-    planned.move.end = end.place;
+    planned.move.end = end.position;
     const double velocity_in = size_of(begin.velocity), velocity_out = size_of(end.velocity);
     planned.length = length;
     planned.entry_velocity = velocity_in;
@@ -131,7 +131,7 @@ bool TrajectoryInterpolator::pull(PlannedMove& planned, bool early) {
         min_accel);
     planned.constant_accel = true;
     planned.move.feed = planned.cruise_velocity;
-    place_ = end.place;
+    planned_position_ = end.position;
     generator_.advance(seconds);
     return true;
 }
@@ -161,7 +161,7 @@ double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, doub
     double best = seconds, min_off = 1;
     for (int k = 0; k < tries && min_off > near_enough; ++k) {
         const double time = seconds * (1 - earliest * k / tries),
-                     off = off_whole_pulses(begin.place, generator_.at(time).place);
+                     off = off_whole_pulses(begin.position, generator_.at(time).position);
         if (off >= min_off) continue;
         best = time;
         min_off = off;
@@ -188,7 +188,7 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
 TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
                                                                                 double seconds) const {
     const TrajectoryPoint middle = generator_.at(0.5 * seconds), end = generator_.at(seconds);
-    const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
+    const Point way = between(begin.position, end.position), gone = between(begin.position, middle.position);
     double square = 0, along = 0, even = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
         square += way[i] * way[i];
@@ -209,8 +209,9 @@ TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(
     out.chord_error = std::max(out.chord_error, beside(way, per_square, gone));
     for (const double part : {0.25, 0.75})
         if (out.chord_error <= off_pulses)
-            out.chord_error = std::max(
-                out.chord_error, beside(way, per_square, between(begin.place, generator_.at(part * seconds).place)));
+            out.chord_error =
+                std::max(out.chord_error,
+                         beside(way, per_square, between(begin.position, generator_.at(part * seconds).position)));
     return out;
 }
 

@@ -67,7 +67,7 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< axes of the last move, and of all moves since the last standstill
     Point position_;
     double last_seconds_ = 0.005;
-    Point place_;  ///< end of the last planned move
+    Point planned_position_;  ///< end of the last planned move
 };
 
 }  // namespace motionrack::control

@@ -8,10 +8,10 @@ TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& al
     TrajectoryPoint out;
     out.u = along.u;
     out.line = piece.line;
-    out.place = position_on(piece, x);
+    out.position = position_on(piece, x);
     const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
     const double v = along.velocity, a = along.accel, j = along.jerk;
-    for (std::size_t i = 0; i < out.place.size(); ++i) {
+    for (std::size_t i = 0; i < out.position.size(); ++i) {
         out.velocity[i] = tangent[i] * v;
         out.accel[i] = tangent[i] * a + curvature[i] * v * v;
         out.jerk[i] = tangent[i] * j + 3 * curvature[i] * v * a + piece.curvature_rate[i] * v * v * v;
@@ -25,9 +25,9 @@ void add_overlap(TrajectoryPoint& state, const SectionRamp& end, double seconds)
     const ProfileSegment& piece = end.feed[i];
     const PathMotion along = piece.at(std::max(0.0, piece.seconds - seconds));
     const double left = end.feed.back().begin + end.feed.back().length - along.u;
-    for (std::size_t k = 0; k < state.place.size(); ++k) {
+    for (std::size_t k = 0; k < state.position.size(); ++k) {
         const double tangent = end.curve.tangent[k];
-        state.place[k] -= tangent * left;
+        state.position[k] -= tangent * left;
         state.velocity[k] += tangent * along.velocity;
         state.accel[k] += tangent * along.accel;
         state.jerk[k] += tangent * along.jerk;

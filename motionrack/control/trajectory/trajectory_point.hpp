@@ -11,7 +11,7 @@ namespace motionrack::control {
 /// Position and its derivatives per s, s^2, s^3.
 struct TrajectoryPoint {
     double u = 0;
-    Point place = {}, velocity = {}, accel = {}, jerk = {};
+    Point position = {}, velocity = {}, accel = {}, jerk = {};
     std::int32_t line = 0;
 };
 

@@ -114,7 +114,7 @@ TEST(VcdCapture, DecodesAFileThatIsCutOffToItsLastWholeValue) {
         ASSERT_TRUE(analysis) << end << ": " << analysis.error().text();
         EXPECT_EQ(analysis->channels[0].count, 2) << end;
         ASSERT_TRUE(analysis->cut) << end;
-        EXPECT_EQ(analysis->cut->place.line, 13) << end;
+        EXPECT_EQ(analysis->cut->location.line, 13) << end;
         EXPECT_TRUE(has(analysis->cut->text(), "cut off")) << end;
     }
     EXPECT_TRUE(has(refusal(vcd_head.substr(0, 60), "a.vcd"), "a.vcd:3:15: The file ends inside its head"));
@@ -216,7 +216,7 @@ TEST(CsvCapture, DecodesAFileThatIsCutOffToItsLastWholeRow) {
         ASSERT_TRUE(analysis) << analysis.error().text();
         EXPECT_EQ(analysis->channels[0].count, 1);
         ASSERT_TRUE(analysis->cut) << end;
-        EXPECT_EQ(analysis->cut->place.line, 4);
+        EXPECT_EQ(analysis->cut->location.line, 4);
     }
 }
 

@@ -69,8 +69,8 @@ int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_options
         rack->report = std::move(report.summary);
         code = finished(*rack, report.ended, rack->sentence);
         if (result != nullptr)
-            *result = {code == MR_OK,          report.place.line,
-                       report.place.column,    motionrack::to_seconds(report.outcome.time),
+            *result = {code == MR_OK,          report.location.line,
+                       report.location.column, motionrack::to_seconds(report.outcome.time),
                        report.outcome.path_mm, report.outcome.worst.mm,
                        rack->sentence.c_str()};
         return {};

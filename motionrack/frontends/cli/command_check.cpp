@@ -28,8 +28,10 @@ struct CheckOptions {
 };
 
 nlohmann::json error_json(const Error& error) {
-    return {
-        {"file", error.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}};
+    return {{"file", error.file},
+            {"line", error.location.line},
+            {"column", error.location.column},
+            {"message", error.message}};
 }
 
 bool is_rack_file(const std::string& path) {

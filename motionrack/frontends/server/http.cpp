@@ -11,13 +11,13 @@ namespace {
 constexpr int max_nesting = 16;
 
 /// Returns the position of byte `at` of the text.
-TextPosition place_of(std::string_view text, std::size_t at) {
-    TextPosition place{1, 1};
+TextPosition location_of(std::string_view text, std::size_t at) {
+    TextPosition location{1, 1};
     for (const char c : text.substr(0, at)) {
-        ++place.column;
-        if (c == '\n') ++place.line, place.column = 1;
+        ++location.column;
+        if (c == '\n') ++location.line, location.column = 1;
     }
-    return place;
+    return location;
 }
 
 /// Returns the index of the first bracket that is nested too deeply; npos: none. Deep values would use stack wherever
@@ -88,7 +88,7 @@ Result<nlohmann::json> read_object(std::string_view text, std::string_view what)
     if (const std::size_t at = too_deep(text); at != std::string_view::npos)
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} is nested deeper than {}. Nothing was done.", what, max_nesting),
-                    place_of(text, at));
+                    location_of(text, at));
     try {
         nlohmann::json value = nlohmann::json::parse(text);
         if (!value.is_object())
@@ -97,11 +97,11 @@ Result<nlohmann::json> read_object(std::string_view text, std::string_view what)
                         {1, 1});
         return value;
     } catch (const nlohmann::json::parse_error& error) {
-        const TextPosition place = place_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
+        const TextPosition location = location_of(text, std::min(text.size(), error.byte > 0 ? error.byte - 1 : 0));
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} is not valid JSON: see line {}, column {}. Nothing was done.", what, place.line,
-                                place.column),
-                    place);
+                    fmt::format("{} is not valid JSON: see line {}, column {}. Nothing was done.", what, location.line,
+                                location.column),
+                    location);
     } catch (const nlohmann::json::exception&) {
         return fail(ErrorKind::invalid_input,
                     fmt::format("{} has a number that is too large. Nothing was done.", what));

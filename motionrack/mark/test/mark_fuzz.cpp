@@ -33,9 +33,9 @@ std::string error_problem(const Error& error, std::string_view text) {
     if (error.message.empty()) return "an error without words";
     // G-code also accepts a single carriage return as a line end.
     const auto lines = std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }) + 1;
-    if (error.place.line < 0 || error.place.line > lines || error.place.column < 0)
-        return fmt::format("the place {}:{} is not in a text of {} lines: {}", error.place.line, error.place.column,
-                           lines, error.message);
+    if (error.location.line < 0 || error.location.line > lines || error.location.column < 0)
+        return fmt::format("the place {}:{} is not in a text of {} lines: {}", error.location.line,
+                           error.location.column, lines, error.message);
     return "";
 }
 

@@ -149,7 +149,7 @@ TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsReported) {
     const auto file = [&](std::int32_t k, std::int32_t program, std::initializer_list<std::size_t> turned) {
         table.header[1] = k, table.header[10] = program;
         std::vector<std::uint8_t> bytes = rtc5::written_ct5(table);
-        for (const std::size_t place : turned) bytes[place] ^= 8;
+        for (const std::size_t location : turned) bytes[location] ^= 8;
         return one_file(std::string(bytes.begin(), bytes.end()));
     };
     const auto notes = [&](const Load& load) { return prepare(job, load)->notes; };

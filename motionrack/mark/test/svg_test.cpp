@@ -158,7 +158,7 @@ TEST(SvgReader, DamagedFilesAreReadOrRefusedAndNothingElse) {
         const Result<Drawing> out = read_svg(text, "d.svg");
         if (!out) {
             ++refused;
-            EXPECT_GT(out.error().place.line, 0) << text;
+            EXPECT_GT(out.error().location.line, 0) << text;
             continue;
         }
         for (const Stroke& stroke : out->strokes)

@@ -74,7 +74,7 @@ TEST(Machine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
     o.at(0.1, [](Machine& m) {
         const Result<void> begun = m.begin_program("G21 G90 F1200\nG1 X30\nG1 X9999\n", "p.ngc");
         ASSERT_FALSE(begun);
-        EXPECT_EQ(begun.error().place.line, 3);
+        EXPECT_EQ(begun.error().location.line, 3);
     });
     o.run(1);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill"));

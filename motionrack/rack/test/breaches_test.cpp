@@ -12,12 +12,12 @@ constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2
 
 /// Returns the largest step found in a motion whose pulses at `t` s are `place(t)`, and the number of steps.
 template <class Place>
-JumpWatch::Jump look(Place place, int& times, Duration period = milliseconds(1)) {
+JumpWatch::Jump look(Place position, int& times, Duration period = milliseconds(1)) {
     JumpWatch watch(start_hz, accel_hz, period);
     JumpWatch::Jump worst;
     times = 0;
     for (double t = 0; t < 0.4; t += to_seconds(period)) {
-        const JumpWatch::Jump jump = watch.look(static_cast<std::int64_t>(std::floor(place(t))));
+        const JumpWatch::Jump jump = watch.look(static_cast<std::int64_t>(std::floor(position(t))));
         times += jump.first;
         if (jump.hz > worst.hz) worst = jump;
     }
@@ -70,7 +70,7 @@ TEST(Breach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
     jump.limit = 2;
     jump.line = 12;
     jump.at = milliseconds(3512);
-    jump.place = {10, 0, 80};
+    jump.position = {10, 0, 80};
     breaches.add(jump);
     jump.value = 84;
     breaches.add(jump);

@@ -90,7 +90,7 @@ void expect_refused(const FieldCase& c, const std::string& value) {
     const std::string text = rack_with_field(c, value);
     const RackReading reading = read_rack_text(text);
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << text;
-    EXPECT_EQ(reading.errors[0].place.line, 3) << all_texts(reading.errors) << text;
+    EXPECT_EQ(reading.errors[0].location.line, 3) << all_texts(reading.errors) << text;
     EXPECT_THAT(reading.errors[0].message, HasSubstr(with_unit(c.field->key, c.unit)));
     EXPECT_THAT(reading.errors[0].message, HasSubstr(range_text(*c.field, c.unit)));
 }

@@ -35,7 +35,7 @@ std::string driver_of(const RackConfig& config, const std::string& to) {
 
 struct BadFile {
     std::string text;
-    TextPosition place;
+    TextPosition location;
     std::vector<std::string> words;  ///< the error there contains all of them
 };
 
@@ -164,8 +164,8 @@ TEST(TomlReader, ArraysHaveTheirValuesWithTheirPlaces) {
     ASSERT_EQ(a.children.size(), 3u);
     EXPECT_EQ(a.children[0].integer, 1);
     EXPECT_EQ(a.children[1].children[1].text, "x");
-    EXPECT_EQ(a.children[2].value_place.line, 2);
-    EXPECT_EQ(a.children[2].value_place.column, 3);
+    EXPECT_EQ(a.children[2].value_location.line, 2);
+    EXPECT_EQ(a.children[2].value_location.column, 3);
     const TomlNode& t = root->children[1];
     ASSERT_EQ(t.type, TomlType::array);
     ASSERT_EQ(t.children.size(), 2u);
@@ -179,7 +179,7 @@ void expect_refused(const std::vector<BadFile>& files) {
         ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << bad.text;
         const Error& error = reading.errors[0];
         EXPECT_EQ(error.kind, ErrorKind::invalid_input);
-        EXPECT_EQ(error.place, bad.place) << error.text() << '\n' << bad.text;
+        EXPECT_EQ(error.location, bad.location) << error.text() << '\n' << bad.text;
         EXPECT_EQ(error.file, "bad.toml");
         for (const std::string& word : bad.words) EXPECT_THAT(error.message, HasSubstr(word)) << bad.text;
     }
@@ -196,7 +196,7 @@ TEST(RackFile, ListsAllMistakesAtOnceInTheOrderOfTheFile) {
                   "\"n\"\n[wires]\n\"m.q\" = \"estop\"\n"
                   "[contoller]\n"));
     std::vector<int> lines;
-    for (const Error& error : reading.errors) lines.push_back(error.place.line);
+    for (const Error& error : reading.errors) lines.push_back(error.location.line);
     EXPECT_THAT(lines, ElementsAre(6, 7, 9, 11, 13, 14)) << all_texts(reading.errors);
 }
 
@@ -204,7 +204,7 @@ TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
     // With the default (300), initial_position_mm would be outside; but the intended max_limit_mm is unknown.
     const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (TextPosition{6, 16}));
+    EXPECT_EQ(reading.errors[0].location, (TextPosition{6, 16}));
 }
 
 TEST(RackFile, ACardOfUnknownTypeGivesNoErrorsAboutItsPins) {
@@ -212,7 +212,7 @@ TEST(RackFile, ACardOfUnknownTypeGivesNoErrorsAboutItsPins) {
         "[card.m]\ntype = \"mcx999\"\nclock_hz = 5\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[wires]\n\"m.xin1\" = "
         "\"estop\"\n");
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place.line, 2);
+    EXPECT_EQ(reading.errors[0].location.line, 2);
 }
 
 TEST(RackFile, ShowsTwoHundredMistakesAndCountsTheOthers) {

@@ -168,7 +168,7 @@ TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithThePlace) {
     EXPECT_THAT(same.errors[0].message, HasSubstr("both the number 13"));
     const RackReading straps = read_rack_text("[card.c1]\ntype = \"databoard4002\"\nfirst_pair = 2\n");
     ASSERT_EQ(straps.errors.size(), 1u);
-    EXPECT_EQ(straps.errors[0].place.line, 3);
+    EXPECT_EQ(straps.errors[0].location.line, 3);
     EXPECT_THAT(straps.errors[0].message, HasSubstr("quadrature x4"));
     const RackReading axis =
         read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");

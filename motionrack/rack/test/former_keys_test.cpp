@@ -89,7 +89,7 @@ TEST(RackFile, RejectsEveryFormerKeyWithItsPresentName) {
 TEST(RackFile, RejectsAFormerCardKeyAtItsPosition) {
     const RackReading reading = read_rack_text("[card.c]\ntype = \"databoard4002\"\nselect = 3\n");
     ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (TextPosition{3, 1}));
+    EXPECT_EQ(reading.errors[0].location, (TextPosition{3, 1}));
     EXPECT_EQ(reading.errors[0].message, "'select' is now 'card_number'.");
 }
 

@@ -40,7 +40,7 @@ TEST(Links, FollowTheFile) {
 
 struct BadWires {
     std::string wires;
-    TextPosition place;
+    TextPosition location;
     std::vector<std::string> words;
 };
 
@@ -61,7 +61,7 @@ TEST(Links, RefusesWhatCannotBeObeyedBeforeAnythingMoves) {
         const RackReading reading = read_rack_text(wired(bad.wires));
         EXPECT_FALSE(reading.config) << bad.wires;
         ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors) << bad.wires;
-        EXPECT_EQ(reading.errors[0].place, bad.place) << reading.errors[0].text() << bad.wires;
+        EXPECT_EQ(reading.errors[0].location, bad.location) << reading.errors[0].text() << bad.wires;
         for (const std::string& word : bad.words) EXPECT_THAT(reading.errors[0].message, HasSubstr(word)) << bad.wires;
     }
 }
@@ -81,7 +81,7 @@ TEST(Links, OneChannelTurnsOneMotor) {
     const RackReading reading =
         read_rack_text(rack_with(second_axis + "[wires]\nX.step = \"m.upp\"\nX.dir = \"m.upm\"\n"));
     ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
-    EXPECT_EQ(reading.errors[0].place, (TextPosition{10, 3}));
+    EXPECT_EQ(reading.errors[0].location, (TextPosition{10, 3}));
     EXPECT_THAT(reading.errors[0].message, HasSubstr("m.upp drives X.step and A.step"));
 }
 
@@ -105,7 +105,7 @@ TEST(Wires, OneOutputDrivesThirtyOneInputs) {
     const RackReading reading = read_rack_text(text + "n.emgn = \"X.home\"\n");
     ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
     EXPECT_THAT(reading.errors[0].message, HasSubstr("X.home drives more than 31 inputs"));
-    EXPECT_GT(reading.errors[0].place.line, 8);
+    EXPECT_GT(reading.errors[0].location.line, 8);
 }
 
 // ---- On a running rack

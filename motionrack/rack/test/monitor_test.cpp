@@ -88,8 +88,8 @@ TEST(Monitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
     EXPECT_NEAR(breach.limit, 0.05 + allowed_mm, 1e-12);
     EXPECT_NEAR(to_seconds(breach.at), to_seconds(side - cut / 2), 0.002);
     EXPECT_EQ(breach.line, 3);
-    EXPECT_NEAR(breach.place[0], 9.75, 0.03);
-    EXPECT_NEAR(breach.place[1], 0.25, 0.03);
+    EXPECT_NEAR(breach.position[0], 9.75, 0.03);
+    EXPECT_NEAR(breach.position[1], 0.25, 0.03);
     EXPECT_EQ(breach.times, 1) << "once left, once told";
 }
 

@@ -204,14 +204,14 @@ TEST(Probing, ErrorsOfBoundsNameTheLineOfTheKey) {
     ASSERT_EQ(order.errors.size(), 1u) << all_texts(order.errors);
     const std::string text = rack_text("");
     const int heading = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-    EXPECT_EQ(order.errors[0].place, (TextPosition{heading + 2, 12}));
+    EXPECT_EQ(order.errors[0].location, (TextPosition{heading + 2, 12}));
 
     const std::string no_axis =
         "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n"
         "[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\nx_min_mm = 1\ny_max_mm = 4\n";
     const RackReading missing = read_rack_text(no_axis);
     ASSERT_EQ(missing.errors.size(), 1u) << all_texts(missing.errors);
-    EXPECT_EQ(missing.errors[0].place, (TextPosition{9, 12}));
+    EXPECT_EQ(missing.errors[0].location, (TextPosition{9, 12}));
 }
 
 /// Feeds lines one by one, each only when there is room.

@@ -57,7 +57,7 @@ TEST(ServoProgram, SeveralCardsEachMoveTheirOwnAxis) {
     EXPECT_NEAR(out.axes[1].top.peak_velocity, 100, 1);
     const JobOutcome both = run(two, "G90 F600\nG1 X600 Z200\n");
     ASSERT_FALSE(both.ended);
-    EXPECT_EQ(both.ended.error().place.line, 2);
+    EXPECT_EQ(both.ended.error().location.line, 2);
     EXPECT_THAT(both.ended.error().message,
                 HasSubstr("G1 moves X, Z together, but the axes of this rack position one by one"));
     const JobOutcome arc = run(two, "G90 F600\nG2 X50 I10\n");

@@ -191,9 +191,9 @@ void Conveyor::counts(std::int64_t first_tick, std::span<std::int32_t> out) cons
     }
 }
 
-sim::Spot Conveyor::carried(sim::Spot place, double way) const {
-    if (settings_.rotary) return turned(place, settings_.centre_mm, way);
-    return {place.x + way * cosine_, place.y + way * sine_};
+sim::Spot Conveyor::carried(sim::Spot position, double way) const {
+    if (settings_.rotary) return turned(position, settings_.centre_mm, way);
+    return {position.x + way * cosine_, position.y + way * sine_};
 }
 
 sim::Spot Conveyor::on_part(sim::Spot field, double t_s) const {

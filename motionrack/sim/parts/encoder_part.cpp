@@ -5,37 +5,37 @@
 
 namespace motionrack::parts {
 
-EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t turn,
-                         std::int64_t place_per_turn, const LineOutputSettings& lines)
+EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
+                         std::int64_t turn, std::int64_t position_per_turn, const LineOutputSettings& lines)
     : kernel_(kernel),
-      place_(place),
+      position_(position),
       turn_(turn),
-      place_per_turn_(place_per_turn),
+      position_per_turn_(position_per_turn),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       output_(kernel, name, lines, state_.lines),
-      slot_(place.add_listener(*this)) {
-    MOTIONRACK_ASSERT(turn > 0 && turn % 4 == 0 && place_per_turn > 0);
+      slot_(position.add_listener(*this)) {
+    MOTIONRACK_ASSERT(turn > 0 && turn % 4 == 0 && position_per_turn > 0);
     kernel.schedule(id_, Instant{0});
 }
 
 // ---- geometry
 
 /// The first position with a count of n or more.
-std::int64_t EncoderPart::place_of(std::int64_t n) const {
+std::int64_t EncoderPart::position_of(std::int64_t n) const {
     // Displacements in 2^-20 counts, so all further arithmetic is in whole numbers.
     constexpr std::int64_t fine = 1 << 20;
     const double early = displacement(floor_mod(n, turn_)) * static_cast<double>(fine);
     const auto whole = static_cast<std::int64_t>(early < 0 ? early - 0.5 : early + 0.5);
-    if (whole == 0) return ceil_div(Wide{n} * place_per_turn_, turn_);
-    return ceil_div((Wide{n} * fine - whole) * place_per_turn_, turn_ * fine);
+    if (whole == 0) return ceil_div(Wide{n} * position_per_turn_, turn_);
+    return ceil_div((Wide{n} * fine - whole) * position_per_turn_, turn_ * fine);
 }
 
-std::int64_t EncoderPart::count_at(std::int64_t place) const {
+std::int64_t EncoderPart::count_at(std::int64_t position) const {
     // The previous count is near, unless the position has jumped.
-    const std::int64_t straight = floor_div(Wide{place} * turn_, place_per_turn_);
+    const std::int64_t straight = floor_div(Wide{position} * turn_, position_per_turn_);
     std::int64_t n = std::llabs(straight - state_.count) < turn_ ? state_.count : straight;
-    while (place_of(n + 1) <= place) ++n;
-    while (place_of(n) > place) --n;
+    while (position_of(n + 1) <= position) ++n;
+    while (position_of(n) > position) --n;
     return n;
 }
 
@@ -46,8 +46,8 @@ void EncoderPart::schedule() {
 }
 
 void EncoderPart::look(Instant now) {
-    state_.count = count_at(place_.count(now));
-    place_.watch(slot_, place_of(state_.count) - 1, place_of(state_.count + 1));
+    state_.count = count_at(position_.count(now));
+    position_.watch(slot_, position_of(state_.count) - 1, position_of(state_.count + 1));
     if (blind()) {
         state_.was_blind = 1;
         return;
@@ -69,7 +69,7 @@ void EncoderPart::look_again(Instant now) {
 void EncoderPart::on_scheduled(Instant now) {
     if (!state_.begun) {
         state_.begun = 1;
-        state_.count = count_at(place_.count(now));
+        state_.count = count_at(position_.count(now));
         output_.begin(state_.count);
         look(now);
     }

@@ -33,10 +33,10 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     bool fault(std::string_view name, double value, Instant now) override;
 
   protected:
-    /// `turn` counts (a multiple of 4) for `place_per_turn` counts of `place` (both > 0). Adds the device and its
+    /// `turn` counts (a multiple of 4) for `position_per_turn` counts of `position` (both > 0). Adds the device and its
     /// wires, before the start.
-    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t turn,
-                std::int64_t place_per_turn, const LineOutputSettings& lines);
+    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position, std::int64_t turn,
+                std::int64_t position_per_turn, const LineOutputSettings& lines);
 
     /// Displacement of edge n (0 .. turn - 1) towards early, in counts; less than a quarter of a revolution, and smooth
     /// enough to keep the order of edges.
@@ -68,12 +68,12 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     void rate_changed(double, double, Instant) override {}
     void look(Instant now);
     void schedule();
-    std::int64_t place_of(std::int64_t n) const;
-    std::int64_t count_at(std::int64_t place) const;
+    std::int64_t position_of(std::int64_t n) const;
+    std::int64_t count_at(std::int64_t position) const;
 
-    sim::PositionFunction& place_;
+    sim::PositionFunction& position_;
     std::int64_t turn_;
-    std::int64_t place_per_turn_;
+    std::int64_t position_per_turn_;
     sim::DeviceId id_{};
     LineOutput output_;
     int slot_ = 0;

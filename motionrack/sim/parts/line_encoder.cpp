@@ -21,9 +21,10 @@ LineOutputSettings lines_of_disc(const LineEncoderSettings& s) {
 
 }  // namespace
 
-LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+LineEncoder::LineEncoder(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
                          const LineEncoderSettings& settings)
-    : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_disc(settings)) {
+    : EncoderPart(kernel, name, position, settings.counts_per_turn, settings.position_per_turn,
+                  lines_of_disc(settings)) {
     MOTIONRACK_ASSERT(settings.eccentricity >= 0 &&
                       settings.eccentricity <= static_cast<double>(settings.counts_per_turn) / 7);
     state_.own[0] = static_cast<std::int64_t>(settings.eccentricity * million);

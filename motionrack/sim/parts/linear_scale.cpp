@@ -43,28 +43,28 @@ Duration edge_spacing(const LinearScaleSettings& settings) {
     return Duration{std::max<std::int64_t>(1, static_cast<std::int64_t>(0.75e10 / settings.max_count_rate))};
 }
 
-LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
                          const LinearScaleSettings& s)
     : kernel_(kernel),
-      place_(place),
+      position_(position),
       settings_(s),
       spacing_(edge_spacing(s)),
       id_(kernel.add(*this, sim::Phase::parts, name)),
-      slot_(place.add_listener(*this)) {
+      slot_(position.add_listener(*this)) {
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
     MOTIONRACK_ASSERT(s.pitch_pm >= 1'000 && s.pitch_pm <= 1'000'000'000);
     MOTIONRACK_ASSERT(s.interpolation >= 4 && s.interpolation <= 65'536 && s.interpolation % 4 == 0);
     MOTIONRACK_ASSERT(s.max_count_rate >= 1 && s.max_count_rate <= 1e9 && std::fabs(s.zero_offset_nm) <= 1e10);
     MOTIONRACK_ASSERT(s.places >= 1 && s.places <= 1'000'000'000 && s.places_nm >= 1 && s.places_nm <= 1'000'000'000);
-    const auto place_of = [&s](double nm) {
+    const auto position_of = [&s](double nm) {
         return nearest(nm * static_cast<double>(s.places) / static_cast<double>(s.places_nm));
     };
-    state_.zero = place_of(s.zero_offset_nm);
+    state_.zero = position_of(s.zero_offset_nm);
     state_.direction = s.reversed ? -1 : 1;
     set_ratio(0);
-    dirt_at_ = grating(place_of(s.dirt_position_nm));
-    index_at_ = s.index_nm ? grating(place_of(*s.index_nm)) : 0;
-    place.watch_rate(s.max_count_rate / counts_per_place());
+    dirt_at_ = grating(position_of(s.dirt_position_nm));
+    index_at_ = s.index_nm ? grating(position_of(*s.index_nm)) : 0;
+    position.watch_rate(s.max_count_rate / counts_per_place());
     constexpr const char* names[] = {".a", ".b", ".z"};
     for (std::size_t i = 0; i < wires_.size(); ++i) {
         wires_[i] = kernel.add_wire(name + names[i], level_at(static_cast<int>(i), Instant{0}));
@@ -90,8 +90,8 @@ void LinearScale::set_ratio(double ppm) {
     state_.num = num / shared, state_.den = den / shared;
 }
 
-std::int64_t LinearScale::grating(std::int64_t place) const {
-    return static_cast<std::int64_t>(floor_of((Wide{place} - state_.zero) * state_.num, state_.den));
+std::int64_t LinearScale::grating(std::int64_t position) const {
+    return static_cast<std::int64_t>(floor_of((Wide{position} - state_.zero) * state_.num, state_.den));
 }
 
 /// Within the dirt the count is constant.
@@ -100,19 +100,19 @@ std::int64_t LinearScale::visible(std::int64_t grating) const {
     return std::max(dirt_at_, grating - state_.dirt);
 }
 
-std::int64_t LinearScale::counted(std::int64_t place) const {
-    return state_.too_fast ? state_.frozen : state_.shift + state_.direction * visible(grating(place));
+std::int64_t LinearScale::counted(std::int64_t position) const {
+    return state_.too_fast ? state_.frozen : state_.shift + state_.direction * visible(grating(position));
 }
 
-bool LinearScale::index(std::int64_t place) const {
-    return settings_.index_nm && grating(place) == index_at_;
+bool LinearScale::index(std::int64_t position) const {
+    return settings_.index_nm && grating(position) == index_at_;
 }
 
 double LinearScale::rate(Instant t) const {
     if (state_.too_fast) return 0;
-    const std::int64_t at = grating(place_.count(t));
+    const std::int64_t at = grating(position_.count(t));
     if (at > dirt_at_ && at < dirt_at_ + state_.dirt) return 0;
-    return state_.direction * place_.rate(t) * counts_per_place();
+    return state_.direction * position_.rate(t) * counts_per_place();
 }
 
 /// Positions within which `counts` is not left.
@@ -169,7 +169,7 @@ void LinearScale::aim(Instant now) {
         places = places.within(place_range({here - 1, here + 1}));
         if (state_.shown != here) next = std::min(next, std::max(now, state_.free_at));
     }
-    place_.watch(slot_, places.below, places.above);
+    position_.watch(slot_, places.below, places.above);
     kernel_.schedule(id_, next);
 }
 
@@ -203,7 +203,7 @@ void LinearScale::report(AxisCondition code, std::int64_t a, std::int64_t b) {
 // ---- lines
 
 int LinearScale::level_at(int pin, Instant now) const {
-    if (pin == 2) return index(place_.count(now));
+    if (pin == 2) return index(position_.count(now));
     return sim::lines_of(live() ? state_.shown : count(now)) >> pin & 1;
 }
 
@@ -244,8 +244,8 @@ void LinearScale::flush() {
 // ---- faults
 
 bool LinearScale::fault(std::string_view name, double value, Instant now) {
-    const std::int64_t place = place_.count(now);
-    const auto followed = [&] { return state_.direction * visible(grating(place)); };
+    const std::int64_t position = position_.count(now);
+    const auto followed = [&] { return state_.direction * visible(grating(position)); };
     const std::int64_t before = followed();
     if (name == "scale.lose" && std::fabs(value) <= 1e12) {
         const std::int64_t counts = nearest(value);
@@ -264,9 +264,9 @@ bool LinearScale::fault(std::string_view name, double value, Instant now) {
         state_.swapped = swapped;
         state_.shift += before - followed();
     } else if (name == "scale.expansion" && std::fabs(value) <= 1e5) {
-        const std::int64_t here = grating(place);
+        const std::int64_t here = grating(position);
         set_ratio(value);
-        state_.zero = place - ceiling(Wide{here} * state_.den, state_.num);
+        state_.zero = position - ceiling(Wide{here} * state_.den, state_.num);
     } else {
         return false;
     }

@@ -51,15 +51,15 @@ Duration edge_spacing(const LinearScaleSettings& settings);
 class LinearScale final : public sim::DeferringDevice, public sim::PositionFunction, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wires NAME.a, NAME.b, NAME.z (lazily driven) to the kernel before it starts.
-    LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+    LinearScale(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
                 const LinearScaleSettings& settings = {});
 
     // ---- the counts
-    std::int64_t count(Instant t) const override { return counted(place_.count(t)); }
+    std::int64_t count(Instant t) const override { return counted(position_.count(t)); }
     double rate(Instant t) const override;
     void watch(int slot, std::int64_t below, std::int64_t above) override;
     int add_listener(sim::PositionListener& listener) override;
-    void watch_rate(double rate) override { place_.watch_rate(rate / counts_per_place()); }
+    void watch_rate(double rate) override { position_.watch_rate(rate / counts_per_place()); }
     void set_edge_listener(sim::EdgeListener* listener) override;
     void deliver_edges() override { flush(); }
 
@@ -116,10 +116,10 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
     void rate_changed(double before, double rate, Instant now) override;
 
     double counts_per_place() const { return static_cast<double>(state_.num) / static_cast<double>(state_.den); }
-    std::int64_t grating(std::int64_t place) const;
+    std::int64_t grating(std::int64_t position) const;
     std::int64_t visible(std::int64_t grating) const;
-    std::int64_t counted(std::int64_t place) const;
-    bool index(std::int64_t place) const;
+    std::int64_t counted(std::int64_t position) const;
+    bool index(std::int64_t position) const;
     Range place_range(const Range& counts) const;
     bool live() const { return state_.wanted != 0 || edges_ != nullptr; }
     void set_ratio(double ppm);
@@ -131,7 +131,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
     void flush();
 
     sim::Kernel& kernel_;
-    sim::PositionFunction& place_;
+    sim::PositionFunction& position_;
     LinearScaleSettings settings_;
     std::int64_t dirt_at_ = 0;  // count of the grating
     std::int64_t index_at_ = 0;

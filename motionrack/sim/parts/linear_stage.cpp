@@ -26,7 +26,7 @@ int sign(T x) {
     return (x > 0) - (x < 0);
 }
 
-Wide fine_place(std::int64_t count) {
+Wide fine_position(std::int64_t count) {
     return Wide{count} << fine_bits;
 }
 
@@ -71,7 +71,7 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
     MOTIONRACK_ASSERT(s.hard_stop_minus_nm >= -1e10 && s.hard_stop_minus_nm <= s.start_nm &&
                       s.start_nm <= s.hard_stop_plus_nm && s.hard_stop_plus_nm <= 1e10);
     kernel.listen(drive_, id_, 0);
-    state_.place = fine_place(count_of_nm(s.start_nm));
+    state_.position = fine_position(count_of_nm(s.start_nm));
     state_.load = s.load_mass_ratio;
     begin_law();
 }
@@ -83,7 +83,7 @@ std::span<const std::string_view> LinearStage::fault_names() {
 // ---- position
 
 std::int64_t LinearStage::count(Instant t) const {
-    return static_cast<std::int64_t>(place_at(t) >> fine_bits);
+    return static_cast<std::int64_t>(position_at(t) >> fine_bits);
 }
 
 double LinearStage::rate(Instant t) const {
@@ -91,7 +91,7 @@ double LinearStage::rate(Instant t) const {
 }
 
 double LinearStage::position_nm(Instant t) const {
-    return static_cast<double>(place_at(t)) / (fine_per_count * static_cast<double>(places_per_nm));
+    return static_cast<double>(position_at(t)) / (fine_per_count * static_cast<double>(places_per_nm));
 }
 
 double LinearStage::velocity(Instant t) const {
@@ -171,7 +171,7 @@ std::int64_t LinearStage::law_length() const {
 
 void LinearStage::move_to(Instant now) {
     hand_over(now);
-    state_.place = place_at(now);
+    state_.position = position_at(now);
     state_.velocity = velocity_at(now);
     state_.since = now;
 }
@@ -211,14 +211,14 @@ std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
 Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
     if (way == 0 || there > farthest_stage_counts || there < -farthest_stage_counts) return never;
-    const Wide edge = fine_place(way > 0 ? there : there + 1);
+    const Wide edge = fine_position(way > 0 ? there : there + 1);
     const auto passed = [&](std::int64_t ticks) {
         return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge;
     };
     const std::int64_t last = state_.length;
     if (passed(0)) return state_.since;
     if (!passed(last)) return never;
-    std::int64_t high = std::max<std::int64_t>(guess((edge - state_.place) * way, last), 1), low = 0, step = 1;
+    std::int64_t high = std::max<std::int64_t>(guess((edge - state_.position) * way, last), 1), low = 0, step = 1;
     if (passed(high)) {
         while (high - step > 0 && passed(high - step)) high -= step, step *= 2;
         low = std::max<std::int64_t>(high - step, 0);
@@ -251,7 +251,7 @@ bool LinearStage::meet_ends(Instant now) {
     if (!plus && !minus) return false;
     const double before = rate(now);
     move_to(now);
-    state_.place = fine_place(plus ? end_plus_ : end_minus_);
+    state_.position = fine_position(plus ? end_plus_ : end_minus_);
     state_.velocity = 0;
     state_.blocked = way;
     begin_law();
@@ -285,7 +285,7 @@ bool LinearStage::fault(std::string_view name, double value, Instant now) {
     } else if (name == "motor.push") {
         move_to(now);
         const std::int64_t there = std::clamp(count(now) + count_of_nm(value), end_minus_, end_plus_);
-        state_.place += fine_place(there - count(now));
+        state_.position += fine_position(there - count(now));
         state_.blocked = 0;
     } else if (name == "motor.friction" && factor) {
         state_.rubbing = value;

@@ -82,7 +82,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
   private:
     static constexpr int slots = sim::PositionFunction::max_listeners;
     struct State {
-        Wide place = 0;               ///< at `since`
+        Wide position = 0;            ///< at `since`
         Wide velocity = 0;            ///< per tick, at `since`
         std::int64_t half_accel = 0;  ///< half of the acceleration, per tick squared
         Instant since{};
@@ -98,9 +98,9 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
         std::int32_t reserved[3] = {};
     };
 
-    Wide place_at(Instant t) const { return place_after((t - state_.since).count()); }
+    Wide position_at(Instant t) const { return place_after((t - state_.since).count()); }
     Wide place_after(std::int64_t ticks) const {
-        return state_.place + ticks * (state_.velocity + Wide{state_.half_accel} * ticks);
+        return state_.position + ticks * (state_.velocity + Wide{state_.half_accel} * ticks);
     }
     Wide velocity_at(Instant t) const {
         return state_.velocity + 2 * Wide{state_.half_accel} * (t - state_.since).count();

@@ -7,33 +7,33 @@
 namespace motionrack::parts {
 
 PartSensor::PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire,
-                       sim::PositionFunction& place, const PartSensorSettings& settings)
+                       sim::PositionFunction& position, const PartSensorSettings& settings)
     : kernel_(kernel),
-      place_(place),
+      position_(position),
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       wire_(kernel.add_wire(wire, 1)),
-      slot_(place.add_listener(*this)) {
+      slot_(position.add_listener(*this)) {
     MOTIONRACK_ASSERT(settings.every > 0 && settings.length > 0 && settings.length < settings.every);
     kernel.schedule(id_, Instant{0});
 }
 
 /// Number of the part whose edge came last; negative: before the first one.
-std::int64_t PartSensor::number(std::int64_t place) const {
-    return floor_div(Wide{place} - settings_.first, settings_.every);
+std::int64_t PartSensor::number(std::int64_t position) const {
+    return floor_div(Wide{position} - settings_.first, settings_.every);
 }
 
 std::int64_t PartSensor::parts(Instant now) const {
-    return std::max<std::int64_t>(number(place_.count(now)) + 1, 0);
+    return std::max<std::int64_t>(number(position_.count(now)) + 1, 0);
 }
 
 void PartSensor::look(Instant now) {
-    const std::int64_t place = place_.count(now), n = number(place);
+    const std::int64_t position = position_.count(now), n = number(position);
     const std::int64_t edge = settings_.first + n * settings_.every, end = edge + settings_.length;
-    const bool there = n >= 0 && place < end;
+    const bool there = n >= 0 && position < end;
     kernel_.set_wire(wire_, there ? 0 : 1);
     // Left at the previous count, and at the count itself: see PositionFunction::watch.
-    place_.watch(slot_, (place < end ? edge : end) - 1, place < end ? end : edge + settings_.every);
+    position_.watch(slot_, (position < end ? edge : end) - 1, position < end ? end : edge + settings_.every);
 }
 
 }  // namespace motionrack::parts

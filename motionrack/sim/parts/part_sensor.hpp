@@ -21,7 +21,7 @@ struct PartSensorSettings {
 class PartSensor final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and the wire `wire` (high at rest) to the kernel before it starts.
-    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::PositionFunction& place,
+    PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::PositionFunction& position,
                const PartSensorSettings& settings);
 
     /// Number of parts whose leading edge has reached the sensor.
@@ -32,10 +32,10 @@ class PartSensor final : public sim::Device, private sim::PositionListener {
     void crossed(Instant now) override { look(now); }
     void rate_changed(double, double, Instant) override {}
     void look(Instant now);
-    std::int64_t number(std::int64_t place) const;
+    std::int64_t number(std::int64_t position) const;
 
     sim::Kernel& kernel_;
-    sim::PositionFunction& place_;
+    sim::PositionFunction& position_;
     PartSensorSettings settings_;
     sim::DeviceId id_{};
     sim::WireId wire_{};

@@ -4,21 +4,21 @@
 
 namespace motionrack::parts {
 
-ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
                            std::int64_t from, std::int64_t to, int active_level)
     : kernel_(kernel),
-      place_(place),
+      position_(position),
       interval_{from, to},
       active_level_(active_level),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       wire_(kernel.add_wire(name, 1 - active_level)),
-      slot_(place.add_listener(*this)) {
+      slot_(position.add_listener(*this)) {
     MOTIONRACK_ASSERT(from <= to);
     kernel.schedule(id_, Instant{0});
 }
 
 bool ReferenceCam::active(Instant t) const {
-    return interval_.has(place_.count(t));
+    return interval_.has(position_.count(t));
 }
 
 void ReferenceCam::on_scheduled(Instant now) {
@@ -27,8 +27,8 @@ void ReferenceCam::on_scheduled(Instant now) {
 
 void ReferenceCam::look(Instant now) {
     kernel_.set_wire(wire_, active(now) ? active_level_ : 1 - active_level_);
-    const sim::Range side = interval_.side_of(place_.count(now));
-    place_.watch(slot_, side.below, side.above);
+    const sim::Range side = interval_.side_of(position_.count(now));
+    position_.watch(slot_, side.below, side.above);
 }
 
 }  // namespace motionrack::parts

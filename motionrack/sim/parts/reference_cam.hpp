@@ -14,8 +14,8 @@ namespace motionrack::parts {
 class ReferenceCam final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wire of the same name to the kernel before it starts. `from` <= `to`, counts of
-    /// `place`.
-    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place, std::int64_t from,
+    /// `position`.
+    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position, std::int64_t from,
                  std::int64_t to, int active_level = 1);
 
     sim::WireId wire() const { return wire_; }
@@ -29,7 +29,7 @@ class ReferenceCam final : public sim::Device, private sim::PositionListener {
     void look(Instant now);
 
     sim::Kernel& kernel_;
-    sim::PositionFunction& place_;
+    sim::PositionFunction& position_;
     sim::Interval interval_;
     int active_level_;
     sim::DeviceId id_{};

@@ -21,9 +21,10 @@ LineOutputSettings lines_of_converter(const ResolverSettings& s) {
 
 }  // namespace
 
-Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
                    const ResolverSettings& settings)
-    : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_converter(settings)),
+    : EncoderPart(kernel, name, position, settings.counts_per_turn, settings.position_per_turn,
+                  lines_of_converter(settings)),
       los_(kernel.add_wire(name + ".los", 0)) {}
 
 /// The converter shows the angle f for the rotor at t:  (1 + g) sin t + a  :  cos t + b  =  sin f : cos f. That is

@@ -17,8 +17,8 @@ namespace motionrack::parts {
 
 struct ResolverSettings {
     std::int64_t counts_per_turn = 4096;  ///< counts of an electrical revolution: typically 2^10 to 2^16
-    std::int64_t place_per_turn =
-        4096;  ///< change of `place` per electrical revolution; with p pole pairs 1/p of a rotor revolution
+    std::int64_t position_per_turn =
+        4096;  ///< change of `position` per electrical revolution; with p pole pairs 1/p of a rotor revolution
     Duration min_edge_interval = nanoseconds(1'000);  ///< 10 ns .. 1 s: one count of the converter
     std::uint64_t seed = 1;
 };
@@ -27,7 +27,7 @@ class Resolver final : public EncoderPart {
   public:
     /// Adds the device `name` and the wires NAME.a, NAME.b, NAME.z, NAME.los to the kernel before it starts. The index
     /// is at angle 0.
-    Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& place,
+    Resolver(sim::Kernel& kernel, const std::string& name, sim::PositionFunction& position,
              const ResolverSettings& settings = {});
 
     sim::WireId los() const { return los_; }

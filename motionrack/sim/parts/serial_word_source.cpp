@@ -42,13 +42,13 @@ void SerialWordSource::schedule() {
 
 void SerialWordSource::on_scheduled(Instant now) {
     State& s = state_;
-    const auto place = [](std::int64_t n) { return static_cast<std::size_t>(n % max_under_way); };
+    const auto position = [](std::int64_t n) { return static_cast<std::size_t>(n % max_under_way); };
     if (reading(s.read) <= now) {
-        s.words[place(s.read)] = sender_.word_at(to_seconds(now));
+        s.words[position(s.read)] = sender_.word_at(to_seconds(now));
         ++s.read;
     }
     while (s.sent < s.read && reading(s.sent) + delay_ <= now) {
-        const std::int64_t word = s.words[place(s.sent++)];
+        const std::int64_t word = s.words[position(s.sent++)];
         if (s.silent) continue;
         if (word == s.word) s.frame = !s.frame;
         s.word = word;

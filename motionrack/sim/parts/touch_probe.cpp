@@ -10,13 +10,13 @@ TouchProbe::TouchProbe(sim::Kernel& kernel, const std::string& name)
     kernel.schedule(id_, Instant{0});
 }
 
-void TouchProbe::add_range(sim::PositionFunction& place, std::int64_t from, std::int64_t to) {
+void TouchProbe::add_range(sim::PositionFunction& position, std::int64_t from, std::int64_t to) {
     MOTIONRACK_ASSERT(from <= to);
-    sides_.emplace_back(*this, place, sim::Interval{from, to});
+    sides_.emplace_back(*this, position, sim::Interval{from, to});
 }
 
 bool TouchProbe::touches(Instant t) const {
-    const auto within = [t](const Side& side) { return side.interval.has(side.place.count(t)); };
+    const auto within = [t](const Side& side) { return side.interval.has(side.position.count(t)); };
     return !sides_.empty() && std::all_of(sides_.begin(), sides_.end(), within);
 }
 
@@ -27,8 +27,8 @@ void TouchProbe::on_scheduled(Instant now) {
 void TouchProbe::look(Instant now) {
     kernel_.set_wire(wire_, touches(now));
     for (Side& side : sides_) {
-        const sim::Range around = side.interval.side_of(side.place.count(now));
-        side.place.watch(side.slot, around.below, around.above);
+        const sim::Range around = side.interval.side_of(side.position.count(now));
+        side.position.watch(side.slot, around.below, around.above);
     }
 }
 

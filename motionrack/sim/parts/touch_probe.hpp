@@ -21,8 +21,8 @@ class TouchProbe final : public sim::Device {
     /// touches nothing.
     TouchProbe(sim::Kernel& kernel, const std::string& name);
 
-    /// Before the kernel starts: limits the block to `from` .. `to`, counts of `place`, both included.
-    void add_range(sim::PositionFunction& place, std::int64_t from, std::int64_t to);
+    /// Before the kernel starts: limits the block to `from` .. `to`, counts of `position`, both included.
+    void add_range(sim::PositionFunction& position, std::int64_t from, std::int64_t to);
 
     sim::WireId wire() const { return wire_; }
     bool touches(Instant t) const;
@@ -33,12 +33,12 @@ class TouchProbe final : public sim::Device {
     /// One axis of the block.
     struct Side final : sim::PositionListener {
         Side(TouchProbe& its, sim::PositionFunction& motion, sim::Interval of_block)
-            : probe(its), place(motion), interval(of_block), slot(motion.add_listener(*this)) {}
+            : probe(its), position(motion), interval(of_block), slot(motion.add_listener(*this)) {}
         void crossed(Instant now) override { probe.look(now); }
         void rate_changed(double, double, Instant) override {}
 
         TouchProbe& probe;
-        sim::PositionFunction& place;
+        sim::PositionFunction& position;
         sim::Interval interval;
         int slot;
     };

@@ -44,8 +44,8 @@ class Counter final : public sim::Device {
 template <class Part, class Settings>
 struct World {
     World(const Settings& settings, std::vector<sim::PulseLaw> laws)
-        : place(kernel, std::move(laws)),
-          part(kernel, "enc", place, settings),
+        : position(kernel, std::move(laws)),
+          part(kernel, "enc", position, settings),
           counter(kernel, part.a(), part.b(), part.z()) {
         kernel.start();
         kernel.run_until(Instant{0});
@@ -58,7 +58,7 @@ struct World {
     }
     std::int64_t counted() const { return counter.decoder.count(); }
     sim::Kernel kernel;
-    sim::FakePulses place;
+    sim::FakePulses position;
     Part part;
     Counter counter;
 };
@@ -67,7 +67,7 @@ using Winding = World<Resolver, ResolverSettings>;
 
 /// A disc of 400 counts on a rotor of 4000 microsteps, a step each 1 us: 100,000 counts/s.
 LineEncoderSettings small_disc() {
-    return {.counts_per_turn = 400, .place_per_turn = 4000};
+    return {.counts_per_turn = 400, .position_per_turn = 4000};
 }
 const std::vector<sim::PulseLaw> forwards = {{Instant{0}, microseconds(1), 1}};
 const std::vector<sim::PulseLaw> to_and_fro = {
@@ -99,7 +99,7 @@ TEST(LineEncoder, TheIndexComesOnceATurnAtTheSamePlaceFromBothSides) {
 }
 
 TEST(LineEncoder, EdgesOfAPlaceThatIsCoarserThanTheCountsComeOneAfterTheOther) {
-    Disc w({.counts_per_turn = 4000, .place_per_turn = 1000}, {{Instant{0}, microseconds(10), 1}});
+    Disc w({.counts_per_turn = 4000, .position_per_turn = 1000}, {{Instant{0}, microseconds(10), 1}});
     w.run(milliseconds(10));
     w.run(microseconds(9));
     EXPECT_EQ(w.counted(), 4000);
@@ -290,7 +290,7 @@ RC_GTEST_PROP(LineEncoder, GivesTheSameEventTraceForEqualSeedsAndAfterARestoreWi
 RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsAsTheExactRatioSays, ()) {
     LineEncoderSettings s;
     s.counts_per_turn = 4 * *rc::gen::inRange(1, 2000);
-    s.place_per_turn = *rc::gen::inRange<std::int64_t>(1, 30'000);
+    s.position_per_turn = *rc::gen::inRange<std::int64_t>(1, 30'000);
     std::vector<sim::PulseLaw> laws;
     for (int i = 0; i < 5; ++i)
         laws.push_back(
@@ -299,8 +299,8 @@ RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsAsTheExactRatioSays, ()) {
     s.min_edge_interval = nanoseconds(10);
     Disc w(s, laws);
     w.run(milliseconds(20));
-    const std::int64_t place = w.place.count(w.kernel.now());
-    RC_ASSERT(w.part.count() == floor_div(Wide{place} * s.counts_per_turn, s.place_per_turn));
+    const std::int64_t position = w.position.count(w.kernel.now());
+    RC_ASSERT(w.part.count() == floor_div(Wide{position} * s.counts_per_turn, s.position_per_turn));
     if (w.part.lost() == 0) RC_ASSERT(w.counted() == w.part.count());
     RC_ASSERT(w.counter.decoder.illegal() == 0u);
 }
@@ -320,7 +320,7 @@ TEST(LineEncoder, ARunWithFaultsAllocatesNothing) {
 // ---- resolver
 
 ResolverSettings small_resolver() {
-    return {.counts_per_turn = 1024, .place_per_turn = 10'240};
+    return {.counts_per_turn = 1024, .position_per_turn = 10'240};
 }
 
 TEST(Resolver, GivesLinesAndAnIndexAsAnEncoderDoes) {

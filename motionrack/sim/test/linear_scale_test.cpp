@@ -96,8 +96,8 @@ RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
     for (int i = 0; i < 6; ++i) {
         rig.volts(*rc::gen::inRange(-100, 101) * 0.01);
         rig.run(1e-4 * *rc::gen::inRange(1, 200));
-        const std::int64_t place = rig.stage.count(rig.kernel.now());
-        const long double nm = static_cast<long double>(place) / 1024 - s.zero_offset_nm;
+        const std::int64_t position = rig.stage.count(rig.kernel.now());
+        const long double nm = static_cast<long double>(position) / 1024 - s.zero_offset_nm;
         const long double counts = nm * 1'000 * s.interpolation / s.pitch_pm;
         const auto expected = static_cast<std::int64_t>(std::floor(counts));
         RC_ASSERT(rig.scale.lost() == 0);

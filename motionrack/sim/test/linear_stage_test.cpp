@@ -32,7 +32,7 @@ struct Rig {
 struct Stepped {
     LinearStageSettings s;
     double volts = 0;
-    long double velocity = 0, place = 0, peak_velocity = 0;
+    long double velocity = 0, position = 0, peak_velocity = 0;
     void run(double seconds) {
         const long double h = 0.25e-6L, mass = 1 + s.load_mass_ratio;
         for (auto steps = std::llround(seconds / 0.25e-6); steps > 0; --steps) {
@@ -47,7 +47,7 @@ struct Stepped {
             velocity = std::clamp<long double>(velocity + h * accel, -s.saturation_velocity, s.saturation_velocity);
             if (before * velocity < 0 && s.coulomb_friction > 0) velocity = 0;
             peak_velocity = std::max(peak_velocity, std::fabs(velocity));
-            place += h * (before + velocity) / 2;
+            position += h * (before + velocity) / 2;
         }
     }
 };
@@ -71,9 +71,9 @@ RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
         // At a reversal or at the saturation velocity, the steps have an error of one step: 0.25 us of 50 m/s2 persist
         // for the rest of the run.
         RC_ASSERT(std::fabs(rig.velocity() - static_cast<double>(stepped.velocity)) < 5e-5);
-        RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
+        RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.position * 1e9L)) < 5e-5 * 0.15 * 1e9);
         if (s.coulomb_friction == 0 && s.viscous_friction == 0 && stepped.peak_velocity < s.saturation_velocity)
-            RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 0.01);
+            RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.position * 1e9L)) < 0.01);
     }
 }
 

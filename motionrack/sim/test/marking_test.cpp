@@ -208,17 +208,18 @@ TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
 
 TEST(Nearest, IsThatOfASearchThroughAllOfThemToTheLastBit) {
     std::vector<DrawnSegment> many;
-    const auto place = [](int i, double size) {
+    const auto position = [](int i, double size) {
         return sim::Spot{std::fmod(i * 7.13, size), std::fmod(i * i * 0.377, size)};
     };
     for (int i = 0; i < 300; ++i) {
-        const sim::Spot at = place(i, 50), to = i % 40 == 0 ? place(i + 7, 50) : sim::Spot{at.x + 0.3, at.y - 0.2};
+        const sim::Spot at = position(i, 50),
+                        to = i % 40 == 0 ? position(i + 7, 50) : sim::Spot{at.x + 0.3, at.y - 0.2};
         many.push_back({at, to});
     }
     const NearestSegment all(many);
     for (int i = 0; i < 2000; ++i) {
         const sim::Spot p = i % 3 == 0 ? many[static_cast<std::size_t>(i) % many.size()].to
-                                       : sim::Spot{place(i, 90).x - 20, place(i + 1, 90).y - 20};
+                                       : sim::Spot{position(i, 90).x - 20, position(i + 1, 90).y - 20};
         double best = std::numeric_limits<double>::infinity();
         for (const DrawnSegment& s : many) best = std::min(best, NearestSegment(std::span(&s, 1)).distance(p));
         ASSERT_EQ(all.distance(p), best) << p.x << ' ' << p.y;

@@ -124,9 +124,9 @@ TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsCha
 TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
     sim::Kernel kernel;
     ConveyorDrive drive(kernel, "belt", track_of({{0, 100}}));
-    ConveyorPosition place(kernel, "place", drive.track(), 1000);
-    drive.add(place);
-    PartSensor sensor(kernel, "sensor", "belt.sensor_n", place, {5'000, 20'000, 8'000});
+    ConveyorPosition position(kernel, "place", drive.track(), 1000);
+    drive.add(position);
+    PartSensor sensor(kernel, "sensor", "belt.sensor_n", position, {5'000, 20'000, 8'000});
     kernel.start();
     const sim::WireId wire = kernel.find_wire("belt.sensor_n");
     const auto at = [&](int ms) {

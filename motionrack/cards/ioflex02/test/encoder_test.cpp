@@ -67,13 +67,13 @@ struct Machine {
 };
 
 parts::LineEncoderSettings disc() {
-    return {.counts_per_turn = 400, .place_per_turn = 4000, .dirt_at = 120};
+    return {.counts_per_turn = 400, .position_per_turn = 4000, .dirt_at = 120};
 }
 struct Disc : Machine<parts::LineEncoder, parts::LineEncoderSettings> {
     explicit Disc(const EncoderCheckSettings& checks = {.counts_per_index = 400}) : Machine(disc(), checks) {}
 };
 struct Winding : Machine<parts::Resolver, parts::ResolverSettings> {
-    Winding() : Machine({.counts_per_turn = 400, .place_per_turn = 4000}) {}
+    Winding() : Machine({.counts_per_turn = 400, .position_per_turn = 4000}) {}
 };
 
 TEST(EncoderCheck, FindsNothingAtAHealthyEncoderThatGoesToAndFro) {

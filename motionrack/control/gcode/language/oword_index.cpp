@@ -19,11 +19,11 @@ class Indexer {
     void finish();
 
   private:
-    OWordLocation& open_place() { return index_.places[static_cast<std::size_t>(open_.back())]; }
-    std::string what(const OWordLocation& place) const {
-        return fmt::format("o{} {}", labels_[static_cast<std::size_t>(place.label)], name_of(place.word));
+    OWordLocation& open_place() { return index_.locations[static_cast<std::size_t>(open_.back())]; }
+    std::string what(const OWordLocation& location) const {
+        return fmt::format("o{} {}", labels_[static_cast<std::size_t>(location.label)], name_of(location.word));
     }
-    void fail(const OWordLocation& place, std::string message);
+    void fail(const OWordLocation& location, std::string message);
     void pair(std::int32_t at);
     void begin_sub(std::int32_t at, const std::string& label);
     void begin_program(std::int32_t at, const std::string& label);
@@ -49,11 +49,11 @@ std::int32_t Indexer::label_number(const std::string& label) {
     return found->second;
 }
 
-void Indexer::fail(const OWordLocation& place, std::string message) {
+void Indexer::fail(const OWordLocation& location, std::string message) {
     if (index_.problems.size() >= max_problems) return;
     Problem problem;
-    set_problem(problem, place.text, place.column, GrblStatus::unsupported, std::move(message));
-    problem.place.line = place.line;
+    set_problem(problem, location.text, location.column, GrblStatus::unsupported, std::move(message));
+    problem.location.line = location.line;
     index_.problems.push_back(std::move(problem));
 }
 
@@ -61,70 +61,72 @@ void Indexer::line(std::string_view text, std::size_t column, const ProgramLines
     OWordStatement words;
     Problem problem;
     if (!parse_oword(text, column, words, problem)) {
-        problem.place.line = after.number();
+        problem.location.line = after.number();
         if (index_.problems.size() < max_problems) index_.problems.push_back(std::move(problem));
         return;
     }
-    OWordLocation& place = index_.places.emplace_back(before, after);
-    place.word = words.word;
-    place.column = words.column;
-    place.rest = words.rest;
-    place.line = after.number();
-    place.label = label_number(words.label);
-    place.text = text;
-    const auto at = static_cast<std::int32_t>(index_.places.size() - 1);
-    const bool takes_values = place.word == OWord::call || place.word == OWord::endsub ||
-                              place.word == OWord::return_sub || place.word == OWord::if_true ||
-                              place.word == OWord::else_if || place.word == OWord::while_true ||
-                              place.word == OWord::repeat;
-    if (!takes_values && !is_rest_empty(text, place.rest))
-        fail(place, fmt::format("{}: only a comment may follow it", what(place)));
-    if (place.word == OWord::sub)
+    OWordLocation& location = index_.locations.emplace_back(before, after);
+    location.word = words.word;
+    location.column = words.column;
+    location.rest = words.rest;
+    location.line = after.number();
+    location.label = label_number(words.label);
+    location.text = text;
+    const auto at = static_cast<std::int32_t>(index_.locations.size() - 1);
+    const bool takes_values = location.word == OWord::call || location.word == OWord::endsub ||
+                              location.word == OWord::return_sub || location.word == OWord::if_true ||
+                              location.word == OWord::else_if || location.word == OWord::while_true ||
+                              location.word == OWord::repeat;
+    if (!takes_values && !is_rest_empty(text, location.rest))
+        fail(location, fmt::format("{}: only a comment may follow it", what(location)));
+    if (location.word == OWord::sub)
         begin_sub(at, words.label);
-    else if (place.word == OWord::numbered)
+    else if (location.word == OWord::numbered)
         begin_program(at, words.label);
     else
         pair(at);
 }
 
 void Indexer::begin_sub(std::int32_t at, const std::string& label) {
-    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    const OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
     if (!open_.empty())
-        return fail(place, fmt::format("{}: a sub must not be nested, but {} of line {} is open here; end that first",
-                                       what(place), what(open_place()), open_place().line));
+        return fail(location,
+                    fmt::format("{}: a sub must not be nested, but {} of line {} is open here; end that first",
+                                what(location), what(open_place()), open_place().line));
     const auto [found, is_first] = index_.subs.try_emplace(label, at);
     if (!is_first)
-        return fail(place, fmt::format("{}: line {} has the same one; each sub needs its own number or name",
-                                       what(place), index_.places[static_cast<std::size_t>(found->second)].line));
-    index_.places.back().begin = at;
+        return fail(location,
+                    fmt::format("{}: line {} has the same one; each sub needs its own number or name", what(location),
+                                index_.locations[static_cast<std::size_t>(found->second)].line));
+    index_.locations.back().begin = at;
     open_.push_back(at);
 }
 
 /// O100 starts program 100, up to M99 or the end of the program.
 void Indexer::begin_program(std::int32_t at, const std::string& label) {
-    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    const OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
     if (!open_.empty())
         return fail(
-            place,
+            location,
             fmt::format("O{}: a numbered program must not be nested, but {} of line {} is open here; end that first",
                         label, what(open_place()), open_place().line));
     const auto [found, is_first] = index_.programs.try_emplace(label, at);
     if (is_first) return;
-    fail(place, fmt::format("O{}: line {} has the same one; each program needs its own number", label,
-                            index_.places[static_cast<std::size_t>(found->second)].line));
+    fail(location, fmt::format("O{}: line {} has the same one; each program needs its own number", label,
+                               index_.locations[static_cast<std::size_t>(found->second)].line));
 }
 
 void Indexer::pair(std::int32_t at) {
-    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
-    switch (place.word) {
+    OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
+    switch (location.word) {
         case OWord::while_true:
-            if (!open_.empty() && open_place().word == OWord::do_once && open_place().label == place.label)
+            if (!open_.empty() && open_place().word == OWord::do_once && open_place().label == location.label)
                 return close(at, OWord::do_once);
             [[fallthrough]];
         case OWord::if_true:
         case OWord::do_once:
         case OWord::repeat:
-            place.begin = at;
+            location.begin = at;
             open_.push_back(at);
             return;
         case OWord::endsub:
@@ -149,34 +151,34 @@ void Indexer::pair(std::int32_t at) {
 
 /// Returns true if the innermost open word is `opener` with the label of the location.
 bool Indexer::fits(std::int32_t at, OWord opener) {
-    const OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    const OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
     const auto opens = [&](std::int32_t one) {
-        const OWordLocation& other = index_.places[static_cast<std::size_t>(one)];
-        const OWordLocation& first = index_.places[static_cast<std::size_t>(other.begin)];
-        return first.word == opener && first.label == place.label;
+        const OWordLocation& other = index_.locations[static_cast<std::size_t>(one)];
+        const OWordLocation& first = index_.locations[static_cast<std::size_t>(other.begin)];
+        return first.word == opener && first.label == location.label;
     };
     if (!open_.empty() && opens(open_.back())) return true;
     if (const auto outer = std::find_if(open_.begin(), open_.end(), opens); outer != open_.end()) {
         open_.erase(outer);  // already reported
-        fail(place, fmt::format("{}: {} of line {} is open here; end that first", what(place), what(open_place()),
-                                open_place().line));
+        fail(location, fmt::format("{}: {} of line {} is open here; end that first", what(location), what(open_place()),
+                                   open_place().line));
     } else {
-        fail(place,
-             fmt::format("{}: no o{} {} is open here; {} it with that, or leave it out", what(place),
-                         labels_[static_cast<std::size_t>(place.label)], name_of(opener),
-                         place.word == OWord::else_if || place.word == OWord::else_branch ? "precede" : "begin"));
+        fail(location,
+             fmt::format("{}: no o{} {} is open here; {} it with that, or leave it out", what(location),
+                         labels_[static_cast<std::size_t>(location.label)], name_of(opener),
+                         location.word == OWord::else_if || location.word == OWord::else_branch ? "precede" : "begin"));
     }
     return false;
 }
 
 void Indexer::branch(std::int32_t at) {
     if (!fits(at, OWord::if_true)) return;
-    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
+    OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
     OWordLocation& before = open_place();
     if (before.word == OWord::else_branch)
-        return fail(place, fmt::format("{}: the else of line {} is the last branch", what(place), before.line));
+        return fail(location, fmt::format("{}: the else of line {} is the last branch", what(location), before.line));
     before.branch = at;
-    place.begin = before.begin;
+    location.begin = before.begin;
     open_.back() = at;
 }
 
@@ -185,32 +187,32 @@ void Indexer::close(std::int32_t at, OWord opener) {
     OWordLocation& last = open_place();
     last.branch = at;
     const std::int32_t begin = last.begin;
-    for (std::int32_t one = begin; one != at; one = index_.places[static_cast<std::size_t>(one)].branch)
-        index_.places[static_cast<std::size_t>(one)].end = at;
-    index_.places[static_cast<std::size_t>(at)].begin = begin;
-    index_.places[static_cast<std::size_t>(at)].end = at;
+    for (std::int32_t one = begin; one != at; one = index_.locations[static_cast<std::size_t>(one)].branch)
+        index_.locations[static_cast<std::size_t>(one)].end = at;
+    index_.locations[static_cast<std::size_t>(at)].begin = begin;
+    index_.locations[static_cast<std::size_t>(at)].end = at;
     open_.pop_back();
 }
 
 /// Checks that break, continue and return are inside their loop or sub.
 void Indexer::inside(std::int32_t at) {
-    OWordLocation& place = index_.places[static_cast<std::size_t>(at)];
-    const bool returns = place.word == OWord::return_sub;
+    OWordLocation& location = index_.locations[static_cast<std::size_t>(at)];
+    const bool returns = location.word == OWord::return_sub;
     for (auto one = open_.rbegin(); one != open_.rend(); ++one) {
-        const OWordLocation& other = index_.places[static_cast<std::size_t>(*one)];
-        if ((returns ? other.word == OWord::sub : is_loop(other.word)) && other.label == place.label) {
-            place.begin = *one;
+        const OWordLocation& other = index_.locations[static_cast<std::size_t>(*one)];
+        if ((returns ? other.word == OWord::sub : is_loop(other.word)) && other.label == location.label) {
+            location.begin = *one;
             return;
         }
     }
-    fail(place, fmt::format("{}: it is not inside {} o{}", what(place), returns ? "sub" : "loop",
-                            labels_[static_cast<std::size_t>(place.label)]));
+    fail(location, fmt::format("{}: it is not inside {} o{}", what(location), returns ? "sub" : "loop",
+                               labels_[static_cast<std::size_t>(location.label)]));
 }
 
 void Indexer::finish() {
     for (const std::int32_t one : open_) {
-        const OWordLocation& place = index_.places[static_cast<std::size_t>(one)];
-        const OWordLocation& first = index_.places[static_cast<std::size_t>(place.begin)];
+        const OWordLocation& location = index_.locations[static_cast<std::size_t>(one)];
+        const OWordLocation& first = index_.locations[static_cast<std::size_t>(location.begin)];
         const OWord end = first.word == OWord::sub          ? OWord::endsub
                           : first.word == OWord::if_true    ? OWord::endif
                           : first.word == OWord::while_true ? OWord::endwhile
@@ -220,17 +222,17 @@ void Indexer::finish() {
                                 labels_[static_cast<std::size_t>(first.label)], name_of(end)));
     }
     std::stable_sort(index_.problems.begin(), index_.problems.end(),
-                     [](const Problem& a, const Problem& b) { return a.place.line < b.place.line; });
+                     [](const Problem& a, const Problem& b) { return a.location.line < b.location.line; });
 }
 
 }  // namespace
 
 std::int32_t OWordIndex::at_line(std::int32_t line) const {
     const auto found =
-        std::lower_bound(places.begin(), places.end(), line,
-                         [](const OWordLocation& place, std::int32_t wanted) { return place.line < wanted; });
-    return found != places.end() && found->line == line ? static_cast<std::int32_t>(found - places.begin())
-                                                        : no_location;
+        std::lower_bound(locations.begin(), locations.end(), line,
+                         [](const OWordLocation& location, std::int32_t wanted) { return location.line < wanted; });
+    return found != locations.end() && found->line == line ? static_cast<std::int32_t>(found - locations.begin())
+                                                           : no_location;
 }
 
 OWordIndex index_owords(std::string_view text, bool block_delete) {

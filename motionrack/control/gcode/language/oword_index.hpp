@@ -36,7 +36,7 @@ struct OWordLocation {
 };
 
 struct OWordIndex {
-    std::vector<OWordLocation> places;                          ///< in line order
+    std::vector<OWordLocation> locations;                       ///< in line order
     std::map<std::string, std::int32_t, std::less<>> subs;      ///< by label
     std::map<std::string, std::int32_t, std::less<>> programs;  ///< numbered programs: O100 .. M99
     std::vector<Problem> problems;                              ///< errors in the pairing, without the file

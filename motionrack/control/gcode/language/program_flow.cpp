@@ -30,13 +30,13 @@ void ProgramFlow::see_end(std::string_view line) {
     if (source_ == sources_.front().get() && end_.is_at(line)) over_ = true;
 }
 
-void ProgramFlow::place(Problem& problem) const {
-    problem.place.line = lines_.number();
+void ProgramFlow::location(Problem& problem) const {
+    problem.location.line = lines_.number();
     problem.file = source_->file;
 }
 
 void ProgramFlow::line_rejected(std::string_view text, Problem& problem) {
-    place(problem);
+    location(problem);
     see_end(text);
 }
 
@@ -46,9 +46,9 @@ Problem ProgramFlow::take_fault() {
     return first;
 }
 
-bool ProgramFlow::fail(const OWordLocation& place, std::size_t column, std::string message) {
-    set_problem(problem_, place.text, column, GrblStatus::unsupported, std::move(message));
-    problem_.place.line = place.line;
+bool ProgramFlow::fail(const OWordLocation& location, std::size_t column, std::string message) {
+    set_problem(problem_, location.text, column, GrblStatus::unsupported, std::move(message));
+    problem_.location.line = location.line;
     problem_.file = source_->file;
     return false;
 }
@@ -70,73 +70,73 @@ Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported,
                     "this O word was not indexed; put it first on its line");
-        place(problem_);
+        location(problem_);
         return tl::unexpected<Problem>(problem_);
     }
-    const OWordLocation place = place_at(at);
-    if (!within_budget(place) || !execute(place, at, interpreter)) return tl::unexpected<Problem>(problem_);
+    const OWordLocation location = place_at(at);
+    if (!within_budget(location) || !execute(location, at, interpreter)) return tl::unexpected<Problem>(problem_);
     return {};
 }
 
 /// Enforces the budget: loops and calls may execute more lines than the program has.
-bool ProgramFlow::within_budget(const OWordLocation& place) {
+bool ProgramFlow::within_budget(const OWordLocation& location) {
     furthest_ = highest_line();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
     const ProgramSource& main = *sources_.front();
     if (walked_ <= max_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
-    return fail(place, place.column,
+    return fail(location, location.column,
                 fmt::format("the program has executed {} lines without an end; check that this loop or call ends. The "
                             "rest was not read",
                             walked_));
 }
 
-void ProgramFlow::jump(const OWordLocation& place) {
-    lines_ = place.after;
-    counted_from_ = place.line;
+void ProgramFlow::jump(const OWordLocation& location) {
+    lines_ = location.after;
+    counted_from_ = location.line;
 }
 
-bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter) {
-    switch (place.word) {
+bool ProgramFlow::execute(const OWordLocation& location, std::int32_t at, Interpreter& interpreter) {
+    switch (location.word) {
         case OWord::sub:
-            jump(place_at(place.end));
+            jump(place_at(location.end));
             return true;
         case OWord::call:
-            return call(place, interpreter);
+            return call(location, interpreter);
         case OWord::endsub:
         case OWord::return_sub:
-            return return_sub(place, interpreter);
+            return return_sub(location, interpreter);
         case OWord::if_true:
             return choose(at, interpreter);
         case OWord::else_if:
         case OWord::else_branch:
-            jump(place_at(place.end));
+            jump(place_at(location.end));
             return true;
         case OWord::while_true: {
             double value = 0;
-            const bool good = evaluate(place, interpreter, value);
-            const OWordLocation& begin = place_at(place.begin);
+            const bool good = evaluate(location, interpreter, value);
+            const OWordLocation& begin = place_at(location.begin);
             if (begin.word == OWord::do_once) {
                 if (good && value != 0) jump(begin);
             } else if (!good || value == 0) {
-                jump(place_at(place.end));
+                jump(place_at(location.end));
             }
             return good;
         }
         case OWord::endwhile:
-            continue_loop(place_at(place.begin));
+            continue_loop(place_at(location.begin));
             return true;
         case OWord::repeat:
-            return begin_repeat(place, at, interpreter);
+            return begin_repeat(location, at, interpreter);
         case OWord::endrepeat:
-            end_repeat(place);
+            end_repeat(location);
             return true;
         case OWord::break_loop:
-            break_loop(place_at(place.begin));
+            break_loop(place_at(location.begin));
             return true;
         case OWord::continue_loop:
-            continue_loop(place_at(place.begin));
+            continue_loop(place_at(location.begin));
             return true;
         case OWord::endif:
         case OWord::do_once:
@@ -149,41 +149,41 @@ bool ProgramFlow::execute(const OWordLocation& place, std::int32_t at, Interpret
 /// Continues behind the first branch whose condition holds, or behind the endif.
 bool ProgramFlow::choose(std::int32_t at, Interpreter& interpreter) {
     for (;;) {
-        const OWordLocation& place = place_at(at);
-        if (place.word == OWord::else_branch || place.word == OWord::endif) {
-            jump(place);
+        const OWordLocation& location = place_at(at);
+        if (location.word == OWord::else_branch || location.word == OWord::endif) {
+            jump(location);
             return true;
         }
         ++walked_;
         double value = 0;
-        if (!evaluate(place, interpreter, value)) {
-            jump(place_at(place.end));
+        if (!evaluate(location, interpreter, value)) {
+            jump(place_at(location.end));
             return false;
         }
         if (value != 0) {
-            jump(place);
+            jump(location);
             return true;
         }
-        at = place.branch;
+        at = location.branch;
     }
 }
 
-bool ProgramFlow::begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter) {
+bool ProgramFlow::begin_repeat(const OWordLocation& location, std::int32_t at, Interpreter& interpreter) {
     double times = 0;
-    const bool good = evaluate(place, interpreter, times);
+    const bool good = evaluate(location, interpreter, times);
     times = std::floor(std::min(times, max_loop_repeats) + 0.5);
     if (!good || times < 1) {
-        jump(place_at(place.end));
+        jump(place_at(location.end));
         return good;
     }
     repeats_.push_back({at, static_cast<std::int64_t>(times)});
     return true;
 }
 
-void ProgramFlow::end_repeat(const OWordLocation& place) {
-    if (repeats_.empty() || repeats_.back().place != place.begin) return;
+void ProgramFlow::end_repeat(const OWordLocation& location) {
+    if (repeats_.empty() || repeats_.back().location != location.begin) return;
     if (--repeats_.back().left > 0)
-        jump(place_at(place.begin));
+        jump(place_at(location.begin));
     else
         repeats_.pop_back();
 }
@@ -191,7 +191,7 @@ void ProgramFlow::end_repeat(const OWordLocation& place) {
 /// Removes the repeats of this call between two locations.
 void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
     const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
-    while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last)
+    while (repeats_.size() > outer && repeats_.back().location >= first && repeats_.back().location < last)
         repeats_.pop_back();
 }
 

@@ -73,12 +73,12 @@ class ProgramFlow {
     };
     /// An active repeat loop.
     struct Repeat {
-        std::int32_t place;
+        std::int32_t location;
         std::int64_t left;
     };
     struct Target {
         ProgramSource* source;
-        std::int32_t place;
+        std::int32_t location;
     };
 
     Outcome<void> follow(Interpreter& interpreter);
@@ -88,37 +88,37 @@ class ProgramFlow {
     bool add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour, Point& at,
                      bool& begun);
     OWordLocation this_line(const Block& block, std::size_t column) const;
-    bool call_program(const OWordLocation& place, Interpreter& interpreter);
-    bool leave_program(const OWordLocation& place, Interpreter& interpreter);
-    bool end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned);
+    bool call_program(const OWordLocation& location, Interpreter& interpreter);
+    bool leave_program(const OWordLocation& location, Interpreter& interpreter);
+    bool end_call(const OWordLocation& location, Interpreter& interpreter, std::optional<double> returned);
     bool text_ended();
     void enter(const Target& target, std::int32_t program, std::int64_t times);
     void back_to_caller();
     void see_end(std::string_view line);
-    void place(Problem& problem) const;
+    void location(Problem& problem) const;
     bool make_index(ProgramSource& source);
-    bool within_budget(const OWordLocation& place);
-    bool execute(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
+    bool within_budget(const OWordLocation& location);
+    bool execute(const OWordLocation& location, std::int32_t at, Interpreter& interpreter);
     bool choose(std::int32_t at, Interpreter& interpreter);
-    bool begin_repeat(const OWordLocation& place, std::int32_t at, Interpreter& interpreter);
-    void end_repeat(const OWordLocation& place);
+    bool begin_repeat(const OWordLocation& location, std::int32_t at, Interpreter& interpreter);
+    void end_repeat(const OWordLocation& location);
     void break_loop(const OWordLocation& loop);
     void continue_loop(const OWordLocation& loop);
-    bool call(const OWordLocation& place, Interpreter& interpreter);
-    bool return_sub(const OWordLocation& place, Interpreter& interpreter);
-    bool find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
+    bool call(const OWordLocation& location, Interpreter& interpreter);
+    bool return_sub(const OWordLocation& location, Interpreter& interpreter);
+    bool find_sub(const OWordLocation& location, const std::string& label, bool numbered, Target& target);
     bool look_for(const std::string& label, bool numbered, Target& target);
-    bool load(const OWordLocation& place, const std::string& label, bool numbered, Target& target);
-    bool evaluate(const OWordLocation& place, Interpreter& interpreter, double& value);
-    bool arguments(const OWordLocation& place, std::size_t max_values, Interpreter& interpreter,
+    bool load(const OWordLocation& location, const std::string& label, bool numbered, Target& target);
+    bool evaluate(const OWordLocation& location, Interpreter& interpreter, double& value);
+    bool arguments(const OWordLocation& location, std::size_t max_values, Interpreter& interpreter,
                    std::vector<double>& values);
-    bool label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label);
-    void jump(const OWordLocation& place);
+    bool label_of_call(const OWordLocation& location, Interpreter& interpreter, std::string& label);
+    void jump(const OWordLocation& location);
     void forget_repeats(std::int32_t first, std::int32_t last);
     const OWordLocation& place_at(std::int32_t at) const {
-        return source_->index->places[static_cast<std::size_t>(at)];
+        return source_->index->locations[static_cast<std::size_t>(at)];
     }
-    bool fail(const OWordLocation& place, std::size_t column, std::string message);
+    bool fail(const OWordLocation& location, std::size_t column, std::string message);
 
     ProgramLines lines_;
     bool over_ = false;

@@ -39,67 +39,69 @@ std::string too_deep(const std::string& asks) {
 }  // namespace
 
 /// Evaluates the values in brackets up to the end of the line.
-bool ProgramFlow::arguments(const OWordLocation& place, std::size_t max_values, Interpreter& interpreter,
+bool ProgramFlow::arguments(const OWordLocation& location, std::size_t max_values, Interpreter& interpreter,
                             std::vector<double>& values) {
     const MachineParameters known(interpreter);
-    ExpressionParser reader(place.text, known);
-    const char* at = place.text.data() + place.rest;
-    const char* end = place.text.data() + place.text.size();
+    ExpressionParser reader(location.text, known);
+    const char* at = location.text.data() + location.rest;
+    const char* end = location.text.data() + location.text.size();
     for (;;) {
         while (at < end && is_blank(*at)) ++at;
-        const auto column = static_cast<std::size_t>(at - place.text.data());
+        const auto column = static_cast<std::size_t>(at - location.text.data());
         if (at == end || *at != '[') {
-            if (is_rest_empty(place.text, column)) return true;
-            return fail(place, column,
-                        fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(place.word)));
+            if (is_rest_empty(location.text, column)) return true;
+            return fail(
+                location, column,
+                fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(location.word)));
         }
         if (values.size() == max_values) {
-            return fail(place, column,
-                        max_values == 1 ? fmt::format("{} takes one value", name_of(place.word))
+            return fail(location, column,
+                        max_values == 1 ? fmt::format("{} takes one value", name_of(location.word))
                                         : fmt::format("a call has at most {} arguments", max_values));
         }
         double value = 0;
-        if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
+        if (!reader.value(at, value)) return fail(location, reader.fault_at(), reader.fault());
         values.push_back(value);
     }
 }
 
 /// Evaluates the single value of a condition.
-bool ProgramFlow::evaluate(const OWordLocation& place, Interpreter& interpreter, double& value) {
+bool ProgramFlow::evaluate(const OWordLocation& location, Interpreter& interpreter, double& value) {
     std::vector<double> values;
-    if (!arguments(place, 1, interpreter, values)) return false;
+    if (!arguments(location, 1, interpreter, values)) return false;
     if (values.empty())
-        return fail(place, place.column,
-                    fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(place.word)));
+        return fail(location, location.column,
+                    fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(location.word)));
     value = values.front();
     return true;
 }
 
 /// Returns the computed label of a call, a number.
-bool ProgramFlow::label_of_call(const OWordLocation& place, Interpreter& interpreter, std::string& label) {
+bool ProgramFlow::label_of_call(const OWordLocation& location, Interpreter& interpreter, std::string& label) {
     OWordStatement words;
-    if (!parse_oword(place.text, place.column, words, problem_)) return false;
+    if (!parse_oword(location.text, location.column, words, problem_)) return false;
     label = words.label;
     if (!words.computed) return true;
     const MachineParameters known(interpreter);
-    ExpressionParser reader(place.text, known);
-    const char* at = place.text.data() + place.column + 1;
+    ExpressionParser reader(location.text, known);
+    const char* at = location.text.data() + location.column + 1;
     double value = 0;
-    if (!reader.value(at, value)) return fail(place, reader.fault_at(), reader.fault());
+    if (!reader.value(at, value)) return fail(location, reader.fault_at(), reader.fault());
     if (value < 0 || value != std::floor(value) || value > largest_number)
-        return fail(place, place.column, fmt::format("o{:.6g}: the number of a sub is whole, 0 or more", value));
+        return fail(location, location.column, fmt::format("o{:.6g}: the number of a sub is whole, 0 or more", value));
     label = fmt::format("{:.0f}", value);
     return true;
 }
 
-bool ProgramFlow::call(const OWordLocation& place, Interpreter& interpreter) {
+bool ProgramFlow::call(const OWordLocation& location, Interpreter& interpreter) {
     std::string label;
     Target target{};
     std::vector<double> values;
-    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) ||
-        !arguments(place, max_arguments, interpreter, values))
+    if (!label_of_call(location, interpreter, label) || !find_sub(location, label, false, target) ||
+        !arguments(location, max_arguments, interpreter, values))
         return false;
-    if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
+    if (!interpreter.parameters().enter(values))
+        return fail(location, location.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
     enter(target, no_location, 0);
     return true;
@@ -109,7 +111,7 @@ void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t
     frames_.push_back({lines_, source_, repeats_.size(), called_at_, program, times});
     if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
     source_ = target.source;
-    jump(place_at(target.place));
+    jump(place_at(target.location));
 }
 
 bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
@@ -126,36 +128,36 @@ bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& targ
 }
 
 /// Finds a sub or a numbered program in the same text, in a text read before, or in a file.
-bool ProgramFlow::find_sub(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::find_sub(const OWordLocation& location, const std::string& label, bool numbered, Target& target) {
     if (look_for(label, numbered, target)) return true;
     if (look_for(label, !numbered, target)) {
-        return fail(place, place.column,
+        return fail(location, location.column,
                     fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
                                 numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
     }
-    return load(place, label, numbered, target);
+    return load(location, label, numbered, target);
 }
 
-bool ProgramFlow::load(const OWordLocation& place, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::load(const OWordLocation& location, const std::string& label, bool numbered, Target& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
         return fail(
-            place, place.column,
+            location, location.column,
             fmt::format("{}: this program has no {}, and no folder to search for its file; put it into the program",
                         asks, wanted));
     }
     if (!is_plain(name)) {
-        return fail(place, place.column,
+        return fail(location, location.column,
                     fmt::format("{}: this program has no {}, and the name cannot be a file in its folder (letters, "
                                 "digits, '_', '-' and '.')",
                                 asks, wanted));
     }
     if (sources_.size() > max_files)
-        return fail(place, place.column,
+        return fail(location, location.column,
                     fmt::format("a program may use {} files of subprograms; this is one more", max_files));
     Result<std::string> text = subprogram_(name);
     if (!text) {
-        fail(place, place.column,
+        fail(location, location.column,
              fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
         problem_.kind = text.error().kind;
         return false;
@@ -172,23 +174,24 @@ bool ProgramFlow::load(const OWordLocation& place, const std::string& label, boo
     const auto& named = numbered ? kept.index->programs : kept.index->subs;
     const auto found = named.find(label);
     if (found == named.end())
-        return fail(place, place.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
+        return fail(location, location.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
     target = {&kept, found->second};
     return true;
 }
 
-bool ProgramFlow::return_sub(const OWordLocation& place, Interpreter& interpreter) {
+bool ProgramFlow::return_sub(const OWordLocation& location, Interpreter& interpreter) {
     std::vector<double> values;
-    bool good = arguments(place, 1, interpreter, values);
+    bool good = arguments(location, 1, interpreter, values);
     if (frames_.empty()) return good;
-    good = end_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
+    good =
+        end_call(location, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
     back_to_caller();
     return good;
 }
 
-bool ProgramFlow::end_call(const OWordLocation& place, Interpreter& interpreter, std::optional<double> returned) {
+bool ProgramFlow::end_call(const OWordLocation& location, Interpreter& interpreter, std::optional<double> returned) {
     if (interpreter.end_call(returned)) return true;
-    return fail(place, place.column,
+    return fail(location, location.column,
                 "M73 restores another plane, unit, work offset or feed mode here, which cannot change while cutter "
                 "compensation is on; write G40 and a straight move before the sub ends");
 }
@@ -209,45 +212,45 @@ void ProgramFlow::back_to_caller() {
 Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
-    const OWordLocation place = this_line(block, block.m_column[m_program]);
-    if (!within_budget(place) ||
-        !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
+    const OWordLocation location = this_line(block, block.m_column[m_program]);
+    if (!within_budget(location) ||
+        !(block.m[m_program] == 98 ? call_program(location, interpreter) : leave_program(location, interpreter)))
         return tl::unexpected<Problem>(problem_);
     return {};
 }
 
 OWordLocation ProgramFlow::this_line(const Block& block, std::size_t column) const {
-    OWordLocation place(lines_, lines_);
-    place.text = block.text;
-    place.column = static_cast<std::uint16_t>(column);
-    place.line = lines_.number();
-    return place;
+    OWordLocation location(lines_, lines_);
+    location.text = block.text;
+    location.column = static_cast<std::uint16_t>(column);
+    location.line = lines_.number();
+    return location;
 }
 
-bool ProgramFlow::call_program(const OWordLocation& place, Interpreter& interpreter) {
+bool ProgramFlow::call_program(const OWordLocation& location, Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
     const std::string label = fmt::format("{:.0f}", block['P']);
     Target target{};
-    if (!find_sub(place, label, true, target)) return false;
+    if (!find_sub(location, label, true, target)) return false;
     if (times == 0) return true;
-    if (!interpreter.parameters().enter()) return fail(place, place.column, too_deep(asks_for(label, true)));
+    if (!interpreter.parameters().enter()) return fail(location, location.column, too_deep(asks_for(label, true)));
     interpreter.parameters().forget_returned();
-    enter(target, target.place, times);
+    enter(target, target.location, times);
     return true;
 }
 
 /// Repeats the program or returns to the caller. Ends the main program.
-bool ProgramFlow::leave_program(const OWordLocation& place, Interpreter& interpreter) {
+bool ProgramFlow::leave_program(const OWordLocation& location, Interpreter& interpreter) {
     if (frames_.empty()) {
         over_ = true;
         return true;
     }
     if (frames_.back().program == no_location)
-        return fail(place, place.column,
+        return fail(location, location.column,
                     "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, or earlier "
                     "with return");
-    const bool good = end_call(place, interpreter, std::nullopt);
+    const bool good = end_call(location, interpreter, std::nullopt);
     CallFrame& frame = frames_.back();
     if (--frame.left == 0) {
         back_to_caller();

@@ -49,7 +49,7 @@ Outcome<void> ProgramFlow::follow_contour(Interpreter& interpreter) {
         return failed();
     }
     if (auto turned = interpreter.turn(std::move(contour)); !turned) {
-        place(turned.error());
+        location(turned.error());
         return turned;
     }
     return {};
@@ -63,7 +63,7 @@ bool ProgramFlow::read_contour(Interpreter& reader, std::vector<ContourSegment>&
     for (std::string_view line; frames_.size() >= depth && next(line);) {
         if (auto done = reader.line(line, lines_.number(), Language::program); !done) {
             problem_ = done.error();
-            place(problem_);
+            location(problem_);
             return false;
         }
         const Block& block = reader.block();

@@ -27,19 +27,19 @@ inline std::vector<Move> program(std::mt19937& random) {
     const bool chords = one_of(3), exact = one_of(4), arcs = !chords && one_of(2);
     const double tolerance = std::exp(between(std::log(0.003), std::log(0.3)));
     double angle = 0;
-    Point place = {};
+    Point position = {};
     for (auto n = 5 + random() % 60; n > 0; --n) {
-        const Point from = place;
+        const Point from = position;
         const double length = chords ? 0.3 : std::exp(between(std::log(0.05), std::log(30.0)));
         angle += chords ? between(-0.3, 0.3) : between(-2.5, 2.5);
-        place[0] += length * std::cos(angle);
-        place[1] += length * std::sin(angle);
-        if (one_of(5)) place[2] += between(-1, 1);
-        Move move = line_to(place, tolerance);
+        position[0] += length * std::cos(angle);
+        position[1] += length * std::sin(angle);
+        if (one_of(5)) position[2] += between(-1, 1);
+        Move move = line_to(position, tolerance);
         if (arcs && one_of(2)) {
             const double sweep = between(-3, 3);
             move = arc_from(from, angle, between(0.2, 12), sweep, tolerance);
-            place = move.end;
+            position = move.end;
             angle += sweep;
         }
         if (exact) move.path = PathControl::exact_path;
@@ -96,10 +96,10 @@ class Driven {
             velocity = std::max(velocity, std::fabs(state.velocity[i]) / limit.max_velocity);
             accel = std::max(accel, std::fabs(state.accel[i]) / limit.max_accel);
             jerk = std::max(jerk, std::fabs(state.jerk[i]) / limit.max_jerk);
-            jump =
-                std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * limit.max_velocity * gap + 1e-5),
-                          std::fabs(state.velocity[i] - last.velocity[i]) / (slack * limit.max_accel * gap + 1e-4),
-                          std::fabs(state.accel[i] - last.accel[i]) / (slack * limit.max_jerk * gap + 1e-2)});
+            jump = std::max(
+                {jump, std::fabs(state.position[i] - last.position[i]) / (slack * limit.max_velocity * gap + 1e-5),
+                 std::fabs(state.velocity[i] - last.velocity[i]) / (slack * limit.max_accel * gap + 1e-4),
+                 std::fabs(state.accel[i] - last.accel[i]) / (slack * limit.max_jerk * gap + 1e-2)});
         }
         last = state;
         at_ = now + seconds;
@@ -122,7 +122,7 @@ inline void expect_limits(const Driven& driven) {
 }
 
 inline void expect_end(const Driven& driven, const Point& end) {
-    for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(driven.last.place[i], end[i], 1e-4);
+    for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(driven.last.position[i], end[i], 1e-4);
 }
 
 inline Move long_line(double feed) {

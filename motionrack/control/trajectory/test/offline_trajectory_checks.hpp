@@ -38,7 +38,7 @@ class TrajectoryChecks {
     Fault find() {
         const std::vector<KeptStretch> offline_trajectory = kept_trajectory(program_.moves, limits_, program_.start);
         last_ = {};
-        last_.place = program_.start;
+        last_.position = program_.start;
         for (std::size_t i = 0; i < offline_trajectory.size() && fault_.name.empty(); ++i) {
             if (offline_trajectory[i].curve.empty()) continue;
             std::size_t next = i + 1;
@@ -119,8 +119,8 @@ class TrajectoryChecks {
             hold("velocity", std::fabs(state.velocity[i]), axis.max_velocity * slack, kept, time, state);
             hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
             if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
-            hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_velocity * step + 3e-9, kept,
-                 time, state);
+            hold("jump of place", std::fabs(state.position[i] - last_.position[i]), axis.max_velocity * step + 3e-9,
+                 kept, time, state);
             hold("jump of velocity", std::fabs(state.velocity[i] - last_.velocity[i]),
                  axis.max_accel * step + 1e-6 * axis.max_velocity, kept, time, state);
             if (axis.max_jerk > 0)
@@ -160,7 +160,7 @@ class TrajectoryChecks {
         const Move& move = program_.moves[i];
         const double tolerance =
             move.path == PathControl::continuous ? std::max(move.tolerance_mm, half_pulse_) : half_pulse_;
-        const Point& p = state.place;
+        const Point& p = state.position;
         if (paths_[i].shape == PathShape::arc || paths_[i].shape == PathShape::line)
             return distance_to(paths_[i], p[0], p[1], p[2]) - tolerance;
         double square = 0;
@@ -187,15 +187,15 @@ class TrajectoryChecks {
                  1e-7 * limits_[i].max_velocity + limits_[i].max_accel * hair_, kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_,
                  kept, last_time_, last_);
-            hold("rest: place", std::fabs(last_.place[i] - kept.section.end[i]), 3e-9, kept, last_time_, last_);
+            hold("rest: place", std::fabs(last_.position[i] - kept.section.end[i]), 3e-9, kept, last_time_, last_);
             last_.velocity[i] = last_.accel[i] = 0;
-            last_.place[i] = kept.section.end[i];
+            last_.position[i] = kept.section.end[i];
         }
     }
 
     void check_end() {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            const double off = std::fabs(last_.place[i] - program_.moves.back().end[i]);
+            const double off = std::fabs(last_.position[i] - program_.moves.back().end[i]);
             if (!(off <= 3e-9))
                 fail("end", off / 3e-9, fmt::format("axis {} is {:.9g} from the program's end", i, off));
         }

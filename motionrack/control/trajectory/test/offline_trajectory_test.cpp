@@ -74,7 +74,7 @@ TEST(OfflineTrajectory, HasNoStepsInPositionOrVelocity) {
         const TrajectoryPoint &a = ridden.states[i - 1], &b = ridden.states[i];
         if (b.u < a.u) continue;  // the next section, which starts before this one ends
         for (std::size_t axis = 0; axis < 2; ++axis) {
-            ASSERT_NEAR(a.place[axis], b.place[axis], 0.05);
+            ASSERT_NEAR(a.position[axis], b.position[axis], 0.05);
             ASSERT_NEAR(a.velocity[axis], b.velocity[axis], 1.0);
         }
     }
@@ -106,7 +106,7 @@ TEST(OfflineTrajectory, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
         for (const TrajectoryPoint& state : offline_trajectory(moves).states) {
             double nearest = 1e9;
             for (const Geometry& path : paths)
-                nearest = std::min(nearest, distance_to(path, state.place[0], state.place[1], state.place[2]));
+                nearest = std::min(nearest, distance_to(path, state.position[0], state.position[1], state.position[2]));
             farthest = std::max(farthest, nearest);
         }
         EXPECT_LE(farthest, tolerance) << tolerance;

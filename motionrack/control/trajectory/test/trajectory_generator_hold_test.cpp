@@ -70,7 +70,7 @@ TEST(TrajectoryGenerator, StopsSoonAfterFeedHoldAndResumesFromThere) {
     driven.generator.resume();
     while (driven.step(0.001, true)) {
     }
-    EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
+    EXPECT_NEAR(driven.last.position[0], 100, 1e-6);
     expect_limits(driven);
 }
 
@@ -160,8 +160,8 @@ TEST(TrajectoryGenerator, StopsAtTheCornerBeforeWhichItIsHeld) {
     ASSERT_LT(driven.now, 0.8 * whole);
     driven.generator.hold();
     while (!driven.generator.stands()) driven.step(0.0005, true);
-    EXPECT_NEAR(driven.last.place[0], 10, 1e-3);
-    EXPECT_NEAR(driven.last.place[1], 0, 1e-3);
+    EXPECT_NEAR(driven.last.position[0], 10, 1e-3);
+    EXPECT_NEAR(driven.last.position[1], 0, 1e-3);
     driven.generator.resume();
     while (driven.step(0.0005, true)) {
     }

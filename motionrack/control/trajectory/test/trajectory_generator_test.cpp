@@ -99,7 +99,7 @@ TEST(TrajectoryGenerator, ContinuesPastACornerToWhatCameBeforeIt) {
             ASSERT_LT(driven.now, 60);
             if (driven.generator.stands()) driven.pass_time(0.001);
             if (driven.come != 60 || driven.generator.left() > left || driven.now < 0.1) continue;
-            late += driven.last.place[1] == 0;
+            late += driven.last.position[1] == 0;
             driven.come = moves.size();
         }
         expect_limits(driven);
@@ -149,7 +149,7 @@ TEST(TrajectoryGenerator, ReportsWhichMoveItIsOnAndKeepsNoOther) {
         const std::int64_t number = driven.generator.move_of(driven.generator.at(0));
         EXPECT_GE(number, last);
         EXPECT_EQ(driven.generator.move(number).move.end, moves[static_cast<std::size_t>(number)].end);
-        EXPECT_NEAR(driven.generator.at(0).place[0], 0.3 * static_cast<double>(number), 0.7);
+        EXPECT_NEAR(driven.generator.at(0).position[0], 0.3 * static_cast<double>(number), 0.7);
         last = number;
     }
     EXPECT_GT(last, 2990);

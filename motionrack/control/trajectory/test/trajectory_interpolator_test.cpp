@@ -62,18 +62,18 @@ TEST(TrajectoryInterpolator, MakesMovesThatMeetInPositionAndVelocityAndStartAndE
 }
 
 /// Returns the distance from the nearest point of the moves.
-double distance_to(const std::vector<PlannedMove>& moves, const Point& place) {
+double distance_to(const std::vector<PlannedMove>& moves, const Point& position) {
     double nearest = 1e9;
     for (const PlannedMove& move : moves) {
         double square = 0, along = 0, off = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const double way = move.move.end[i] - move.start[i];
             square += way * way;
-            along += way * (place[i] - move.start[i]);
+            along += way * (position[i] - move.start[i]);
         }
         const double part = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            const double beside = move.start[i] + part * (move.move.end[i] - move.start[i]) - place[i];
+            const double beside = move.start[i] + part * (move.move.end[i] - move.start[i]) - position[i];
             off += beside * beside;
         }
         nearest = std::min(nearest, std::sqrt(off));
@@ -88,11 +88,11 @@ TEST(TrajectoryInterpolator, PassesNoCornerByMoreThanItsToleranceAndAPulse) {
         std::mt19937 random(seed);
         const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
         std::vector<Move> program;
-        Point place = {};
+        Point position = {};
         for (int i = 0; i < 60; ++i) {
-            place[0] += between(0.01, 0.1);
-            place[2] += between(-0.01, 0.01);
-            program.push_back(line_to(place, tolerance));
+            position[0] += between(0.01, 0.1);
+            position[2] += between(-0.01, 0.01);
+            program.push_back(line_to(position, tolerance));
             program.back().feed = 2;
         }
         const std::vector<PlannedMove> moves = moves_of(program);
